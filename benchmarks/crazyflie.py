@@ -93,7 +93,7 @@ async def measured(what: str, doing: Awaitable[object]) -> Row:
 
 
 async def all_of(doing: Sequence[Awaitable[object]]) -> None:
-    """Wait for all, whatever becomes of each."""
+    """Wait for all, also where one fails."""
     for outcome in await asyncio.gather(*doing, return_exceptions=True):
         if isinstance(outcome, Exception) and not isinstance(outcome, NavigationError):
             raise outcome

@@ -19,20 +19,21 @@ from hashlib import sha256
 from pathlib import Path
 from random import Random
 
+from pluto_fleet.trials.case import strikes_of
+from pluto_fleet.trials.record import TrialResult
+
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.journal.event_line import line
-from pluto_fleet.trials.blows import blows_of
-from pluto_fleet.trials.book import Trial
 from pluto_fleet.trials.case import Case, Weather
-from pluto_fleet.trials.rig import tried
+from pluto_fleet.trials.lives import tried
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.fleet_data import WorldData
 from plutoc_runtime.domain.model import AfterTrip
-from tests.testing.examples import app_of
+from tests.trials.examples import app_of
 
 APP = """pluto 1
 
@@ -90,10 +91,12 @@ def case_of(app: App, missions: int, trips: int, drones: int) -> Case:
         world=WorldData(),  # nothing to see: nor is it photos
     )
     weather = Weather(link=0.01, action=0.01, battery=0.01)
-    return Case(seed=1, missions=tuple(flown), fleet=fleet, weather=weather, blows=blows_of(BLOWS))
+    return Case(
+        seed=1, missions=tuple(flown), fleet=fleet, weather=weather, strikes=strikes_of(BLOWS)
+    )
 
 
-def hash_of(trial: Trial) -> str:
+def hash_of(trial: TrialResult) -> str:
     """Return the hash of everything that is on record."""
     digest = sha256()
     for event in trial.events:

@@ -15,7 +15,7 @@ from types import MappingProxyType
 
 from plutoc.block import Block
 from plutoc.declarations import is_name, mistakes_in
-from plutoc.strangers import Terminated, by_a_person, kept_apart
+from plutoc.foreign_code import Terminated, by_a_person, isolated
 from plutoc_runtime.domain.text import printable
 from plutoc_runtime.hooks.calls import said
 
@@ -90,7 +90,7 @@ def _ours() -> object:
 
 def _theirs(package: str, value: str, load: Callable[[], object]) -> object:
     """Load a package's own code, which may raise anything, or end Python: neither passes for ours."""
-    with kept_apart():
+    with isolated():
         try:
             declared = load()
             return tuple(declared) if isinstance(declared, Iterable) else declared

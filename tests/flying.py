@@ -21,8 +21,8 @@ from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.trace import Event
 
 if TYPE_CHECKING:
+    from plutoc_runtime.alone.simulate import Outcome
     from plutoc_runtime.domain.model import Mission
-    from plutoc_runtime.flow.session import Outcome
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 NAMES = sorted(path.parent.name for path in EXAMPLES.glob("*/app.pluto"))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
@@ -20,31 +20,24 @@ _OF_AN_APP = re.compile(r"(?P<app>\w+)\._runtime(?P<inner>\..+)?")
 BLOCKS = ".blocks"
 
 
-class OneBrain(MetaPathFinder, Loader):
-    """Finds `plutoc_runtime.x` in place of any `<app>._runtime.x`."""
+class Elsewhere(MetaPathFinder, Loader):
+    """Finds one module in place of another: `home` says which, by name; None: the one that is meant."""
 
-    def __init__(self) -> None:
+    def __init__(self, home: Callable[[str], str | None]) -> None:
+        self._home = home
         self._specs: dict[str, ModuleSpec | None] = {}
 
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return where a module of the brain is; an app's blocks stay its own."""
-        found = _OF_AN_APP.fullmatch(name)
-        if found is None:
-            return None
-        inner = found["inner"] or ""
-        if f"{inner}.".startswith(f"{BLOCKS}."):
-            home = Path(sys.modules[found["app"]].__path__[0], "_runtime")
-            above = inner.split(".")[1:-1]
-            return PathFinder.find_spec(name, [str(home.joinpath(*above))])
-        return spec_from_loader(name, self)
+        """Return where a module is."""
+        return None if self._home(name) is None else spec_from_loader(name, self)
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         """Return the module that is shared."""
-        found = _OF_AN_APP.fullmatch(spec.name)
-        assert found is not None
-        module = import_module(f"plutoc_runtime{found['inner'] or ''}")
+        home = self._home(spec.name)
+        assert home is not None
+        module = import_module(home)
         self._specs[spec.name] = module.__spec__
         return module
 
@@ -52,6 +45,30 @@ class OneBrain(MetaPathFinder, Loader):
         """Leave the module's own name to it: the import system has put the other one there."""
         assert module.__spec__ is not None
         module.__spec__ = self._specs[module.__spec__.name]
+
+
+class OneBrain(Elsewhere):
+    """Finds `plutoc_runtime.x` in place of any `<app>._runtime.x`; an app's blocks stay its own."""
+
+    def __init__(self) -> None:
+        super().__init__(_brain)
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """Return where a module of the brain is, or of an app's blocks."""
+        found = _OF_AN_APP.fullmatch(name)
+        inner = "" if found is None else found["inner"] or ""
+        if found is None or not f"{inner}.".startswith(f"{BLOCKS}."):
+            return super().find_spec(name, path, target)
+        home = Path(sys.modules[found["app"]].__path__[0], "_runtime")
+        above = inner.split(".")[1:-1]
+        return PathFinder.find_spec(name, [str(home.joinpath(*above))])
+
+
+def _brain(name: str) -> str | None:
+    found = _OF_AN_APP.fullmatch(name)
+    return None if found is None else f"plutoc_runtime{found['inner'] or ''}"
 
 
 def share_one_brain() -> None:

@@ -8,10 +8,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import plutoc_runtime
 from plutoc.emit.embed import Carried, embed
 from plutoc.registry import STD
 from plutoc_blocks import BLOCKS
+
+# all tests of the runtime once more; the packages' own tests run on a copy, too
+pytestmark = pytest.mark.long
 
 ROOT = Path(__file__).parent.parent
 

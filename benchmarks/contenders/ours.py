@@ -46,7 +46,7 @@ def load() -> None:
         "pluto_fleet.journal.event_line",
         "plutoc_runtime.time.kernel",
         "pluto_fleet.process.realtime",
-        "plutoc_runtime.flow.session",
+        "plutoc_runtime.flow.engine",
         "plutoc_runtime.time.virtual",
     ):
         runtime(name)
@@ -106,7 +106,7 @@ def started(
             for number in range(work.drones)
         ),
     )
-    session = runtime("plutoc_runtime.flow.session").Session(
+    session = runtime("plutoc_runtime.flow.engine").Session(
         app, fleet, kernel, navigation, listeners(given)
     )
     plan = missions(work, AN_HOUR if given.together else None)

@@ -1,4 +1,4 @@
-"""Says where drones are as somebody tells it over UDP: a whole localization.
+"""Says where drones are, as told over UDP: a whole localization.
 
 Each packet is a line such as `{"drone": "cf1", "position": [1.0, 2.0, 0.5]}`, in the map's metres.
 """

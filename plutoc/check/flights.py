@@ -69,7 +69,10 @@ def unbounded(flow: Flow) -> list[Diagnostic]:
     """Warn of loops that a trip which always fails would go round for ever."""
     after = nx.DiGraph()
     after.add_nodes_from(flow.places)
-    after.add_edges_from((p, t) for p, t in flow.after.edges if _is_failure(flow, p, t))
+    steps = [(p, target) for p, target in flow.after.edges if _is_failure(flow, p, target)]
+    # of ways round that are as short, the one over places that were found first is shown
+    found_as = {place: number for number, place in enumerate(flow.places)}
+    after.add_edges_from(sorted(steps, key=lambda step: found_as[step[1]]))
     found: dict[str, Diagnostic] = {}
     for part in loops(after):
         inside = set(part)

@@ -16,13 +16,13 @@ from plutoc.cli.endings import (
     INTERRUPTED,
     REFUSED,
     USAGE,
-    Unusable,
+    UsageError,
     tidy_when_told_to_end,
 )
 from plutoc.cli.options import Options, parse
 from plutoc.cli.say import say
 from plutoc.diagnostic import Rejected
-from plutoc.strangers import Terminated
+from plutoc.foreign_code import Terminated
 from plutoc_runtime import output
 from plutoc_runtime.domain.text import printable
 
@@ -30,7 +30,7 @@ from plutoc_runtime.domain.text import printable
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code; `argv` is without the program."""
     output.prepare()
-    ending = _Ending()
+    ending = _ExitCode()
     before = gc.get_threshold()
     # A compiler builds much and drops little: else half of its time goes into looking for garbage.
     gc.set_threshold(1_000_000, *before[1:])
@@ -41,7 +41,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     return ending.code
 
 
-class _Ending:
+class _ExitCode:
     """Turns what a command ends with into an exit code, and into a message."""
 
     def __init__(self) -> None:
@@ -54,7 +54,7 @@ class _Ending:
         match error:
             case None:
                 return True
-            case Unusable():
+            case UsageError():
                 output.tell(f"plutoc: {error}")
                 self.code = USAGE
             case OSError() if error.errno == ENAMETOOLONG:

@@ -10,7 +10,7 @@ from difflib import unified_diff
 from io import StringIO
 from pathlib import Path
 
-from plutoc.cli.endings import Unusable
+from plutoc.cli.endings import UsageError
 from plutoc.cli.files import shown
 from plutoc.emit.write import CannotWrite, Change, Changes, write
 from plutoc_runtime.domain.text import printable
@@ -19,7 +19,7 @@ _NO_END = "\n\\ No newline at end of file"
 
 
 def rewrite(path: Path, before: str, after: str) -> None:
-    """Replace a source wholly or not at all; raise `Unusable` where that cannot be.
+    """Replace a source wholly or not at all; raise `UsageError` where that cannot be.
 
     The new text is written aside and renamed. It keeps the file's permissions; where the path is a
     symbolic link, what it leads to is replaced and the link stays.
@@ -34,16 +34,16 @@ def rewrite(path: Path, before: str, after: str) -> None:
     try:
         mode = target.stat().st_mode
         if not stat.S_ISREG(mode):
-            raise Unusable(f"{shown(path)} is no ordinary file and was not changed")
+            raise UsageError(f"{shown(path)} is no ordinary file and was not changed")
         # A rename would replace a read-only file, too.
         if not (mode & 0o222 and os.access(target, os.W_OK)):
-            raise Unusable(f"{shown(path)} is read-only and was not changed")
+            raise UsageError(f"{shown(path)} is read-only and was not changed")
         write(Changes(folder=target.parent, first=False, files=(change,)), save=save)
     except CannotWrite as error:
-        raise Unusable(f"{printable(str(error))}; {shown(path)} was not changed") from None
+        raise UsageError(f"{printable(str(error))}; {shown(path)} was not changed") from None
     except OSError as error:
         why = error.strerror or str(error)
-        raise Unusable(f"{shown(path)} cannot be written: {why}") from None
+        raise UsageError(f"{shown(path)} cannot be written: {why}") from None
 
 
 def patch(changes: Changes) -> Iterator[str]:

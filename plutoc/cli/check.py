@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
+from plutoc.cli.endings import CLEAN, ERRORS, USAGE, UsageError
 from plutoc.cli.files import (
     STANDARD_INPUT,
     default_folder,
@@ -29,7 +29,7 @@ def check(options: Options) -> int:
     for file in dict.fromkeys(options.files):
         try:
             found += _check(file, options, troubles)
-        except Unusable as error:
+        except UsageError as error:
             troubles.append(str(error))
     for sentence in troubles:
         output.tell(f"plutoc: {sentence}")
@@ -46,7 +46,7 @@ def _check(file: Path, options: Options, troubles: list[str]) -> tuple[Diagnosti
     if options.fix and any(diagnostic.fix for diagnostic in findings.found):
         try:
             findings = _fixed(file, source, options)
-        except Unusable as error:  # what is wrong with it is told all the same
+        except UsageError as error:  # what is wrong with it is told all the same
             troubles.append(str(error))
     if options.format == "text" and not _have_errors(findings.found):
         output.line(f"{source.path}: no errors, in all {findings.explored} states of a mission")
@@ -83,7 +83,7 @@ def _fixed(file: Path, source: Source, options: Options) -> _Findings:
     from plutoc.cli.fix import mended, summary
 
     if file == STANDARD_INPUT:
-        raise Unusable("--fix changes files, and standard input is none")
+        raise UsageError("--fix changes files, and standard input is none")
     done = mended(source, lambda mended: _findings(file, mended).found)
     if done.fixed:
         rewrite(file, source.text, done.source.text)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
-from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, Unusable
+from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, UsageError
 from plutoc.cli.files import (
     default_folder,
     find_hooks,
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
-class _Said:
+class _Messages:
     """What there is to say, gathered: some formats are one document."""
 
     found: list[Diagnostic] = field(default_factory=list)
@@ -45,15 +45,15 @@ class _Said:
 
 def compile_(options: Options) -> int:
     """Write an app's package, or say what would be written."""
-    said, code = _Said(), CLEAN
+    said, code = _Messages(), CLEAN
     try:
         _compile(options, said)
     except Rejected as rejected:
         said.found += rejected.diagnostics
         code = REFUSED if isinstance(rejected, Refused) else ERRORS
     except NoLibrary as error:
-        raise Unusable(f"--carry fleet: {error}") from None
-    except Unusable as error:
+        raise UsageError(f"--carry fleet: {error}") from None
+    except UsageError as error:
         say(said.found, options.format, [str(error)])
         raise
     text = options.format == "text"
@@ -62,7 +62,7 @@ def compile_(options: Options) -> int:
     return code
 
 
-def _compile(options: Options, said: _Said) -> None:
+def _compile(options: Options, said: _Messages) -> None:
     source = read_app(options.file)
     if options.show is not None:
         _show(source, options, options.show, said)
@@ -89,12 +89,12 @@ def _compile(options: Options, said: _Said) -> None:
         elif not options.diff:
             write(changes)
     except CannotWrite as error:
-        raise Unusable(f"{printable(str(error))}; nothing was changed") from None
+        raise UsageError(f"{printable(str(error))}; nothing was changed") from None
     if options.format == "text" and not options.diff:
         said.lines += _outcome(compiled, changes)
 
 
-def _show(source: Source, options: Options, what: str, said: _Said) -> None:
+def _show(source: Source, options: Options, what: str, said: _Messages) -> None:
     checked, warnings = analyse(source)
     said.found += warnings
     if what == "graph":
@@ -119,7 +119,7 @@ def _plan(checked: Checked, options: Options, what: str) -> Plan:
     plans = dict(stages(build(checked)))
     if name not in plans:
         known = ", ".join(plans)
-        raise Unusable(f"--show plan={printable(name)}: there is no such pass, only {known}")
+        raise UsageError(f"--show plan={printable(name)}: there is no such pass, only {known}")
     return plans[name]
 
 

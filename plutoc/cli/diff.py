@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from plutoc.cli.endings import CLEAN, ERRORS, Unusable
+from plutoc.cli.endings import CLEAN, ERRORS, UsageError
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
 from plutoc.cli.say import in_colour
@@ -23,7 +23,7 @@ _APP = "app.pluto"
 def diff(options: Options) -> int:
     """Say what changed; whether something did is the exit code only where that is asked for."""
     if options.old == options.new == STANDARD_INPUT:
-        raise Unusable("`-`, standard input, can be one of the two apps, not both")
+        raise UsageError("`-`, standard input, can be one of the two apps, not both")
     old, new = _versions(_read(options.old), _read(options.new))
     found = compare(old, new)
     output.line(_report(found, options.format).rstrip("\n"))
@@ -34,7 +34,7 @@ def _read(path: Path) -> Source:
     if path == STANDARD_INPUT:
         source = read_standard_input()
         if not source.text:  # as of a `git show` outside a repository
-            raise Unusable("standard input is empty: the command before the `|` gave no app")
+            raise UsageError("standard input is empty: the command before the `|` gave no app")
         return source
     return read_app(_app_in(path) if path.is_dir() else path)
 
@@ -46,7 +46,7 @@ def _app_in(folder: Path) -> Path:
     apps = sorted(folder.glob("*.pluto"))
     if len(apps) != 1:
         found = f"several apps, none of them {_APP}: name one" if apps else "no app"
-        raise Unusable(f"the folder {shown(folder)} holds {found}")
+        raise UsageError(f"the folder {shown(folder)} holds {found}")
     return apps[0]
 
 

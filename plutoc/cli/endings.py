@@ -10,14 +10,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from plutoc.strangers import Terminated
+from plutoc.foreign_code import Terminated
 
 CLEAN, ERRORS, USAGE, REFUSED, INTERNAL, INTERRUPTED, CLOSED_PIPE = 0, 1, 2, 3, 70, 130, 141
 
 _SIGNALS = tuple(one for one in signal.Signals if one.name in ("SIGTERM", "SIGHUP"))
 
 
-class Unusable(Exception):
+class UsageError(Exception):
     """Wrong usage, or a file that cannot be read or written. The text says so to a person."""
 
 

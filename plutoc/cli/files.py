@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from plutoc.check.model import Checked
-from plutoc.cli.endings import Unusable
+from plutoc.cli.endings import UsageError
 from plutoc.source import Source
 from plutoc.syntax.parse import LARGEST
 from plutoc_runtime.domain.text import printable
@@ -27,21 +27,21 @@ def shown(path: Path) -> str:
 
 
 def read_app(path: Path) -> Source:
-    """Read a `.pluto` file; raise `Unusable` where there is nothing to parse."""
+    """Read a `.pluto` file; raise `UsageError` where there is nothing to parse."""
     if path.suffix.lower() in _OTHER_FILES:
-        raise Unusable(f"{shown(path)} is no app: an app is a file whose name ends with .pluto")
+        raise UsageError(f"{shown(path)} is no app: an app is a file whose name ends with .pluto")
     return Source(shown(path), _text(path))
 
 
 def read_standard_input() -> Source:
-    """Read an app from standard input; raise `Unusable` where there is nothing to parse."""
+    """Read an app from standard input; raise `UsageError` where there is nothing to parse."""
     name = "standard input"
     if sys.stdin is None:
-        raise Unusable(f"{name} is closed")
+        raise UsageError(f"{name} is closed")
     try:
         data = sys.stdin.buffer.read(LARGEST + 1)
     except (OSError, ValueError) as error:
-        raise Unusable(f"{name} cannot be read: {_why(error)}") from None
+        raise UsageError(f"{name} cannot be read: {_why(error)}") from None
     return Source("<stdin>", _decoded(data, name))
 
 
@@ -65,7 +65,7 @@ def passed_over(checked: Checked, file: Path, folder: Path) -> Source | None:
     if not own.is_file() or not beside.is_file() or os.path.samefile(own, beside):
         return None
     if not beside.is_symlink():
-        with suppress(Unusable):
+        with suppress(UsageError):
             return read_module(beside)
     return Source(shown(beside), "")
 
@@ -83,7 +83,7 @@ def _is_there(checked: Checked, path: Path) -> bool:
         OSError,
         ValueError,
     ) as error:  # a name that is too long, a folder that may not be entered
-        raise Unusable(f"{shown(path)} cannot be read: {_why(error)}") from None
+        raise UsageError(f"{shown(path)} cannot be read: {_why(error)}") from None
     if not (stat.S_ISREG(mode) or stat.S_ISLNK(mode)):
         is_folder = stat.S_ISDIR(mode)
         _refuse(
@@ -128,11 +128,11 @@ def _text(path: Path) -> str:
         with open(path, "rb", opener=_opened) as file:
             data = file.read(LARGEST + 1)
     except IsADirectoryError:
-        raise Unusable(f"{shown(path)} is a folder, not a file") from None
+        raise UsageError(f"{shown(path)} is a folder, not a file") from None
     except FileNotFoundError:
-        raise Unusable(f"there is no file {shown(path)}") from None
+        raise UsageError(f"there is no file {shown(path)}") from None
     except (OSError, ValueError) as error:
-        raise Unusable(f"{shown(path)} cannot be read: {_why(error)}") from None
+        raise UsageError(f"{shown(path)} cannot be read: {_why(error)}") from None
     return _decoded(data, shown(path))
 
 
@@ -147,12 +147,12 @@ def _opened(path: str, flags: int) -> int:
 
 def _decoded(data: bytes, name: str) -> str:
     if len(data) > LARGEST:
-        raise Unusable(f"{name} is larger than {LARGEST // 1024} KiB (P0006)")
+        raise UsageError(f"{name} is larger than {LARGEST // 1024} KiB (P0006)")
     try:
         return data.decode("utf-8")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise Unusable(f"{name} is not UTF-8 text: see line {line}") from None
+        raise UsageError(f"{name} is not UTF-8 text: see line {line}") from None
 
 
 def _why(error: OSError | ValueError) -> str:

@@ -6,13 +6,13 @@ import sys
 from pathlib import Path
 
 from plutoc.cli.changes import patch, rewrite
-from plutoc.cli.endings import CLEAN, ERRORS, USAGE, Unusable
+from plutoc.cli.endings import CLEAN, ERRORS, USAGE, UsageError
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.write import Change, Changes
-from plutoc.format.run import Outgrown, format_source
+from plutoc.format.run import TooLarge, format_source
 from plutoc.source import Source
 from plutoc.syntax.parse import LARGEST
 from plutoc_runtime import output
@@ -21,13 +21,13 @@ from plutoc_runtime import output
 def fmt(options: Options) -> int:
     """Format every file; what is wrong with one does not stop the others."""
     if STANDARD_INPUT in options.files and len(options.files) > 1:
-        raise Unusable("`-`, standard input, cannot be formatted together with files")
+        raise UsageError("`-`, standard input, cannot be formatted together with files")
     found: list[Diagnostic] = []
     code = CLEAN
     for file in options.files:
         try:
             code = max(code, _format(file, options))
-        except Unusable as error:
+        except UsageError as error:
             output.tell(f"plutoc: {error}")
             code = USAGE
         except Rejected as rejected:
@@ -62,8 +62,8 @@ def _format(file: Path, options: Options) -> int:
 def _formatted(source: Source) -> str:
     try:
         return format_source(source)
-    except Outgrown:
-        raise Unusable(
+    except TooLarge:
+        raise UsageError(
             f"{source.path} would be larger than {LARGEST // 1024} KiB in canonical form,"
             " which the compiler does not read; it was not changed"
         ) from None

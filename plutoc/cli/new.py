@@ -6,7 +6,7 @@ import os
 from importlib.resources import files
 from pathlib import Path
 
-from plutoc.cli.endings import CLEAN, Unusable
+from plutoc.cli.endings import CLEAN, UsageError
 from plutoc.cli.options import Options
 from plutoc.diagnostic import Diagnostic
 from plutoc.emit.write import CannotWrite, create
@@ -26,13 +26,13 @@ def new(options: Options) -> int:
     _check_name(name)
     folder = Path(name)
     if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
-        raise Unusable(f"{name} is there already, and is no folder: choose another name")
+        raise UsageError(f"{name} is there already, and is no folder: choose another name")
     try:
         if folder.exists() and os.listdir(folder):
-            raise Unusable(f"the folder {name} is not empty: choose another name")
+            raise UsageError(f"the folder {name} is not empty: choose another name")
         create(folder, _starter(name))
     except CannotWrite as error:
-        raise Unusable(f"{printable(str(error))}; nothing was changed") from None
+        raise UsageError(f"{printable(str(error))}; nothing was changed") from None
     output.line(
         f"{name}/ is ready: an app, its missions and a fleet.\n\n"
         f"  cd {name}\n"
@@ -45,13 +45,13 @@ def new(options: Options) -> int:
 
 def _check_name(name: str) -> None:
     if not name:
-        raise Unusable("an app needs a name\nhelp: choose a plain name, such as crop_watch")
+        raise UsageError("an app needs a name\nhelp: choose a plain name, such as crop_watch")
     found: list[Diagnostic] = []
     span = Span(0, len(name))
     check_app_name(Source("NAME", name), Name(text=name, span=span), found)
     if found:
         first = found[0]
-        raise Unusable(first.message + (f"\nhelp: {first.help}" if first.help else ""))
+        raise UsageError(first.message + (f"\nhelp: {first.help}" if first.help else ""))
 
 
 def _starter(name: str) -> dict[str, str]:

@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from plutoc.check.model import Checked
-from plutoc.cli.endings import Unusable
+from plutoc.cli.endings import UsageError
 from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, read_module, shown
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
@@ -22,8 +22,8 @@ from plutoc.emit.errors import place_of
 from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
+from plutoc.foreign_code import Terminated
 from plutoc.source import Source
-from plutoc.strangers import Terminated
 from plutoc_runtime import output
 from plutoc_runtime.domain.text import printable
 
@@ -37,7 +37,7 @@ def run(options: Options) -> int:
     source = read_app(options.file)
     missions = _beside(options.file, MISSIONS, options.missions)
     if missions is None:
-        raise Unusable(f"there is no {MISSIONS} beside {shown(options.file)}: use --missions")
+        raise UsageError(f"there is no {MISSIONS} beside {shown(options.file)}: use --missions")
     fleet = _fleet_for(options)
     with _compiled(options.file, source) as (path, app):
         arguments = ["simulate", os.fspath(missions)]
@@ -52,7 +52,7 @@ def run(options: Options) -> int:
 def test(options: Options) -> int:
     """Try an app, and end as the trial does."""
     if find_spec("pluto_fleet") is None:
-        raise Unusable("test needs pluto-fleet, the library that flies: pip install pluto-fleet")
+        raise UsageError("test needs pluto-fleet, the library that flies: pip install pluto-fleet")
     fleet = _fleet_for(options)
     with _compiled(options.file, read_app(options.file)) as (path, app):
         arguments = ["--fleet", os.fspath(fleet)] if fleet else []
@@ -78,7 +78,7 @@ def _compiled(file: Path, source: Source) -> Iterator[tuple[Path, str]]:
         try:
             write(compare(package, Path(folder), place_of(compiled.checked.graph)))
         except CannotWrite as error:
-            raise Unusable(f"the app cannot be compiled there: {printable(str(error))}") from None
+            raise UsageError(f"the app cannot be compiled there: {printable(str(error))}") from None
         yield Path(folder) / "src", package.name
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from plutoc.block import Block
 from plutoc.check.model import Checked
-from plutoc.cli.endings import CLEAN, ERRORS, Unusable
+from plutoc.cli.endings import CLEAN, ERRORS, UsageError
 from plutoc.cli.files import read_app
 from plutoc.cli.options import Options
 from plutoc.cli.say import in_colour, say
@@ -41,7 +41,7 @@ def _drawn(checked: Checked, picture: str) -> str:
             try:
                 return dot_to_svg(dot(checked))
             except NoGraphviz as error:
-                raise Unusable(str(error)) from None
+                raise UsageError(str(error)) from None
 
 
 def blocks(options: Options) -> int:
@@ -75,7 +75,7 @@ def _page_of_block(kind: str, found: dict[str, Block]) -> str:
     if kind not in found:
         part = [name for name in found if len(kind) > 2 and kind.lower() in name.lower()]
         meant = part or near(kind, found)
-        raise Unusable(
+        raise UsageError(
             f"there is no block `{kind}`"
             + (f"; did you mean {' or '.join(meant)}?" if meant else ": `plutoc blocks` lists them")
         )
@@ -99,7 +99,7 @@ def _known(asked: str, every: tuple[str, ...]) -> str:
     if code in every:
         return code
     meant = near(code, every)
-    raise Unusable(
+    raise UsageError(
         f"there is no code `{printable(asked)}`"
         + (f"; did you mean {' or '.join(meant)}?" if meant else ": `plutoc explain` lists them")
     )

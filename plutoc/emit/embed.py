@@ -149,7 +149,7 @@ def _of_runtime(module: Module) -> Iterator[str]:
     for one in imports_from(module):
         if not is_within(one.target, RUNTIME) or not one.written.startswith("."):
             raise module.refuse(
-                one.start, f"{one.written}: the runtime imports the standard library and itself"
+                one.line, f"{one.written}: the runtime imports the standard library and itself"
             )
         yield from _targets(one.target, one.names)
 
@@ -176,31 +176,32 @@ def _targets(target: str, names: tuple[str, ...]) -> Iterator[str]:
 def _moved(module: Module, package: str) -> str:
     """Return a block's module with its imports bent to where they lead now."""
     up = ".." if package == OURS else "..."
-    text = module.text
-    for one in sorted(imports_from(module), key=lambda one: one.start, reverse=True):
+    lines = module.text.encode().splitlines(keepends=True)
+    for one in sorted(imports_from(module), key=lambda one: (one.line, one.column), reverse=True):
         if is_within(one.target, RUNTIME):
             new = up + one.target.removeprefix(RUNTIME).removeprefix(".")
         else:
-            _check_own(module, one.target, one.start)
+            _check_own(module, one.target, one.line)
             new = f".{_flat(one.target)}"
-        old = re.compile(rf"(from\s+){re.escape(one.written)}(?=\s)", re.ASCII)
-        match = old.match(text, one.start)
+        line = lines[one.line - 1]
+        old = re.compile(rf"(from\s+){re.escape(one.written)}(?=\s)".encode())
+        match = old.match(line, one.column)
         if match is None:
-            raise module.refuse(one.start, f"write `from {one.written} import …` on one line")
-        text = text[: match.end(1)] + new + text[match.end() :]
-    return text
+            raise module.refuse(one.line, f"write `from {one.written} import …` on one line")
+        lines[one.line - 1] = line[: match.end(1)] + new.encode() + line[match.end() :]
+    return b"".join(lines).decode()
 
 
-def _check_own(module: Module, target: str, start: int) -> None:
+def _check_own(module: Module, target: str, line: int) -> None:
     own = module.name.partition(".")[0]
     if not is_within(target, own):
         raise module.refuse(
-            start, f"{target} is neither of the standard library nor of {RUNTIME} nor of {own}"
+            line, f"{target} is neither of the standard library nor of {RUNTIME} nor of {own}"
         )
     found = load(target)
     if found is None or found.is_package:
         raise module.refuse(
-            start, f"{target} is not a module with a file of its own: it cannot be carried along"
+            line, f"{target} is not a module with a file of its own: it cannot be carried along"
         )
 
 

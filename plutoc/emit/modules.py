@@ -34,9 +34,8 @@ class Module:
         """The package that its relative imports start from."""
         return self.name if self.is_package else self.name.rpartition(".")[0]
 
-    def refuse(self, at: int, problem: str) -> EmbedError:
-        """Return the error for something in it, so many characters from its beginning."""
-        line = self.text.count("\n", 0, at) + 1
+    def refuse(self, line: int, problem: str) -> EmbedError:
+        """Return the error for something in a line of it."""
         return EmbedError(f"{self.file}:{line}: {problem}")
 
 
@@ -45,8 +44,9 @@ class ImportFrom(NamedTuple):
 
     target: str
     names: tuple[str, ...]
-    start: int
-    """In characters from the beginning of the module's text."""
+    line: int
+    column: int
+    """In bytes of the line."""
     written: str
     """The target as the line has it, dots included."""
 
@@ -88,26 +88,30 @@ def imports_from(module: Module) -> tuple[ImportFrom, ...]:
     return tuple(_imports(module))
 
 
+def import_statements(text: str) -> Iterator[ast.Import | ast.ImportFrom]:
+    """Yield all imports of a module, those inside functions too."""
+    left: list[ast.AST] = [ast.parse(text)]
+    for node in left:
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            yield node
+        for inner in ("body", "orelse", "finalbody", "handlers", "cases"):  # statements, no more
+            left += getattr(node, inner, ())
+
+
 def _imports(module: Module) -> Iterator[ImportFrom]:
-    data = module.text.encode()
-    starts = [0]
-    for text in data.splitlines(keepends=True):
-        starts.append(starts[-1] + len(text))
-    for node in ast.walk(ast.parse(module.text)):
-        if not isinstance(node, ast.Import | ast.ImportFrom):
-            continue
-        start = len(data[: starts[node.lineno - 1] + node.col_offset].decode())
+    for node in import_statements(module.text):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 if not is_standard(alias.name):
-                    raise module.refuse(start, _no_plain_import(alias.name))
+                    raise module.refuse(node.lineno, _no_plain_import(alias.name))
         else:
-            target = _target(module, node.module or "", node.level, start)
+            target = _target(module, node.module or "", node.level, node.lineno)
             if node.level or not is_standard(target):
                 yield ImportFrom(
                     target=target,
                     names=tuple(alias.name for alias in node.names),
-                    start=start,
+                    line=node.lineno,
+                    column=node.col_offset,
                     written="." * node.level + (node.module or ""),
                 )
 
@@ -118,11 +122,11 @@ def _no_plain_import(name: str) -> str:
     return f"{name} is not of the standard library: it cannot be carried along"
 
 
-def _target(module: Module, written: str, level: int, start: int) -> str:
+def _target(module: Module, written: str, level: int, line: int) -> str:
     if not level:
         return written
     parts = module.package.split(".")
     if level > len(parts):
-        raise module.refuse(start, "the import leads out of its package")
+        raise module.refuse(line, "the import leads out of its package")
     base = parts[: len(parts) - level + 1]
     return ".".join([*base, written] if written else base)

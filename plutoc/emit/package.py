@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from plutoc.emit.callables import carried_functions
-from plutoc.emit.embed import FOLDER, carried_library, embed
+from plutoc.emit.embed import BLOCKS, FOLDER, carried_library, embed
 from plutoc.emit.flow_file import flow_file
 from plutoc.emit.hooks_file import hooks_file, hooks_test
 from plutoc.emit.lock import NAME, Hooks, hooks_of, lock
 from plutoc.emit.model_file import model_file
-from plutoc.emit.modules import RUNTIME
+from plutoc.emit.modules import RUNTIME, import_statements
 from plutoc.emit.project_files import attributes_file, init_file, main_file, project_file
 from plutoc.emit.readme_file import readme
 from plutoc.emit.render import owned, verbatim
@@ -85,18 +85,9 @@ def emit(
 
 def _runtime_modules(texts: Iterable[str]) -> Iterator[str]:
     """Yield the modules of the runtime that the app's own modules import."""
-    for text in texts:
-        for target, names in _imports(text):
-            if target.startswith(f".{FOLDER}"):
-                inner = target.removeprefix(f".{FOLDER}").removeprefix(".")
-                if inner.startswith("blocks"):
-                    continue
-                yield from (f"{RUNTIME}.{name}" for name in ([inner] if inner else names))
-
-
-def _imports(text: str) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield what a module imports names from, dots included, and the names."""
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.ImportFrom):
-            target = "." * node.level + (node.module or "")
-            yield target, tuple(alias.name for alias in node.names)
+    for node in (node for text in texts for node in import_statements(text)):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(FOLDER):
+            inner = (node.module or "").removeprefix(FOLDER).removeprefix(".")
+            if not inner.startswith(BLOCKS):
+                names = [inner] if inner else [alias.name for alias in node.names]
+                yield from (f"{RUNTIME}.{name}" for name in names)

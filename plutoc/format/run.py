@@ -18,11 +18,11 @@ _PLACES = frozenset({"source", "span"})
 _KEPT = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|#[^\n]*|[^\s,]')
 
 
-class Outgrown(Exception):
+class TooLarge(Exception):
     """In canonical form the source would be larger than the compiler reads."""
 
 
-class Unfaithful(Exception):
+class MeaningChanged(Exception):
     """The formatter has made a mistake, and noticed: its text does not say what the source says."""
 
 
@@ -36,13 +36,13 @@ def format_source(source: Source) -> str:
     text = source.text.removeprefix(_BOM)
     formatted = canonical(text)
     if len(formatted.encode()) > LARGEST:
-        raise Outgrown
+        raise TooLarge
     try:
         again = parse(Source(source.path, formatted))
     except Rejected as rejected:
-        raise Unfaithful(f"{source.path} could not be read again: {rejected}") from rejected
+        raise MeaningChanged(f"{source.path} could not be read again: {rejected}") from rejected
     if not (same_meaning(file, again) and same_writing(text, formatted)):
-        raise Unfaithful(f"{source.path} would not say the same; it was not changed")
+        raise MeaningChanged(f"{source.path} would not say the same; it was not changed")
     return formatted
 
 

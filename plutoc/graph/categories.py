@@ -6,7 +6,7 @@ from plutoc.block import Param
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors, value_errors
 from plutoc.graph.model import Category
-from plutoc.graph.unclear import Unclear
+from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.graph.values import once_each, typed, written
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, CategoryDecl
@@ -42,7 +42,7 @@ def category(
     source: Source,
     declared: CategoryDecl,
     actions: dict[str, None],
-    unclear: Unclear,
+    unclear: UncertainNames,
     found: list[Diagnostic],
 ) -> Category:
     """Resolve a category; `actions` are the names of all there are."""

@@ -12,7 +12,7 @@ from plutoc.graph.hooks import statuses
 from plutoc.graph.model import END, START, Edge, Node
 from plutoc.graph.scope import Scope
 from plutoc.graph.stops import END_ACCEPTS, accepts_by_guard, check_stops
-from plutoc.graph.unclear import Unclear
+from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.source import Source
 from plutoc.syntax.tree import FlowDecl, Guard, Name
 from plutoc_runtime.domain.status import IN_GRAPH, Status
@@ -35,7 +35,7 @@ def edges(
     flows: Sequence[FlowDecl],
     scope: Scope,
     nodes: Mapping[str, Node],
-    unclear: Unclear,
+    unclear: UncertainNames,
     found: list[Diagnostic],
 ) -> tuple[Edge, ...]:
     """Resolve all edges, in the order of the source."""

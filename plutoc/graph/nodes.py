@@ -12,7 +12,7 @@ from plutoc.graph.model import Choose, Hook, Node, Parameter, Plain
 from plutoc.graph.names import near
 from plutoc.graph.packages import Packages, find
 from plutoc.graph.scope import ACTION, HOOK_ROLES, Scope
-from plutoc.graph.unclear import Unclear
+from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.graph.values import EXAMPLES, at_least, once_each, typed, written
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, BlockDecl, Bool, Name, Text, Value
@@ -31,7 +31,7 @@ class Place:
     partial: frozenset[str]
     """Hooks with a mistake in their declaration: what parameters they take is not certain."""
     packages: Packages
-    unclear: Unclear
+    unclear: UncertainNames
     found: list[Diagnostic]
 
 

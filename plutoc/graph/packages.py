@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from plutoc.block import Block, HookParam, Param
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors
-from plutoc.graph.unclear import Unclear
+from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.registry import STD, Blocks, RegistryError
 from plutoc.source import Source
 from plutoc.syntax.tree import BlockDecl, File, Name
@@ -70,7 +70,7 @@ def find(
     source: Source,
     declared: BlockDecl,
     packages: Packages,
-    unclear: Unclear,
+    unclear: UncertainNames,
     found: list[Diagnostic],
 ) -> tuple[str, Block] | None:
     """Return the package and the block that a declaration names, or None where there is none."""

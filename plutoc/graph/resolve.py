@@ -16,7 +16,7 @@ from plutoc.graph.packages import packages_of, unused_packages
 from plutoc.graph.scope import check_app_name, scope_of, spoilt_names
 from plutoc.graph.settings import libraries, version
 from plutoc.graph.stops import meant_to_declare
-from plutoc.graph.unclear import bad_statements, unclear
+from plutoc.graph.uncertain_names import bad_statements, uncertain_names
 from plutoc.graph.values import written
 from plutoc.registry import STD, Blocks
 from plutoc.source import Source
@@ -45,7 +45,7 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
     source, statements = file.source, file.app.statements
     found: list[Diagnostic] = []
     scope = scope_of(file, found)
-    unsure = unclear(file, spoilt_names(source, found))
+    unsure = uncertain_names(file, spoilt_names(source, found))
     if not any(bad.kind == "app" for bad in file.bad):
         check_app_name(source, file.app.name, found)
     packages = packages_of(file, blocks, found)

@@ -9,7 +9,7 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors, names
 from plutoc.graph.app_names import taken_app_name
 from plutoc.graph.names import Style
-from plutoc.graph.unclear import bad_statements
+from plutoc.graph.uncertain_names import bad_statements
 from plutoc.source import Source
 from plutoc.syntax.tree import (
     ActionDecl,

@@ -9,7 +9,7 @@ from plutoc.graph import edge_errors as errors
 from plutoc.graph.model import END, START, Node
 from plutoc.graph.names import near
 from plutoc.graph.scope import BLOCK, Scope
-from plutoc.graph.unclear import Unclear
+from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.source import Source
 from plutoc.syntax.tree import FlowDecl
 from plutoc_runtime.domain.status import IN_GRAPH, Status
@@ -53,7 +53,7 @@ def check_stops(
     flows: Sequence[FlowDecl],
     scope: Scope,
     nodes: Mapping[str, Node],
-    unclear: Unclear,
+    unclear: UncertainNames,
     found: list[Diagnostic],
 ) -> None:
     """Check that every stop is a block, or `start` at a beginning, or `end` at an end."""

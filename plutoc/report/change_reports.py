@@ -29,7 +29,7 @@ _MOST_CHANGES, _MOST_LINES, _WIDEST = 40, 60, 160
 _Place = dict[str, str | int]
 
 
-class Shown(NamedTuple):
+class ShownLine(NamedTuple):
     """A line of one of the sources."""
 
     is_new: bool
@@ -53,7 +53,7 @@ def sections(found: Difference) -> Iterator[tuple[Importance, tuple[Change, ...]
             yield importance, changes
 
 
-def lines_of(found: Difference, change: Change) -> tuple[Shown, ...]:
+def lines_of(found: Difference, change: Change) -> tuple[ShownLine, ...]:
     """Return the lines that show a change, those of the old source first, each once."""
     return (
         *_lines_at(found.old, change.was, is_new=False),
@@ -61,11 +61,11 @@ def lines_of(found: Difference, change: Change) -> tuple[Shown, ...]:
     )
 
 
-def _lines_at(source: Source, spans: Sequence[Span], *, is_new: bool) -> Iterator[Shown]:
+def _lines_at(source: Source, spans: Sequence[Span], *, is_new: bool) -> Iterator[ShownLine]:
     numbers = dict.fromkeys(source.position(span.start)[0] for span in spans)
     for number in tuple(numbers)[:_MOST_FOR_A_CHANGE]:
         text = source.line(number).strip()
-        yield Shown(is_new=is_new, path=source.path, number=number, text=text)
+        yield ShownLine(is_new=is_new, path=source.path, number=number, text=text)
 
 
 def text(found: Difference, *, colour: bool) -> str:
@@ -75,7 +75,7 @@ def text(found: Difference, *, colour: bool) -> str:
     for importance, changes in sections(found):
         hue = RED if importance is Importance.SAFETY else BLUE
         lines += ["", paint(HEADINGS[importance], hue, colour)]
-        before: tuple[Shown, ...] = ()
+        before: tuple[ShownLine, ...] = ()
         for change in changes:
             lines.append(f"  * {printable(change.sentence)}")
             shown = _told(lines_of(found, change))
@@ -85,13 +85,13 @@ def text(found: Difference, *, colour: bool) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _told(shown: tuple[Shown, ...]) -> tuple[Shown, ...]:
+def _told(shown: tuple[ShownLine, ...]) -> tuple[ShownLine, ...]:
     """Leave out old lines that say what new ones say."""
     new = {one.text for one in shown if one.is_new}
     return tuple(one for one in shown if one.is_new or one.text not in new)
 
 
-def _line(one: Shown) -> str:
+def _line(one: ShownLine) -> str:
     return f"{'+' if one.is_new else '-'} {one.path}:{one.number}: {printable(one.text)}"
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from plutoc.diagnostic import Diagnostic, Related, Severity
+from plutoc.report.snippet import Place, draw, last_line, windows
 from plutoc.report.terminal import BLUE, BOLD, CYAN, RED, YELLOW, paint
-from plutoc.report.window import Place, draw, last_line, windows
 from plutoc_runtime.domain.text import printable
 
 

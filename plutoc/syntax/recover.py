@@ -47,7 +47,7 @@ _EQUAL_SIGN = "="
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Placed:
+class _LineInPlace:
     """A line, and the parser as it stands before it."""
 
     line: Line
@@ -57,7 +57,7 @@ class _Placed:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Judged:
+class _Outcome:
     """The lines that can be read, and what is left of the others."""
 
     good: tuple[Line, ...]
@@ -69,16 +69,16 @@ def recover(source: Source, tokens: Sequence[Token]) -> tuple[File, list[Diagnos
     found: list[Diagnostic] = []
     parts = sections(source, lines_of(tokens), tokens[-1], found)
     start, outside, inside = beginning(), _fed(_HEADER), _fed((*_HEADER, *_APP))
-    head = [_Placed(line=parts.header, base=start)] if parts.header else []
-    app = [_Placed(line=parts.app, base=outside)] if parts.app else []
+    head = [_LineInPlace(line=parts.header, base=start)] if parts.header else []
+    app = [_LineInPlace(line=parts.app, base=outside)] if parts.app else []
     judged = _judged(
         source,
         [
             *head,
-            *(_Placed(line=line, base=outside) for line in parts.before),
+            *(_LineInPlace(line=line, base=outside) for line in parts.before),
             *app,
-            *(_Placed(line=line, base=inside) for line in parts.body),
-            *(_Placed(line=line, base=inside, silent=True) for line in parts.behind),
+            *(_LineInPlace(line=line, base=inside) for line in parts.body),
+            *(_LineInPlace(line=line, base=inside, silent=True) for line in parts.behind),
         ],
         parts.app.tokens[0] if parts.app else None,
         found,
@@ -99,11 +99,11 @@ def recover(source: Source, tokens: Sequence[Token]) -> tuple[File, list[Diagnos
 
 
 def _judged(
-    source: Source, placed: Sequence[_Placed], app: Token | None, found: list[Diagnostic]
-) -> _Judged:
+    source: Source, placed: Sequence[_LineInPlace], app: Token | None, found: list[Diagnostic]
+) -> _Outcome:
     good: list[Line] = []
     bad: list[BadStatement] = []
-    previous: _Placed | None = None  # a good one right before
+    previous: _LineInPlace | None = None  # a good one right before
     i = 0
     while i < len(placed):
         each = placed[i]
@@ -149,10 +149,10 @@ def _judged(
             i += 1
         bad.append(bad_statement(source, joined(lines)))
         previous = None
-    return _Judged(good=tuple(good), bad=tuple(bad))
+    return _Outcome(good=tuple(good), bad=tuple(bad))
 
 
-def _failing(placed: _Placed) -> tuple[State, int | None]:
+def _failing(placed: _LineInPlace) -> tuple[State, int | None]:
     """Return the parser where it cannot go on in a line, and at which token; None: it can."""
     state = copied(placed.base)
     for i, token in enumerate(placed.line.ended):

@@ -29,16 +29,16 @@ _ROOMS = {
     "time": "kernel signals:future virtual",
     "hooks": "plain:keepable context handle:live_drone soundness",
     "fleet": (
-        "allocation:queue capability:reach request:queue energy navigation policy"
+        "allocation:queue capability:reach request:queue energy:reach navigation policy:queue"
         " policies policies.assignment policies.batch_optimal policies.first policies.least_used"
         " policies.nearest policies.own"
     ),
     "trips": "flight watching:deadlines transitions",
-    "flow": "engine state:mission core:mission run judgement verdict modification declared:run session",
+    "flow": "engine state:mission core:mission run judgement verdict modification declared session:engine",
 }
 """Which room a module went to, and as what."""
 
-_RENAMED = {"Signal": "Future", "State": "MissionState", "ANY_ERROR": "ANY_ERROR"}
+_RENAMED = {"Signal": "Future", "State": "MissionState", "WHATEVER": "ANY_ERROR"}
 
 _ELSEWHERE = ("domain.errors", "flow.run", "flow.mission")
 """Where what left its module may be."""

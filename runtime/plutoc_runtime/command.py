@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser
     from types import ModuleType
 
+    from .alone.simulate import Outcome
     from .domain.app import App
-    from .flow.session import Outcome
 
 SEAM = (2, 0)
 _SEAM = ".".join(map(str, SEAM))
@@ -143,8 +143,8 @@ def _checked(app: App, options: Any) -> int:
 
 
 def _told(name: str, outcome: Outcome, options: Any) -> int:
+    from .alone.simulate import outcome_data
     from .domain.trace import dumped
-    from .flow.session import outcome_data
 
     if options.trace is not None:
         try:

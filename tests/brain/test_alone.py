@@ -15,13 +15,14 @@ from pluto_fleet.flight import simulate as library
 from plutoc_runtime.alone import simulate as alone
 from plutoc_runtime.alone.faults import CARRYING_HOME, OUTAGE, Faults
 from plutoc_runtime.alone.ideal import IdealNavigation
+from plutoc_runtime.alone.simulate import Outcome
 from plutoc_runtime.domain.actions import Plain
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
 from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Item, Point, Trip
 from plutoc_runtime.domain.status import DroneStatus, Status
+from plutoc_runtime.flow.engine import Session
 from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.flow.session import Outcome, Session
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET
 from plutoc_runtime.time.virtual import VirtualTime

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from pluto_fleet.files import fleet as full_fleet
 from pluto_fleet.files import missions as full_missions
 from pluto_fleet.files.fleet_text import fleet_text
-from pluto_fleet.trials.drawing import drawn_missions
-from pluto_fleet.trials.plan_text import missions_text
+from pluto_fleet.trials.explore import random_missions
+from pluto_fleet.trials.report import missions_text
 from plutoc_runtime.alone import files
 from plutoc_runtime.alone import simulate as alone
 from plutoc_runtime.domain.airspace import Airspace
@@ -125,7 +125,7 @@ def test_plans_at_random_are_read_alike(fleet: full_fleet.FleetFile, seed: int) 
         path = Path(folder, "fleet.toml")
         path.write_text(fleet_text(fleet), "utf-8")
         assert told(files.load_fleet(path, APP)) == told(full_fleet.load_fleet(path, APP))
-        drawn = drawn_missions(APP, fleet, seed)
+        drawn = random_missions(APP, fleet, seed)
         if drawn:
             path.write_text(missions_text(APP, drawn), "utf-8")
             both = (files.load_missions, full_missions.load_missions)

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.cli.changes import rewrite
-from plutoc.cli.endings import Unusable
+from plutoc.cli.endings import UsageError
 from plutoc.format import run
 from tests.cli.conftest import APP, Call, tree
 
@@ -199,7 +199,7 @@ def test_a_link_stays_a_link(plutoc: Call, app: Path) -> None:
 def test_what_is_no_ordinary_file_is_not_replaced(app: Path) -> None:
     """A pipe would be gone afterwards."""
     os.mkfifo("pipe")
-    with pytest.raises(Unusable, match="pipe is no ordinary file and was not changed"):
+    with pytest.raises(UsageError, match="pipe is no ordinary file and was not changed"):
         rewrite(Path("pipe"), "a", "b")
     assert stat.S_ISFIFO(os.stat("pipe").st_mode)
 

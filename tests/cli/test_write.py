@@ -28,11 +28,11 @@ def package(texts: dict[str, str]) -> Package:
     return Package(name="a", owned=owned, once={"hooks.py": "stubs\n"})
 
 
-def failing(after: int, error: BaseException) -> Callable[[str, bytes], object]:
+def failing(after: int, error: BaseException) -> Callable[[Path, bytes], object]:
     """Return a way to save that writes half of a file, after so many whole ones, and fails."""
     left = after
 
-    def save(path: str, data: bytes) -> None:
+    def save(path: Path, data: bytes) -> None:
         nonlocal left
         left -= 1
         Path(path).write_bytes(data if left >= 0 else data[: len(data) // 2])

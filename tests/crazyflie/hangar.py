@@ -21,6 +21,9 @@ FAST = 1.0
 """Metres per second: tests must not wait, and no course is followed faster."""
 PATIENCE = 30.0
 """Seconds until what does not end is said to hang: the machine may be busy."""
+LONGEST = 90.0
+"""Seconds that no flight takes."""
+AT_ONCE = 20
 
 Flight = Callable[[Path], Awaitable[None]]
 Outcomes = Mapping[Flight, BaseException | None]
@@ -124,19 +127,25 @@ async def hangar(
 
 
 def all_at_once(flights: Sequence[Flight], new_folder: Callable[[], Path]) -> Outcomes:
-    """Fly all of these, each with a folder of its own.
+    """Fly all of these, as many at a time as a machine bears, each with a folder of its own.
 
     A machine that stands still for a second makes drones silent, which is no fault of theirs: what
-    ended so is flown again.
+    ended so, or did not end, is flown again.
     """
 
-    async def fly(these: Sequence[Flight]) -> list[BaseException | None]:
-        flown = (flight(new_folder()) for flight in these)
-        return await asyncio.gather(*flown, return_exceptions=True)
+    async def fly(these: Sequence[Flight], at_once: int) -> Outcomes:
+        free = asyncio.Semaphore(at_once)
 
-    outcomes = dict(zip(flights, asyncio.run(fly(flights)), strict=True))
-    silent = [one for one, error in outcomes.items() if isinstance(error, LinkLost)]
-    return outcomes | dict(zip(silent, asyncio.run(fly(silent)), strict=True))
+        async def one(flight: Flight) -> None:
+            async with free, asyncio.timeout(LONGEST):
+                await flight(new_folder())
+
+        found = await asyncio.gather(*map(one, these), return_exceptions=True)
+        return dict(zip(these, found, strict=True))
+
+    outcomes = asyncio.run(fly(flights, AT_ONCE))
+    silent = [one for one, error in outcomes.items() if isinstance(error, LinkLost | TimeoutError)]
+    return {**outcomes, **asyncio.run(fly(silent, AT_ONCE // 4))}
 
 
 def threads_left() -> list[str]:

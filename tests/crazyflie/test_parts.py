@@ -150,7 +150,7 @@ def test_a_drone_hovers_once_it_has_not_moved_for_a_moment() -> None:
     comes = [state(tick / 10, x=0.04 * tick) for tick in range(6)]
     sways = [state(tick / 10, x=0.02 * (tick % 2)) for tick in range(6)]
     assert not trajectory.hovers(comes, near) and trajectory.hovers(sways, near)
-    assert not trajectory.hovers(sways[:3], near)  # nobody knows yet
+    assert not trajectory.hovers(sways[:3], near)  # that is not known yet
     stands = [state(0.5 + tick / 10, x=0.2) for tick in (1, 2, 3)]
     assert not trajectory.hovers([*comes, *stands[:2]], near)
     assert trajectory.hovers([*comes, *stands], near)

@@ -44,24 +44,20 @@ class Camera:
 
 async def test_a_drone_that_is_not_seen_lands_and_does_not_take_off(tmp_path: Path) -> None:
     """It does not know where it is."""
-
-    async def flight() -> None:
-        drone, camera = Located(), Camera()
-        feeding = LocalizationFeed("camera", camera, {"cf1": drone}, print, the_loop().time)
-        async with flying(tmp_path, drone, feeding=feeding) as flown:
-            await flown.up()
-            the_loop().call_later(2, setattr, camera, "looks", False)
-            failed = await flown.failure(flown.team.hold("cf1"))
-            assert failed.failure is Failure.LINK
-            why = "cf1 does not know where it is, and lands: no position from camera for 1.0 s"
-            assert str(failed) == why
-            await flown.until(lambda: not drone.motors)
-            failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
-            camera.looks = True
-            assert await flown.do(flown.team.reach("cf1"))
-            await flown.do(flown.team.takeoff("cf1", 1.0))
-
-    run(flight())
+    drone, camera = Located(), Camera()
+    feeding = LocalizationFeed("camera", camera, {"cf1": drone}, print, the_loop().time)
+    async with flying(tmp_path, drone, feeding=feeding) as flown:
+        await flown.up()
+        the_loop().call_later(2, setattr, camera, "looks", False)
+        failed = await flown.failure(flown.team.hold("cf1"))
+        assert failed.failure is Failure.LINK
+        why = "cf1 does not know where it is, and lands: no position from camera for 1.0 s"
+        assert str(failed) == why
+        await flown.until(lambda: not drone.motors)
+        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+        camera.looks = True
+        assert await flown.do(flown.team.reach("cf1"))
+        await flown.do(flown.team.takeoff("cf1", 1.0))
 
 
 def test_a_drone_that_cannot_be_told_is_refused_before_anything_flies(tmp_path: Path) -> None:

@@ -10,11 +10,9 @@ import pytest
 from black.mode import TargetVersion
 from hypothesis import given
 
-from plutoc.compile import analyse, package_of
 from plutoc.emit.python import LINE_LENGTH, literal
 from plutoc.emit.render import formatted
-from plutoc.source import Source
-from tests.emit.texts import APPS
+from tests.emit.texts import APPS, modules_of
 
 MODE = black.Mode(line_length=LINE_LENGTH, target_versions={TargetVersion.PY311})
 
@@ -22,13 +20,7 @@ MODE = black.Mode(line_length=LINE_LENGTH, target_versions={TargetVersion.PY311}
 @pytest.mark.parametrize("text", APPS, ids=range(len(APPS)))
 def test_a_package_is_as_black_writes_it(text: str) -> None:
     """Every module of the app, and its tests: Black would change nothing."""
-    checked, _ = analyse(Source("app.pluto", text))
-    package = package_of(checked, source_name="app.pluto")
-    modules = {
-        path: text.replace("# fmt: off\n", "", 1)
-        for path, text in {**package.owned, **package.once}.items()
-        if path.endswith(".py") and "/_runtime/" not in path
-    }
+    modules = modules_of(text)
     assert {path.rpartition("/")[2] for path in modules} > {"flow.py", "model.py", "test_flow.py"}
     for path, module in modules.items():
         assert black.format_str(module, mode=MODE) == module, path

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from large_apps import app
+from plutoc.compile import analyse, package_of
+from plutoc.source import Source
 from tests.emit.apps import ODD_NAMES, PARCELS, PLAIN
 
 ROOT = Path(__file__).parents[2]
@@ -22,3 +24,14 @@ APPS = [
     ODD_NAMES,
     PARCELS,
 ]
+
+
+def modules_of(text: str) -> dict[str, str]:
+    """Return the Python modules of an app's package but for the runtime's, as Black wrote them."""
+    checked, _ = analyse(Source("app.pluto", text))
+    package = package_of(checked, source_name="app.pluto")
+    return {
+        path: text.replace("# fmt: off\n", "", 1)
+        for path, text in {**package.owned, **package.once}.items()
+        if path.endswith(".py") and "/_runtime/" not in path
+    }

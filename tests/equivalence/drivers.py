@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeVarTuple
 
 from pluto_fleet.flight.simulate import Simulation
 from pluto_fleet.process.realtime import RealTime
+from plutoc_runtime.alone.simulate import Outcome
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.flow.session import Outcome
 
 if TYPE_CHECKING:
     from pluto_fleet.files.fleet import FleetFile

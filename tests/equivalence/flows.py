@@ -72,6 +72,21 @@ def _module(
     overrides: Overrides,
     patience: Patience | None = None,
 ) -> ModuleType:
+    def found(target: str, wanted: Sequence[str]) -> object:
+        if not target:
+            return SimpleNamespace(**{one: siblings[one] for one in wanted})
+        if target in siblings:
+            return siblings[target]
+        return _of_the_runtime(target, wanted, overrides, patience)
+
+    return in_memory(f"{PACKAGE}.{name}", code, found)
+
+
+def in_memory(
+    name: str, code: CodeType, found: Callable[[str, Sequence[str]], object]
+) -> ModuleType:
+    """Run a module; what it imports from its own package is what is `found` there."""
+
     def importing(
         target: str,
         globals_: Mapping[str, object] | None = None,
@@ -81,14 +96,10 @@ def _module(
     ) -> object:
         if level == 0:
             return builtins.__import__(target, globals_, locals_, wanted, level)
-        if not target:
-            return SimpleNamespace(**{one: siblings[one] for one in wanted})
-        if target in siblings:
-            return siblings[target]
-        return _of_the_runtime(target, wanted, overrides, patience)
+        return found(target, wanted)
 
-    module = ModuleType(f"{PACKAGE}.{name}")
-    module.__package__ = PACKAGE
+    module = ModuleType(name)
+    module.__package__ = name.rpartition(".")[0]
     vars(module)["__builtins__"] = {**vars(builtins), "__import__": importing}
     InMemory(code).exec_module(module)
     return module

@@ -8,10 +8,10 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from pluto_fleet.flight.simulate import simulate
+from plutoc_runtime.alone.simulate import Outcome
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Drone, Mission
 from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.flow.session import Outcome
 from tests.equivalence.behaviour import Behaviour
 from tests.equivalence.flows import Package
 from tests.equivalence.patience import Spins

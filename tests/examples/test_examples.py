@@ -118,11 +118,6 @@ def test_examples_end_no_matter_what_goes_wrong(example: Example) -> None:
         assert violations(flown.trace, example.items) == [], f"seed {seed}"
 
 
-def test_the_same_seed_is_the_same_flight(example: Example) -> None:
-    """Chance is drawn from the seed alone."""
-    assert example.fly(7, MISHAPS).trace == example.fly(7, MISHAPS).trace
-
-
 def test_command_line_completes(example: Example) -> None:
     """`simulate missions.toml --fleet fleet.toml`, as a person types it, ends with 0."""
     folder = EXAMPLES / example.name

@@ -56,7 +56,7 @@ def fly(scenario: Scenario, source: Path, folder: Path) -> tuple[Flight, list[st
         flight.start()
         if scenario.during is not None:
             scenario.during(flight)
-        code = flight.wait()
+        code = flight.see_through()
         if scenario.refused:
             return flight, list(_unrefused(scenario, flight, code))
         left = list(gateway_left(flight))

@@ -72,7 +72,7 @@ def wrong_with(flight: Flight) -> list[str]:
     began = time.monotonic()
     try:
         flight.start()
-        code = flight.wait(_PATIENCE)
+        code = flight.see_through(_PATIENCE)
         flight.notes.append(f"{time.monotonic() - began:.0f} s")
         left = list(gateway_left(flight))
         return [*_wrong(flight, code), *left]

@@ -80,7 +80,7 @@ def left_in_the_air(commands: Sequence[CommandRecord]) -> Iterator[str]:
 
 
 def astray(commands: Sequence[CommandRecord], size: tuple[float, float]) -> Iterator[str]:
-    """Yield the commands to fly where nobody wants a drone: far outside of the floor, or high up."""
+    """Yield the commands to fly where no drone is wanted: far outside of the floor, or high up."""
     for command in commands:
         if command.what == "go_to":
             x, y, z = (command.values[axis] for axis in "xyz")

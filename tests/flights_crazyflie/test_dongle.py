@@ -15,10 +15,13 @@ from tests.crtp.radio import Ether, plugged_in
 from tests.flights_crazyflie.team import commanded, no_thread_is_left
 
 pytest.importorskip("cflib")
-pytestmark = pytest.mark.filterwarnings(
-    # the thread of cflib's that has the dongle ends so when it is pulled out
-    "ignore:Exception in thread Shared Radio:pytest.PytestUnhandledThreadExceptionWarning"
-)
+pytestmark = [
+    pytest.mark.long,  # in real time; tests/crazyflie/test_radio.py pulls it out from three
+    pytest.mark.filterwarnings(
+        # the thread of cflib's that has the dongle ends so when it is pulled out
+        "ignore:Exception in thread Shared Radio:pytest.PytestUnhandledThreadExceptionWarning"
+    ),
+]
 
 COUNT = 10
 HOMES: dict[str, Point] = {

@@ -15,6 +15,8 @@ from tests.flights_crazyflie.plans import DISTRIBUTION, quick_package
 from tests.flights_crazyflie.together import Figures, stopped
 
 pytest.importorskip("cflib")
+# a minute in real time; tests/gateway/traffic does it in virtual time
+pytestmark = pytest.mark.long
 
 SPEED = 1.0
 """Metres per second; with `python -m tests.flights_crazyflie.together` they take their time."""

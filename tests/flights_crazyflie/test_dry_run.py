@@ -47,7 +47,7 @@ def test_a_dry_run_says_what_a_drone_is_told(new_flight: NewFlight) -> None:
     flight = new_flight(MISSIONS, fleet(1), 1)
     meant = printed(flight)
     flight.start()
-    assert flight.wait() == 0, flight.told
+    assert flight.see_through() == 0, flight.told
     told = [command for command in flight.commands if command.what in CALLED]
     assert [CALLED[command.what] for command in told] == [what for what, _ in meant]
     for command, (what, place) in zip(told, meant, strict=True):

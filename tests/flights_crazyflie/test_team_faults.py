@@ -21,6 +21,8 @@ from tests.flights_crazyflie.judge import dropped
 from tests.flights_crazyflie.team import Flown, commanded, no_thread_is_left
 
 pytest.importorskip("cflib")
+# in real time; tests/crazyflie and tests/drones have each fault alone
+pytestmark = pytest.mark.long
 
 HOMES: dict[str, Point] = {
     name: (2.0 * at + 1.0, 1.0, 0.0)

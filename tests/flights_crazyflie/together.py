@@ -92,7 +92,7 @@ def stopped(how: str, source: Path, folder: Path, speed: float) -> Figures:
         places = {id: point_of(one["at"]) for id, one in flight.state.items()}
         began = time.monotonic()
         ask(commands_note(flight.journal), {"command": "stop", "how": how}, 90.0)
-        code = flight.wait()
+        code = flight.see_through()
         commands = flight.commands
         problems = [*dropped(commands), *left_in_the_air(commands), *astray(commands, SIZE)]
         if code != STOPPED:

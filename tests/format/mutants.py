@@ -8,7 +8,7 @@ from pathlib import Path
 from random import Random
 
 from plutoc.diagnostic import Rejected
-from plutoc.format.run import Unfaithful
+from plutoc.format.run import MeaningChanged
 from tests.format.layouts import Liberty, Words, laid_out, words_of
 from tests.format.promises import formatted, keep, meaning
 
@@ -76,7 +76,7 @@ def broken_promises(name: str, seeds: range) -> Iterator[tuple[int, str]]:
     for seed in seeds:
         try:
             keep(mutant(name, seed), read(name)[1])
-        except (AssertionError, Rejected, Unfaithful) as error:
+        except (AssertionError, Rejected, MeaningChanged) as error:
             yield seed, f"{type(error).__name__}: {error}"
 
 

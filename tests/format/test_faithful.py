@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from plutoc.format import run
-from plutoc.format.run import Outgrown, Unfaithful, same_writing
+from plutoc.format.run import MeaningChanged, TooLarge, same_writing
 from plutoc.syntax.parse import LARGEST
 from tests.format.promises import formatted
 
@@ -33,7 +33,7 @@ def test_a_text_that_does_not_say_the_same_is_never_returned(
 ) -> None:
     """No matter what was lost, changed or moved."""
     monkeypatch.setattr(run, "canonical", mistake)
-    with pytest.raises(Unfaithful):
+    with pytest.raises(MeaningChanged):
         formatted(TEXT)
 
 
@@ -48,5 +48,5 @@ def test_only_commas_and_blanks_may_differ() -> None:
 def test_a_source_that_would_grow_too_large_is_refused() -> None:
     """It could not be read again, and that would be no mistake of ours."""
     comment = "#" * (LARGEST - 26)
-    with pytest.raises(Outgrown):
+    with pytest.raises(TooLarge):
         formatted(f"pluto 1\napp a {{a->b}}\n{comment}\n")

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.jobs.reports import Down, JobState
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.motion import Charge
+from plutoc_runtime.alone.ideal import Charge
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure
 from plutoc_runtime.time.kernel import FLEET

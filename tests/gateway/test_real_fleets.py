@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli.flights import Flight, aloft, may_hover
-from pluto_fleet.cli.stand_ins import who_is_missing, with_stand_ins
 from pluto_fleet.drones.real_fleet import RealDrone, RequiredAction, real_data, real_fleet, real_of
+from pluto_fleet.files.crtp_fleet import as_crtp_fleet, missing_categories
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.flight.lives import FlightSetup, aloft, may_hover
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
@@ -91,33 +91,33 @@ def test_a_real_fleet_is_read_as_it_was_written() -> None:
 
 def test_stand_ins_are_crazyflies_under_any_class_in_the_file() -> None:
     """So many as were asked for, reached where they are."""
-    one = with_stand_ins(FLEET, 1)
+    one = as_crtp_fleet(FLEET, 1)
     assert [drone.id for drone in one.drones] == ["a"]
-    both = real_fleet(with_stand_ins(FLEET, 2), (), {"a": "udp://x:1", "b": "udp://x:2"})
+    both = real_fleet(as_crtp_fleet(FLEET, 2), (), {"a": "udp://x:1", "b": "udp://x:2"})
     assert [(drone.navigation, drone.uri) for drone in both.drones] == [
         ("crazyflie", "udp://x:1"),
         ("crazyflie", "udp://x:2"),
     ]
     assert both.drones[1].options == both.drones[0].options  # nothing that was for a Tello
-    assert [drone.id for drone in with_stand_ins(FLEET, 3).drones] == ["a", "b", "cf1"]
+    assert [drone.id for drone in as_crtp_fleet(FLEET, 3).drones] == ["a", "b", "cf1"]
 
 
 def test_no_two_stand_ins_stand_at_one_place() -> None:
     """Where the map has no more room, none flies."""
     small = replace(FLEET, airspace=Airspace(size=(3.0, 3.0)))
-    homes = [one.home for one in with_stand_ins(small, 12).drones]
+    homes = [one.home for one in as_crtp_fleet(small, 12).drones]
     assert min(dist(*pair) for pair in combinations(homes, 2)) >= 0.7
     with pytest.raises(BadInput, match="--crtp-sim 50: this map has room for"):
-        with_stand_ins(small, 50)
+        as_crtp_fleet(small, 50)
 
 
 def test_leaving_out_a_whole_category_is_told() -> None:
     """Hooks may ask for its drones when all others are in the air."""
     carrier = replace(FLEET.drones[1], id="c", category="carrier")
     fleet = replace(FLEET, drones=(*FLEET.drones, carrier))
-    assert who_is_missing(fleet, 3) is None
-    assert who_is_missing(fleet, 5) is None
-    assert who_is_missing(fleet, 2) == (
+    assert missing_categories(fleet, 3) is None
+    assert missing_categories(fleet, 5) is None
+    assert missing_categories(fleet, 2) == (
         "no carrier flies: --crtp-sim 2 takes only 2 of the fleet file's 3 drones, from its top"
     )
 
@@ -191,7 +191,7 @@ def test_of_a_drone_that_is_silent_in_the_air_people_are_warned(tmp_path: Path) 
         )
         for id, z in (("a", 0.0), ("b", 1.2))
     )
-    real = Flight(
+    real = FlightSetup(
         app=apps.app(apps.flow()),
         journal=tmp_path / "j",
         missions=(),
@@ -203,5 +203,5 @@ def test_of_a_drone_that_is_silent_in_the_air_people_are_warned(tmp_path: Path) 
     )
     assert aloft(real, (one, two)) == [two]
     assert aloft(replace(real, sim=True), (one, two)) == []
-    said = "no word of a landing from b (last heard of at (2, 3)): what may still hover"
+    said = "no word of a landing from b (last heard of at (2, 3)): do not stand where"
     assert may_hover([two]).startswith(said)

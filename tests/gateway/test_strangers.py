@@ -157,8 +157,8 @@ def test_after_any_message_the_gateway_goes_on(
     assert said(folder, LINK)[0].keys() == {"linked"}
 
 
-def test_a_missing_gateway_is_told(tmp_path: Path) -> None:
-    """So it is to who wants the drones down."""
+def test_it_is_said_when_there_is_no_gateway(tmp_path: Path) -> None:
+    """A person who wants the drones down is told so."""
     with pytest.raises(NotRunning):
         stop_directly(tmp_path, Down.LAND, 1)
 

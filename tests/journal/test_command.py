@@ -14,9 +14,10 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli import events, main, told
+from pluto_fleet.cli import main
 from pluto_fleet.journal import place
 from pluto_fleet.journal.store import Store
+from pluto_fleet.report import sentences
 from plutoc_runtime.domain.status import DroneStatus
 from tests.runtime.files.an_app import APP
 
@@ -164,7 +165,7 @@ def noted() -> Iterator[str]:
 def test_every_event_has_a_sentence_of_its_own() -> None:
     kinds = set(noted())
     assert {"trip.launched", "drone.busy", "mission.held", "stopped"} <= kinds
-    known = {"journal.begun", *events._SENTENCES, *told._SENTENCES}
+    known = {"journal.begun", *sentences._SENTENCES, *sentences._JOURNAL_SENTENCES}
     assert sorted(kinds - known) == []
 
 

@@ -12,9 +12,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from pluto_fleet.cli.events import line_of
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.report.sentences import line_of
 from tests.kill.painter import painted
 
 Event = dict[str, Any]

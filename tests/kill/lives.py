@@ -1,4 +1,4 @@
-"""One flight of a plan as real processes: started, killed, and resumed until it is over."""
+"""Flights as real processes: started, killed, and resumed until they are over."""
 
 from __future__ import annotations
 
@@ -19,20 +19,16 @@ PATIENCE = 120.0
 
 
 @dataclass(slots=True, kw_only=True)
-class Flight:
-    """A journal, and the lives of the app that write it."""
+class Lives:
+    """The lives of an app in a folder: the first flies, the next ones go on from its journal."""
 
     app: str
     source: Path
     """The folder that the app's package is imported from."""
     folder: Path
     """Where its journal and its two files are."""
-    speed: float
-    chance: list[str] = field(default_factory=list)
-    """What goes wrong besides, as `fly` is told so."""
     lives: list[str] = field(default_factory=list)
     """What each life has printed."""
-    _heard: int = 0
     _life: subprocess.Popen[bytes] | None = None
 
     @property
@@ -40,21 +36,32 @@ class Flight:
         """Where it is written down."""
         return self.folder / "flight.journal"
 
-    def start(self, *more: str) -> None:
-        """Let a life begin: the first, or one that goes on where the last one was killed."""
-        if self.journal.exists():
-            words = ["resume", str(self.journal)]
-        else:
-            files = [self.folder / "missions.toml", "--fleet", self.folder / "fleet.toml"]
-            flags = ["--sim", "--speed", str(self.speed), "--journal", str(self.journal)]
-            words = ["fly", *map(str, files), *flags, *self.chance]
-        self._heard = self._hears()
-        with self._printed.open("wb") as out:
+    @property
+    def files(self) -> list[str]:
+        """Its two files, as `fly` is told of them."""
+        return [str(self.folder / "missions.toml"), "--fleet", str(self.folder / "fleet.toml")]
+
+    @property
+    def told(self) -> str:
+        """All that was said."""
+        return "\n".join([*self.lives, *([self.printed] if self._file.exists() else [])])
+
+    @property
+    def printed(self) -> str:
+        """What the life has printed until now."""
+        return self._file.read_text(errors="replace")
+
+    @property
+    def pid(self) -> int:
+        """The process of the life that is being lived."""
+        assert self._life is not None
+        return self._life.pid
+
+    def begin(self, *words: str) -> None:
+        """Let a life begin with a command of the app."""
+        with self._file.open("wb") as out:
             self._life = subprocess.Popen(
-                self.command(*words, *more),
-                env=self._environment,
-                stdout=out,
-                stderr=subprocess.STDOUT,
+                self.command(*words), env=self._environment, stdout=out, stderr=subprocess.STDOUT
             )
 
     def kill(self) -> bool:
@@ -66,11 +73,79 @@ class Flight:
         self._over()
         return killed
 
-    @property
-    def pid(self) -> int:
-        """The process of the life that is being lived."""
+    def wait(self, seconds: float) -> int | None:
+        """Return the exit code if the life ends within so many seconds."""
         assert self._life is not None
-        return self._life.pid
+        try:
+            code = self._life.wait(seconds)
+        except subprocess.TimeoutExpired:
+            return None
+        self._over()
+        return code
+
+    def see_through(self, seconds: float = PATIENCE) -> int:
+        """Return the exit code of a life that is not killed."""
+        code = self.wait(seconds)
+        if code is None:
+            self.kill()
+            raise AssertionError(f"it does not end: {self.folder}\n{self.told}")
+        return code
+
+    def run(self, *words: str) -> subprocess.CompletedProcess[str]:
+        """Give another command of the app."""
+        return subprocess.run(
+            self.command(*words),
+            env=self._environment,
+            text=True,
+            capture_output=True,
+            check=False,
+            timeout=PATIENCE,
+        )
+
+    def command(self, *words: str) -> list[str]:
+        """Return what starts a command of the app."""
+        return [sys.executable, "-m", self.app, *words]
+
+    def end(self) -> None:
+        """Leave no life behind."""
+        if self._life is not None:
+            self.kill()
+
+    @property
+    def _environment(self) -> dict[str, str]:
+        return {
+            **os.environ,
+            "PYTHONPATH": str(self.source),
+            "XDG_STATE_HOME": str(self.folder / "state"),
+            "FLIGHT": str(self.folder),
+        }
+
+    @property
+    def _file(self) -> Path:
+        return self.folder / f"life{len(self.lives)}.txt"
+
+    def _over(self) -> None:
+        self._life = None
+        self.lives.append(self.printed)
+
+
+@dataclass(slots=True, kw_only=True)
+class Flight(Lives):
+    """Flies simulated drones."""
+
+    speed: float
+    chance: list[str] = field(default_factory=list)
+    """What goes wrong besides, as `fly` is told so."""
+    _heard: int = 0
+
+    def start(self, *more: str) -> None:
+        """Let a life begin: the first, or one that goes on where the last one was killed."""
+        words = ["resume", str(self.journal)]
+        if not self.journal.exists():
+            flags = ["--sim", "--speed", str(self.speed), "--journal", str(self.journal)]
+            words = ["fly", *self.files, *flags, *self.chance]
+        self._heard = self._hears()
+        self.begin(*words, *more)
 
     def signal(self, number: signal.Signals) -> None:
         """Send a signal to the life that is being lived."""
@@ -91,63 +166,8 @@ class Flight:
 
     def until_it_says(self, what: str) -> None:
         """Wait until the life has printed this."""
-        if not eventually(lambda: what in self._printed.read_text(errors="replace")):
-            raise AssertionError(f"{what!r} was not said:\n{self._printed.read_text()}")
-
-    def end(self) -> None:
-        """Leave no life behind."""
-        if self._life is not None:
-            self.kill()
-
-    def wait(self, seconds: float) -> int | None:
-        """Return the exit code if the life ends within so many seconds."""
-        assert self._life is not None
-        try:
-            code = self._life.wait(seconds)
-        except subprocess.TimeoutExpired:
-            return None
-        self._over()
-        return code
-
-    def see_through(self) -> int:
-        """Return the exit code of a life that is not killed."""
-        code = self.wait(PATIENCE)
-        if code is None:
-            self.kill()
-            raise AssertionError(f"it does not end: {self.folder}")
-        return code
-
-    def run(self, *words: str) -> subprocess.CompletedProcess[str]:
-        """Give another command of the app."""
-        return subprocess.run(
-            self.command(*words),
-            env=self._environment,
-            text=True,
-            capture_output=True,
-            check=False,
-            timeout=PATIENCE,
-        )
-
-    def command(self, *words: str) -> list[str]:
-        """Return what starts a command of the app."""
-        return [sys.executable, "-m", self.app, *words]
-
-    @property
-    def _environment(self) -> dict[str, str]:
-        return {
-            **os.environ,
-            "PYTHONPATH": str(self.source),
-            "XDG_STATE_HOME": str(self.folder / "state"),
-            "FLIGHT": str(self.folder),
-        }
-
-    @property
-    def _printed(self) -> Path:
-        return self.folder / f"life{len(self.lives)}.txt"
-
-    def _over(self) -> None:
-        self._life = None
-        self.lives.append(self._printed.read_text(errors="replace"))
+        if not eventually(lambda: what in self.printed):
+            raise AssertionError(f"{what!r} was not said:\n{self.printed}")
 
 
 def eventually(holds: Callable[[], bool], seconds: float = 60.0) -> bool:

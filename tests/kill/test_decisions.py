@@ -35,8 +35,8 @@ def cut_short(flight: Flight) -> None:
     ("answer", "code", "expected"),
     [
         ("done", 0, ["right"]),
-        ("not-done", 0, ["left", "right"]),
-        ("cancel", 1, []),
+        pytest.param("not-done", 0, ["left", "right"], marks=pytest.mark.long),  # the same
+        pytest.param("cancel", 1, [], marks=pytest.mark.long),  # flight as far as there
     ],
 )
 def test_what_was_not_seen_a_person_decides(

@@ -206,6 +206,7 @@ def test_a_journal_that_is_deleted_in_flight_ends_it(new_flight: NewFlight) -> N
     assert no_process_is_left(flight)
 
 
+@pytest.mark.long  # ten flights
 def test_ten_kills_lose_nothing_and_let_nothing_be_done_twice(tmp_path: Path) -> None:
     """Eight brains and two gateways, at random moments."""
     tally = campaign(tmp_path, brains=8, gateways=2, seed=3, tell=lambda _: None)

@@ -15,6 +15,9 @@ from tests.kill.misbehaving import TRIALS, Trial
 from tests.kill.misfits import misfits_in, plan_of
 from tests.kill.trial import end_gateway
 
+CHOSEN = ("errors that are raised", "children that are ended", "exits that look like an end")
+"""Of each kind one that is flown always."""
+
 
 @pytest.fixture(scope="session")
 def misfits(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -27,7 +30,15 @@ def share(trial: Trial) -> Trial:
     return replace(trial, missions=trial.missions[:1], lives=2) if trial.lives > 2 else trial
 
 
-@pytest.mark.parametrize("trial", [share(trial) for trial in TRIALS], ids=lambda trial: trial.name)
+@pytest.mark.parametrize(
+    "trial",
+    [
+        # ten seconds each, of real processes
+        pytest.param(share(trial), marks=[] if trial.name in CHOSEN else [pytest.mark.long])
+        for trial in TRIALS
+    ],
+    ids=lambda trial: trial.name,
+)
 def test_all_other_missions_fly_on(trial: Trial, misfits: Path, tmp_path: Path) -> None:
     """The exit code is right, reasons are given, and no process is left running."""
     assert trial.fly(misfits, tmp_path / "flight") == []

@@ -15,7 +15,7 @@ import pytest
 from tests.release.environments import ROOT, compile_app, fresh, run, succeed
 
 EXAMPLE = ROOT / "examples/drugs_distribution"
-FLEET = EXAMPLE / "fleet.toml"
+MISSIONS, FLEET = EXAMPLE / "missions.toml", EXAMPLE / "fleet.toml"
 PAGES = ROOT / "runtime/pluto_fleet/station/pages"
 
 
@@ -25,17 +25,24 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return compile_app(EXAMPLE / "app.pluto", tmp_path_factory.mktemp("made") / "package")
 
 
-def test_without_the_extra_serve_says_what_to_install(package: Path, tmp_path: Path) -> None:
-    """All else works; and every page is there already, byte for byte."""
+@pytest.mark.long  # pip installs into a fresh environment, as in test_packages_install.py
+def test_without_the_extras_it_is_said_what_to_install(package: Path, tmp_path: Path) -> None:
+    """Nothing has begun then. All else works; and every page is there already, byte for byte."""
     programs = fresh(tmp_path / "venv")
     succeed(programs / "pip", "install", "--quiet", package, ROOT / "runtime")
     program = programs / "drugs_distribution"
     assert "--port" in succeed(program, "serve", "--help")
-    done = run(program, "serve", "--sim", "--fleet", FLEET, "--folder", tmp_path / "kept")
-    assert done.code == 2
-    assert "pip install 'drugs_distribution[station]'" in done.err
+    succeed(program, "simulate", MISSIONS, "--fleet", FLEET)
+    for extra, words in (
+        ("station", ["serve", "--sim", "--folder", str(tmp_path / "kept")]),
+        ("crazyflie", ["fly", str(MISSIONS)]),
+        ("crazyflie", ["drones"]),
+    ):
+        done = run(program, *words, "--fleet", FLEET, XDG_STATE_HOME=str(tmp_path / "state"))
+        assert (done.code, done.out) == (2, "")
+        assert f"pip install 'drugs_distribution[{extra}]'" in done.err
+    assert not (tmp_path / "state").exists()
     assert not (tmp_path / "kept").exists()
-    succeed(program, "simulate", EXAMPLE / "missions.toml", "--fleet", FLEET)
 
     (pages,) = (tmp_path / "venv").rglob("pluto_fleet/station/pages")
     there = {path.name: path.read_bytes() for path in pages.iterdir() if path.suffix != ".pyc"}
@@ -43,6 +50,7 @@ def test_without_the_extra_serve_says_what_to_install(package: Path, tmp_path: P
     assert there == ours
 
 
+@pytest.mark.long  # pip installs into a fresh environment, as in test_packages_install.py
 def test_with_the_extra_it_serves_the_app_that_was_compiled(package: Path, tmp_path: Path) -> None:
     """With the graph of its README, though no file of the package holds that."""
     programs = fresh(tmp_path / "venv")
@@ -64,29 +72,6 @@ def test_with_the_extra_it_serves_the_app_that_was_compiled(package: Path, tmp_p
             serving.wait(timeout=30)
 
 
-def asked(address: str) -> Any:
-    """Return what the station answers."""
-    with urlopen(Request(address, headers={"X-Pluto": "1"})) as answer:
-        return json.load(answer)
-
-
-MISSIONS, FLEET = EXAMPLE / "missions.toml", EXAMPLE / "fleet.toml"
-
-
-def test_without_the_extra_fly_says_what_to_install(tmp_path: Path) -> None:
-    """Nothing has begun then; and what needs no radio works."""
-    package = compile_app(EXAMPLE / "app.pluto", tmp_path / "package")
-    programs = fresh(tmp_path / "venv")
-    succeed(programs / "pip", "install", "--quiet", package, ROOT / "runtime")
-    program = programs / "drugs_distribution"
-    succeed(program, "simulate", MISSIONS, "--fleet", FLEET)
-    for words in (["fly", str(MISSIONS)], ["drones"]):
-        done = run(program, *words, "--fleet", FLEET, XDG_STATE_HOME=str(tmp_path / "state"))
-        assert (done.code, done.out) == (2, "")
-        assert "pip install 'drugs_distribution[crazyflie]'" in done.err
-    assert not (tmp_path / "state").exists()
-
-
 def test_the_extra_names_the_version_that_the_tests_fly_with() -> None:
     """The one that was read and measured, and its mends; another minor version may do otherwise."""
     for file in ("plutoc/emit/templates/pyproject.toml.jinja", "runtime/pyproject.toml"):
@@ -94,3 +79,9 @@ def test_the_extra_names_the_version_that_the_tests_fly_with() -> None:
     major, minor, *mend = map(int, version("cflib").split(".")[:3])
     assert (major, minor) == (0, 1)
     assert mend >= [34]
+
+
+def asked(address: str) -> Any:
+    """Return what the station answers."""
+    with urlopen(Request(address, headers={"X-Pluto": "1"})) as answer:
+        return json.load(answer)

@@ -11,6 +11,9 @@ import pytest
 
 from tests.release.environments import ROOT, compile_app, fresh, run, succeed
 
+# pip builds a wheel in six environments; test_packages_install.py has one
+pytestmark = pytest.mark.long
+
 LIBRARY = ROOT / "runtime"
 EXAMPLE = ROOT / "examples/drugs_distribution"
 

@@ -37,7 +37,15 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return wheel
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "example",
+    [
+        # an environment of its own each; one is seen always
+        pytest.param(example, marks=[] if example.name == "alfalfa" else [pytest.mark.long])
+        for example in EXAMPLES
+    ],
+    ids=lambda path: path.name,
+)
 def test_an_example_stands_alone_and_flies_with_the_library(
     example: Path, library: Path, tmp_path: Path
 ) -> None:
@@ -73,6 +81,7 @@ def test_an_example_stands_alone_and_flies_with_the_library(
     missing(run(programs / example.name, "fly", "missions.toml", cwd=example), "fly")
 
 
+@pytest.mark.long  # tests/runtime/cli has every command; here they are installed
 def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> None:
     """Also those that want an extra, where what it brings is there."""
     example = ROOT / "examples/drugs_distribution"
@@ -116,6 +125,7 @@ def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> 
             serving.wait(timeout=30)
 
 
+@pytest.mark.long  # an environment of its own; tests/emit has what is carried
 def test_a_package_that_carries_the_library_flies_alone(tmp_path: Path) -> None:
     """`compile --carry fleet`: one distribution, and all commands."""
     example = ROOT / "examples/drugs_distribution"

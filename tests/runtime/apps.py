@@ -22,6 +22,7 @@ from plutoc_blocks.timer_monitor.step import watch_timer
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
 from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.simulate import Outcome
 from plutoc_runtime.domain import model
 from plutoc_runtime.domain.actions import BUILT_IN, Action
 from plutoc_runtime.domain.airspace import Airspace
@@ -30,9 +31,8 @@ from plutoc_runtime.domain.model import AfterTrip, Category, Item, Point
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.trace import Event
 from plutoc_runtime.fleet.policies.nearest import nearest
-from plutoc_runtime.fleet.policy import Policy
+from plutoc_runtime.fleet.queue import Policy
 from plutoc_runtime.flow.run import Run
-from plutoc_runtime.flow.session import Outcome
 
 __all__ = ["Outcome"]
 

@@ -9,14 +9,9 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
-from importlib import import_module
-from importlib.abc import Loader, MetaPathFinder
-from importlib.machinery import ModuleSpec
-from importlib.util import spec_from_loader
-from types import ModuleType
 
 from pluto_fleet.scaffolding import bind
+from tests.one_brain import Elsewhere
 
 EMBEDDED = os.environ.get("PLUTO_EMBEDDED")
 HOME = "carrier._runtime"
@@ -29,29 +24,8 @@ def embedded_name(name: str) -> str | None:
     return None
 
 
-class Embedded(MetaPathFinder, Loader):
-    """Finds the embedded module in place of the one that is asked for."""
-
-    def __init__(self) -> None:
-        self._specs: dict[str, ModuleSpec | None] = {}
-
-    def find_spec(
-        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
-    ) -> ModuleSpec | None:
-        return spec_from_loader(name, self) if embedded_name(name) else None
-
-    def create_module(self, spec: ModuleSpec) -> ModuleType:
-        module = import_module(embedded_name(spec.name) or "")
-        self._specs[spec.name] = module.__spec__
-        return module
-
-    def exec_module(self, module: ModuleType) -> None:
-        assert module.__spec__ is not None
-        module.__spec__ = self._specs[module.__spec__.name]
-
-
 if EMBEDDED:
     assert not [name for name in sys.modules if embedded_name(name)], "loaded before the copy"
     sys.path.insert(0, EMBEDDED)
     bind(HOME)
-    sys.meta_path.insert(0, Embedded())
+    sys.meta_path.insert(0, Elsewhere(embedded_name))

@@ -9,9 +9,9 @@ from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import Simulation
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.simulate import Outcome
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.flow.session import Outcome
 from tests.runtime import apps
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from plutoc_runtime.domain.airspace import MARGIN, Airspace
 from plutoc_runtime.domain.geometry import enters, inside, outlined
 from plutoc_runtime.domain.model import Point
-from plutoc_runtime.fleet.energy import length
+from plutoc_runtime.fleet.reach import length
 
 Polygon = tuple[tuple[float, float], ...]
 

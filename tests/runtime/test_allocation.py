@@ -16,7 +16,7 @@ from plutoc_runtime.fleet.policies.first import first
 from plutoc_runtime.fleet.policies.least_used import least_used
 from plutoc_runtime.fleet.policies.nearest import nearest
 from plutoc_runtime.fleet.policies.own import own_policy
-from plutoc_runtime.fleet.policy import Policy
+from plutoc_runtime.fleet.queue import Policy
 from tests.runtime import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))

@@ -13,12 +13,12 @@ from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
+from plutoc_runtime.alone.simulate import Outcome
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.fleet.policies.nearest import nearest
 from plutoc_runtime.fleet.policies.own import own_policy
-from plutoc_runtime.fleet.policy import Policy
+from plutoc_runtime.fleet.queue import Policy
 from plutoc_runtime.flow.run import Run
-from plutoc_runtime.flow.session import Outcome
 from tests.runtime import apps
 
 

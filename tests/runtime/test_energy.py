@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Category
-from plutoc_runtime.fleet.energy import docked, flight_seconds, needed, share
+from plutoc_runtime.fleet.reach import docked, flight_seconds, needed, share
 
 SCOUT = Category(name="scout", speed=0.5, flight_time=420)
 PLAIN = Airspace(cruise_height=1.2)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
-from errno import ENAMETOOLONG
 from functools import partial
 
 from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
+
+from ..process.exit_code import BAD_INPUT, INTERNAL, ExitCode
 
 TYPE_CHECKING = False  # `typing` itself is slow to import, and plutoc's `--version` does without
 if TYPE_CHECKING:
@@ -17,10 +17,8 @@ if TYPE_CHECKING:
 
     from plutoc_runtime.domain.app import App
 
-BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
-
 _WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
-"""Commands that need nothing of an app but its name: a Stop must work whatever is in hooks.py."""
+"""Commands that need nothing of an app but its name: a Stop must work though hooks.py does not."""
 
 
 def start(name: str, load: Callable[[], App]) -> int:
@@ -34,7 +32,7 @@ def start(name: str, load: Callable[[], App]) -> int:
 
         return crtp(sys.argv[2:])
     app: App | None = None
-    ending = Ending(name)
+    ending = ExitCode(name)
     with ending:
         from plutoc_runtime.hooks.calls import loaded
 
@@ -55,7 +53,7 @@ def start(name: str, load: Callable[[], App]) -> int:
 
         refuse()  # it must not be started again
     if app is not None:
-        from .leaving import leave_in_time
+        from .shutdown import leave_in_time
 
         leave_in_time(name, code)
     return code
@@ -109,50 +107,11 @@ def _ended_by_hooks(name: str, status: int) -> NoReturn:
 def main(app: App, argv: Sequence[str] | None = None) -> int:
     """Run one command of the app and return its exit code; `argv` is without the program."""
     output.prepare()
-    ending = Ending(app.name)
+    ending = ExitCode(app.name)
     with ending:
         ending.code = _command(app, argv)
         output.flush()
     return ending.code
-
-
-class Ending:
-    """Turns whatever a command ends with into an exit code, and into a message."""
-
-    def __init__(self, name: str) -> None:
-        self.code = 0
-        self._name = name
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
-        name = self._name
-        if error is not None:
-            from plutoc_runtime.domain.text import printable
-        match error:
-            case None:
-                return True
-            case BadInput():
-                output.tell("\n".join(map(printable, str(error).split("\n"))))
-                self.code = BAD_INPUT
-            case OSError() if error.errno == ENAMETOOLONG:
-                output.tell(f"{printable(str(error.filename))}: a name is too long")
-                self.code = BAD_INPUT
-            case output.ClosedPipe():
-                output.silence()
-                self.code = CLOSED_PIPE
-            case output.CannotWrite():
-                output.silence()
-                output.tell(f"{name}: the output cannot be written: {error}")
-                self.code = BAD_INPUT
-            case KeyboardInterrupt():
-                output.tell(f"{name}: interrupted")
-                self.code = INTERRUPTED
-            case _:  # even a SystemExit: it would pass for a proper end
-                _report_bug(name, error)
-                self.code = INTERNAL
-        return True
 
 
 def _command(app: App, argv: Sequence[str] | None) -> int:
@@ -162,7 +121,7 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
         options = parse(app, argv)
     except SystemExit as end:  # argparse has printed the help, or what is wrong
         return end.code if isinstance(end.code, int) else BAD_INPUT
-    from .beside import take_fleet_beside
+    from .plans import take_fleet_beside
 
     take_fleet_beside(options)
     match options.command:
@@ -187,11 +146,11 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
 
             return tell(app, options)
         case "decide":
-            from .decide import decide
+            from .tell import decide
 
             return decide(app, options)
         case "resume":
-            from .resume import resume
+            from .fly import resume
 
             return resume(app, options)
         case "drones":
@@ -203,20 +162,6 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
 
             return journal(app, options)
         case _:
-            from .check import check
+            from .plans import check
 
             return check(app, options)
-
-
-def _report_bug(name: str, error: BaseException) -> None:
-    if os.environ.get("PLUTO_DEBUG") == "1":
-        import traceback
-
-        output.tell("".join(traceback.format_exception(error)).rstrip())
-    where = getattr(error, "__notes__", ())  # the block, if it was in one
-    whose = "of ours, or of whoever made that block" if where else "of ours"
-    output.tell(
-        "\n".join([f"{name}: internal error: {type(error).__name__}: {error}", *where])
-        + f"\nThis is a mistake {whose}: please report it"
-        " (PLUTO_DEBUG=1 shows where it happened)."
-    )

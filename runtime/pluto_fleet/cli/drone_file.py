@@ -17,20 +17,20 @@ from plutoc_runtime.domain.text import counted, number, place, printable
 
 from ..files.fleet import APART, CRAZYFLIE, fleet_of
 from ..files.reading import parsed
-from .drone_answers import heard
+from .drone_status import heard
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.geometry import Corner
 
-    from .drone_answers import Answer
+    from .drone_status import DroneAnswer
 
 
 _ORIGIN = 0.05
 """Metres from (0, 0): that near says who has just been switched on, and knows of no other place."""
 
 
-def write_fleet(app: App, path: Path, told: Sequence[Answer], navigation: str | None) -> None:
+def write_fleet(app: App, path: Path, told: Sequence[DroneAnswer], navigation: str | None) -> None:
     """Write a fleet file of those that have answered; never over another file."""
     there = [answer for answer in told if heard(answer) is not None]
     if not there:
@@ -49,7 +49,7 @@ def write_fleet(app: App, path: Path, told: Sequence[Answer], navigation: str | 
     output.tell(f"{path}: {counted(len(there), 'drone')}; look at each home before anything flies")
 
 
-def _file(app: App, path: Path, there: Sequence[Answer], navigation: str) -> Iterator[str]:
+def _file(app: App, path: Path, there: Sequence[DroneAnswer], navigation: str) -> Iterator[str]:
     airspace = Airspace()
     yield f"# Written by: {app.name} drones --save {printable(str(path))}"
     yield "# Say below how large the room is, and see whether each drone has its home and category."
@@ -90,7 +90,7 @@ class _Homes:
         self._airspace = airspace
         self._taken: list[Corner] = []
 
-    def line(self, answer: Answer) -> str:
+    def line(self, answer: DroneAnswer) -> str:
         """Return the line of the next drone's home."""
         telemetry = heard(answer)
         x, y, _ = telemetry.position if telemetry is not None else (0.0, 0.0, 0.0)

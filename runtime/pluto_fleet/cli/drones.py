@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import counted, quoted
+from plutoc_runtime.domain.text import counted, percent, place, quoted
 from plutoc_runtime.domain.trace import dumped
 
 from ..crazyflie.driver import require
@@ -17,17 +17,18 @@ from ..files.drones import which
 from ..files.errors import near
 from ..files.fleet import CRAZYFLIE, load_fleet, navigation_of, not_real, options_of
 from ..files.reading import shortened
-from ..journal import place
-from .drone_answers import Asked, answers, found, identified
+from ..journal.place import folder_of
+from ..report.report import table
 from .drone_file import write_fleet
-from .drone_table import drones_data, drones_table
+from .drone_status import DroneQuery, answers, found, heard, identified
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
+    from ..drones.protocol import DroneTelemetry
     from ..files.fleet import FleetFile
     from ..files.options import Options
-    from .drone_answers import Answer
+    from .drone_status import DroneAnswer
     from .options import Options as Command
 
 NOT_READY = 1
@@ -88,7 +89,7 @@ class _Team:
         """All by which these drones, and others, are reached."""
         return list(dict.fromkeys([self.others, *(asked.navigation for asked in self.known)]))
 
-    def one(self, who: str) -> Asked:
+    def one(self, who: str) -> DroneQuery:
         """Return a drone by its name in the fleet file, or by its uri."""
         for asked in self.known:
             if who == asked.id or (asked.uri is not None and which(who) == which(asked.uri)):
@@ -100,26 +101,26 @@ class _Team:
         hint = near(who, [asked.id for asked in self.known])
         raise BadInput(f"the fleet has no drone {quoted(who)}{hint}")
 
-    async def all_found(self, addresses: Sequence[str]) -> list[Asked]:
+    async def all_found(self, addresses: Sequence[str]) -> list[DroneQuery]:
         """Return what can be found by the navigation of this fleet, as the fleet knows it."""
         where = {"addresses": list(addresses)} if addresses else {}
         uris = await found(self.others, {**self._options(), **where})
         known = {which(asked.uri): asked for asked in self.known if asked.uri is not None}
         return [known.get(which(uri)) or self._other(uri) for uri in uris]
 
-    def _other(self, uri: str) -> Asked:
+    def _other(self, uri: str) -> DroneQuery:
         options = self._options()
-        return Asked(id=uri, uri=uri, navigation=self.others, options=options, known=False)
+        return DroneQuery(id=uri, uri=uri, navigation=self.others, options=options, known=False)
 
     def _options(self) -> Options:
         return {} if self.fleet is None else self.fleet.options.get(self.others, {})
 
 
-def _known(app: App, fleet: FleetFile) -> list[Asked]:
+def _known(app: App, fleet: FleetFile) -> list[DroneQuery]:
     """Return the drones of a fleet file."""
     categories = {category.name: category for category in app.categories}
     return [
-        Asked(
+        DroneQuery(
             id=drone.id,
             uri=drone.uri,
             navigation=navigation_of(fleet, drone),
@@ -131,14 +132,14 @@ def _known(app: App, fleet: FleetFile) -> list[Asked]:
     ]
 
 
-def _identify(app: App, asked: Asked) -> int:
+def _identify(app: App, asked: DroneQuery) -> int:
     asyncio.run(identified(asked, _folder(app)))
     where = "" if asked.uri in (None, asked.id) else f" ({asked.uri})"
     output.line(f"{asked.id}{where} has shown itself")
     return 0
 
 
-async def _asked(app: App, options: Command, team: _Team) -> list[Answer]:
+async def _asked(app: App, options: Command, team: _Team) -> list[DroneAnswer]:
     asked = [team.one(who) for who in options.who]
     if not asked:
         asked = list(team.known)
@@ -155,7 +156,7 @@ async def _asked(app: App, options: Command, team: _Team) -> list[Answer]:
     return await answers(each, folder, fleet.localization, fleet.localization_options)
 
 
-def _say(told: Sequence[Answer]) -> None:
+def _say(told: Sequence[DroneAnswer]) -> None:
     if not told:
         output.line("no drone answers: are they switched on, and near?")
         return
@@ -168,9 +169,70 @@ def _say(told: Sequence[Answer]) -> None:
 
 def _folder(app: App) -> Path:
     """Return where navigations may keep what they have learnt of drones."""
-    folder = place.folder_of(app.name) / "drones"
+    folder = folder_of(app.name) / "drones"
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as error:
         raise BadInput(f"{folder}: cannot be made: {error.strerror}") from None
     return folder
+
+
+ONLY_IN_JSON = ("protocol",)
+"""What a navigation tells besides, and a person need not know of a drone that answers."""
+
+LONGEST = 120
+"""Characters of a cell: what a drone says of itself may be anything."""
+
+
+def drones_table(told: Sequence[DroneAnswer]) -> Iterator[str]:
+    """Yield a line for each drone."""
+    facts = list(dict.fromkeys(fact for one in told for fact in one.facts))
+    shown = [fact for fact in facts if fact not in ONLY_IN_JSON]
+    return table(
+        ("drone", "uri", *shown, "battery", "position", "ready"),
+        [
+            [
+                cell if len(cell) <= LONGEST else f"{cell[: LONGEST - 1]}…"
+                for cell in (
+                    one.asked.id if one.asked.known else "—",
+                    one.asked.uri or "—",
+                    *(one.facts.get(fact, "—") for fact in shown),
+                    *_state(heard(one)),
+                    "; ".join(one.problems) or "ready",
+                )
+            ]
+            for one in told
+        ],
+        right=(),
+    )
+
+
+def drones_data(app: str, told: Sequence[DroneAnswer]) -> dict[str, object]:
+    """Return the object that `drones --json` prints."""
+    return {"app": app, "drones": [_data(one) for one in told]}
+
+
+def _data(one: DroneAnswer) -> dict[str, object]:
+    telemetry = heard(one)
+    return {
+        "drone": one.asked.id if one.asked.known else None,
+        "uri": one.asked.uri,
+        "navigation": one.asked.navigation,
+        "ready": not one.problems,
+        "problems": list(one.problems),
+        "voltage": None if telemetry is None else telemetry.voltage or None,
+        "battery_level": None if telemetry is None else telemetry.battery_level,
+        "position": None if telemetry is None else list(telemetry.position),
+        "flying": None if telemetry is None else telemetry.flying,
+        "facts": dict(one.facts),
+    }
+
+
+def _state(telemetry: DroneTelemetry | None) -> tuple[str, str]:
+    """Return its battery and where it is."""
+    if telemetry is None:
+        return "—", "—"
+    level = percent(telemetry.battery_level)
+    battery = f"{telemetry.voltage:.2f} V, {level}" if telemetry.voltage else level
+    x, y, z = telemetry.position
+    return battery, place((round(x, 2), round(y, 2), z))

@@ -6,43 +6,49 @@ drones, and over simulated ones. No drone is reached, and nothing is written.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
 from copy import deepcopy
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
+
+import tomlkit
 
 from plutoc_runtime import output
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import counted, number
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
 
 from ..drones.protocol import Acts
-from ..drones.real_fleet import SLACK, real_fleet
+from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
+from ..files.values import text
 from ..flight.simulate import simulate
-from .events import line_of
-from .given import Given
+from ..jobs.controls import ForwardingControls
+from ..report.report import exit_code, report, table
+from ..report.sentences import line_of
 from .plans import load
-from .real import check_real, made
-from .report import report, table
-from .verdict import exit_code
+from .preflight import check_real, made
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from plutoc_runtime.alone.simulate import Outcome
+
+    # was an import of itself
+    from plutoc_runtime.domain.actions import Plain
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Point
-    from plutoc_runtime.flow.session import Outcome
+    from plutoc_runtime.domain.model import Item, Point
     from plutoc_runtime.time.kernel import Kernel
 
-    from ..drones.real_fleet import RequiredAction
     from ..files.drones import DroneEntry
     from ..jobs.controls import Controls
-    from .given import Command
     from .options import Options
-    from .plans import Plan
+    from .plans import LoadedPlan
+
 
 REFUSED = 2
 """The exit code where `fly` would not begin, or not fly some drone."""
@@ -52,13 +58,13 @@ def dry_run(app: App, options: Options) -> int:
     """Print what every drone would be told, and what came of it."""
     _refuse_what_does_not_go_together(options)
     plan = load(app, options)
-    given: list[Given] = []
+    given: list[CommandLog] = []
     top = {one.name: one.top_speed or one.speed for one in plan.app.categories}
     speeds = {drone.id: top[drone.category] for drone in plan.fleet.drones}
     climb = CLIMB_SPEED if options.sim else CLIMB_LIMIT
 
-    def around(kernel: Kernel, drones: Controls) -> Given:
-        given.append(Given(kernel, drones, speeds, climb))
+    def around(kernel: Kernel, drones: Controls) -> CommandLog:
+        given.append(CommandLog(kernel, drones, speeds, climb))
         return given[0]
 
     outcome = simulate(
@@ -81,7 +87,7 @@ def dry_run(app: App, options: Options) -> int:
     return REFUSED if refused else exit_code(outcome)
 
 
-def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
+def _refused(app: App, options: Options, plan: LoadedPlan) -> Iterator[str]:
     """Yield what keeps `fly` from beginning, or a drone from being flown, as far as it is known."""
     try:
         where = str(options.fleet or app.name)
@@ -89,7 +95,7 @@ def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
     except BadInput as error:
         yield f"{app.name} fly would not begin:\n{error}"
         return
-    if options.crtp_sim is not None:  # they are fitted with whatever the plan asks for
+    if options.crtp_sim is not None:  # they are fitted with all that the plan asks for
         return
     wanted = real_fleet(plan.fleet, plan.missions).wanted
     categories = {category.name: category for category in plan.app.categories}
@@ -100,7 +106,7 @@ def _refused(app: App, options: Options, plan: Plan) -> Iterator[str]:
             yield f"{drone.id} would not be flown: {reason}"
 
 
-def _unfit(plan: Plan, drone: DroneEntry, wanted: Sequence[RequiredAction]) -> Iterator[str]:
+def _unfit(plan: LoadedPlan, drone: DroneEntry, wanted: Sequence[RequiredAction]) -> Iterator[str]:
     """Yield what a drone's navigation says it cannot do, before there is any drone."""
     with TemporaryDirectory() as folder:
         navigation = made(plan.app, plan.fleet, drone, Path(folder))
@@ -126,7 +132,7 @@ def _refuse_what_does_not_go_together(options: Options) -> None:
             raise BadInput(f"{flag} is for a flight, and --dry-run is none: leave one out")
 
 
-def _lines(plan: Plan, outcome: Outcome, commands: Sequence[Command]) -> Iterator[str]:
+def _lines(plan: LoadedPlan, outcome: Outcome, commands: Sequence[LoggedCommand]) -> Iterator[str]:
     yield from table(
         ("time", "drone", "command", "to", "at most"),
         [
@@ -153,3 +159,98 @@ def _lines(plan: Plan, outcome: Outcome, commands: Sequence[Command]) -> Iterato
 
 def _place(point: Point) -> str:
     return f"({', '.join(number(round(along, 2)) for along in point)})"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoggedCommand:
+    """One command to one drone."""
+
+    time: float
+    drone: str
+    what: str
+    to: Point | None = None
+    speed: float | None = None
+    """The most that it may fly, metres per second."""
+
+
+class CommandLog(ForwardingControls):
+    """Drones that can be told what others can; each command is kept, and handed on to those others."""
+
+    def __init__(
+        self, kernel: Kernel, drones: Controls, speeds: Mapping[str, float], climb: float
+    ) -> None:
+        super().__init__(drones)
+        self._kernel = kernel
+        self._speeds, self._climb_limit = speeds, climb
+        self.commands: list[LoggedCommand] = []
+
+    def _note(
+        self, drone: str, what: str, to: Point | None = None, speed: float | None = None
+    ) -> None:
+        self.commands.append(
+            LoggedCommand(time=self._kernel.now, drone=drone, what=what, to=to, speed=speed)
+        )
+
+    def _here(self, drone: str, height: float) -> Point:
+        x, y, _ = self._controls.telemetry[drone].location
+        return x, y, height
+
+    def _climb(self, drone: str) -> float:
+        return min(self._climb_limit, self._speeds[drone])
+
+    async def takeoff(self, drone: str, height: float) -> None:
+        """Rise straight up to a height; does nothing for a drone that flies."""
+        if self._controls.telemetry[drone].landed:
+            self._note(drone, "take off", self._here(drone, height), self._climb(drone))
+        await self._controls.takeoff(drone, height)
+
+    async def go_to(self, drone: str, target: Point) -> None:
+        """Fly straight to a point."""
+        self._note(drone, "go to", target, self._speeds[drone])
+        await self._controls.go_to(drone, target)
+
+    async def land(self, drone: str) -> None:
+        """Land here; does nothing for a drone that stands on the ground."""
+        if not self._controls.telemetry[drone].landed:
+            self._note(drone, "land", self._here(drone, 0.0), self._climb(drone))
+        await self._controls.land(drone)
+
+    async def hold(self, drone: str) -> None:
+        """Hover, for as long as an action of the app's own takes; never returns by itself."""
+        self._note(drone, "hover, for an action of the app's own")
+        await self._controls.hold(drone)
+
+    async def act(
+        self,
+        drone: str,
+        action: str,
+        parameters: Mapping[str, Plain],
+        item: Item | None,
+        job: str | None,
+    ) -> object:
+        """Do one of the built-in actions here, and return what came of it."""
+        given = [f"{name} = {tomlkit.item(one).as_string()}" for name, one in parameters.items()]
+        what = [*([text(item.name)] if item is not None else []), *given]
+        self._note(drone, f"{action}, {', '.join(what)}" if what else action)
+        return await self._controls.act(drone, action, parameters, item, job)
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return what a drone measures under this name, for an action of the app's own."""
+        self._note(drone, f"read {name}")
+        return await self._controls.read(drone, name)
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set what a drone has under this name, for an action of the app's own."""
+        self._note(drone, f"set {name} = {value!r}")
+        await self._controls.write(drone, name, value)
+
+    def break_off(self, drone: str) -> None:
+        """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
+        if not self._controls.telemetry[drone].landed:
+            self._note(drone, "stop, and hover")
+        self._controls.break_off(drone)
+
+    async def cut(self, drone: str) -> None:
+        """Switch its motors off now, wherever it is: only ever because a person said just that."""
+        self._note(drone, "cut the motors")
+        await self._controls.cut(drone)

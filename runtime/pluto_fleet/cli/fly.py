@@ -1,9 +1,13 @@
-"""`fly`: the whole app in real time, from the beginning."""
+"""`fly` and `resume`: missions in real time, until all is over or a person stops it."""
 
 from __future__ import annotations
 
+import asyncio
 import os
 import time
+from collections.abc import Sequence
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,23 +16,43 @@ from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import printable
 
+from ..flight.config import End, FlightResult, Stops
+from ..flight.lives import (
+    FlightObserver,
+    FlightSetup,
+    Resumable,
+    aloft,
+    how_to_go_on,
+    reopen,
+    run_flight,
+)
+from ..flight.offline import clear_stop, pending_stop
+from ..flight.standing import finished, has_ended, records_in
 from ..journal import place
 from ..journal.errors import exists
-from ..journal.header import header
+from ..journal.header import fingerprint, header
 from ..journal.store import Store
-from .flight_options import how_it_flies_in
-from .flights import Flight, see_through, supervised
+from ..process import respawn as again
+from ..report.report import report_of, waiting_lines
+from ..report.sentences import line_of
+from .interrupts import Interrupts
 from .plans import load
-from .real import check_real
+from .preflight import check_real
+from .shutdown import run as run_until_complete
+from .supervise import STOPS, Supervised, supervise
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Drone
+    from plutoc_runtime.domain.trace import Event
 
+    from ..flight.fly import Recovered
+    from ..journal.fold import Records
     from .options import Options
 
 
 def fly(app: App, options: Options) -> int:
-    """Fly the missions and say what came of them; whoever interrupts it lands the drones."""
+    """Fly the missions and say what came of them; an interrupt lands the drones."""
     options.refuse_what_is_simulated()
     plan = load(app, options)
     if options.is_real:
@@ -57,7 +81,7 @@ def fly(app: App, options: Options) -> int:
     if options.supervise:
         return supervised(app, options, journal, _words(options, journal))
     store = Store.create(journal, begun)
-    flight = Flight(
+    flight = FlightSetup(
         app=plan.app,
         journal=store.path,
         missions=plan.missions,
@@ -76,5 +100,124 @@ def _words(options: Options, journal: Path) -> list[str]:
     fleet = ["--fleet", str(options.fleet)] if options.fleet else []
     faults = ",".join(f"{what}={share}" for what, share in options.fail.items())
     chance = ["--seed", str(options.seed), *(["--fail", faults] if faults else [])]
-    how = how_it_flies_in(options)
+    how = options.drone_flags
     return ["fly", str(options.missions), *fleet, *how, *chance, "--journal", str(journal)]
+
+
+def resume(app: App, options: Options) -> int:
+    """Go on with the missions of a journal, which says what was planned."""
+    journal = options.journal or place.newest(app.name)
+    taken = reopen(app, journal)
+    store = taken.store
+    try:
+        _check(options, taken)
+    except BadInput:
+        store.close()
+        raise
+    if taken.is_over:
+        store.close()
+        output.line("nothing to go on with: every mission has ended")
+        output.line()
+        return reported(app, journal, taken.known.records)
+    if not options.supervised:
+        output.tell(f"journal: {printable(str(journal))}")
+        clear_stop(store.path)
+        if taken.header["app_hash"] != fingerprint(app):
+            output.tell("the app has changed since: missions go on by the names of its blocks")
+    if store.torn is not None:
+        output.tell(f"{journal}: {store.torn}")
+    if options.supervise:
+        store.close()
+        return supervised(app, options, journal, None)
+    return see_through(taken.flight(options.speed), store, taken.known)
+
+
+def _check(options: Options, taken: Resumable) -> None:
+    """Refuse flags that are not for the drones of this journal, and drones that cannot be flown."""
+    path, stand_ins = taken.store.path, taken.header.get("crtp_sim")
+    if options.crtp_sim not in (None, stand_ins):
+        raise BadInput(f"{path}: it was not begun with --crtp-sim {options.crtp_sim}")
+    if taken.header["sim"]:
+        return
+    if options.sim:
+        raise BadInput(f"{path}: its drones are real ones: go on without --sim")
+    options.refuse_what_is_simulated()
+    check_real(taken.app, taken.fleet, f"{path} (its fleet)", stand_ins=stand_ins is not None)
+
+
+STOPPED = 130
+"""The exit code after `tell J stop`, as after Ctrl-C."""
+
+
+def see_through(flight: FlightSetup, store: Store, known: Recovered | None = None) -> int:
+    """Fly until all is over or it is stopped; say what came of it, and return the exit code.
+
+    `known` is what the journal says, if it has been read already.
+    """
+    stops = Stops()
+    interrupts = Interrupts(stops, lambda: flight.journal, flight.how_to_go_on)
+    with interrupts.listening():
+        lived = run_until_complete(_heard(flight, store, stops, interrupts, known))
+    if lived.end is End.STOPPED:
+        who = "all other drones" if aloft(flight, lived.drones) else "all drones"
+        output.tell(f"{who} are down; {flight.how_to_go_on}")
+        return interrupts.code or STOPPED
+    output.line()
+    return reported(flight.app, flight.journal, lived.records, lived.drones)
+
+
+def reported(app: App, journal: Path, records: Records, drones: Sequence[Drone] = ()) -> int:
+    """Say what came of a flight, and return the exit code for that."""
+    code, lines = report_of(app, journal, records, drones)
+    for line in [*lines, *waiting_lines(app, journal, records)]:
+        output.line(line)
+    return code
+
+
+async def _heard(
+    flight: FlightSetup,
+    store: Store,
+    stops: Stops,
+    interrupts: Interrupts,
+    known: Recovered | None,
+) -> FlightResult:
+    """Live, and hear interrupts."""
+    interrupts.loop = asyncio.get_running_loop()
+    return await run_flight(flight, store, stops, known, FlightObserver(tell=tell, say=output.tell))
+
+
+def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:
+    """Let another process fly, and start it again when it crashes; `first`: it has not begun."""
+    speed = ["--speed", str(options.speed)] if options.speed else []
+    on = again.command("resume", str(journal), *speed, "--supervised")
+    return supervise(
+        Supervised(
+            name=app.name,
+            first=on if first is None else again.command(*first, *speed, "--supervised"),
+            again=lambda: on if journal.exists() else None,
+            finished=lambda: finished(records_in(app, journal)) if journal.exists() else 0,
+            over=partial(_is_over, app, journal),
+            how_to_go_on=how_to_go_on(app, journal),
+        )
+    )
+
+
+def _is_over(app: App, journal: Path, code: int) -> bool:
+    """Say whether a flight has ended as this exit code says; the journal knows."""
+    if not journal.exists():
+        return code in STOPS  # before anything was flown
+    if code in STOPS and pending_stop(Path(os.path.realpath(journal))):
+        return True
+    records = records_in(app, journal)
+    if has_ended(records):
+        return code in STOPS or code == report_of(app, journal, records)[0]
+    return code in STOPS and records.stopped
+
+
+def tell(event: Event) -> None:
+    """Show an event on standard output."""
+    line = line_of(event)
+    if line is not None:
+        with suppress(output.ClosedPipe, output.CannotWrite):  # the reader has gone: fly on
+            output.line(line)
+            output.flush()

@@ -1,7 +1,7 @@
 """Ctrl-C and `kill` while drones fly: the first time they land, the second time the app is gone.
 
 They are told to the app and not to the processes that its hooks fork: a copy of the app's handlers
-would land the fleet when somebody ends such a child.
+would land the fleet when such a child is ended.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from typing import Protocol
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
 
+from ..flight.offline import leave_stop
 from ..gateway.starting import stop_directly
 from ..jobs.reports import Down
 from ..journal.place import gateway_folder
 from ..process.forked import in_children, leave
-from . import stop_mark
 
 AT_ONCE = 1.0
 """Seconds that the app may take to stop its drones, before they are told without it."""
@@ -33,7 +33,7 @@ class Stoppable(Protocol):
     """What can be brought to its end."""
 
     asked: Down | None
-    """How, once somebody has asked for that."""
+    """How, once that was asked for."""
 
     def stop(self, how: Down) -> None:
         """Bring all drones down; called in the loop's thread."""
@@ -41,7 +41,7 @@ class Stoppable(Protocol):
 
 
 class Interrupts:
-    """Whoever wants the app to end, and whether it has heard."""
+    """The signals that ask the app to end, and whether it has heard."""
 
     def __init__(
         self,
@@ -89,7 +89,7 @@ class Interrupts:
         if self.code is not None:
             journal = self._journal()
             if journal is not None:
-                stop_mark.leave(journal, Down.LAND)  # for whoever starts crashed apps again
+                leave_stop(journal, Down.LAND)  # for a supervisor that starts crashed apps again
                 output.tell(f"leaving at once: the gateway lands the drones; {self._how}")
             self._last()
             leave(128 + number)

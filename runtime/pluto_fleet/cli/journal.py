@@ -16,7 +16,7 @@ from plutoc_runtime.domain.text import counted
 from ..journal import place
 from ..journal.mending import mend
 from ..journal.reader import Reader
-from .told import told
+from ..report.sentences import journal_sentence as told
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -66,7 +66,7 @@ def _mended(path: Path) -> str:
 
 
 def _follow(reader: Reader, printer: _Printer) -> None:
-    """Print what comes, until somebody interrupts it or nobody reads it any more."""
+    """Print what comes, until it is interrupted, or its output is closed."""
     with suppress(KeyboardInterrupt):
         while reader.damaged is None:
             _wait(PAUSE)
@@ -74,7 +74,7 @@ def _follow(reader: Reader, printer: _Printer) -> None:
 
 
 def _wait(seconds: float) -> None:
-    """Wait, and notice when whoever read the output has gone in the meantime."""
+    """Wait, and notice when the output's reader has gone in the meantime."""
     try:
         watched = select.poll()
         watched.register(sys.stdout.fileno(), 0)  # what is wrong is told in any case

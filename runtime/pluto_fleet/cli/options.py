@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import Action, ArgumentParser, ArgumentTypeError
+from argparse import Action, ArgumentParser
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,11 +12,9 @@ from plutoc_runtime import output
 from plutoc_runtime.alone.faults import FAULTS, shares
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.quantities import time_from, typed
-from plutoc_runtime.domain.text import quoted
 
-from .drone_options import add_drones, add_dry_run
-from .flight_options import add_flights, how_it_flies
-from .station_options import add_station
+from ..arguments import whole_number
+from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_flies
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -78,6 +76,13 @@ class Options:
     def is_real(self) -> bool:
         """Whether real drones are meant, or what stands in for them down to the radio."""
         return self.command in ("fly", "serve") and not self.sim
+
+    @property
+    def drone_flags(self) -> list[str]:
+        """The flags that say which drones are meant, for a command line."""
+        if self.crtp_sim is not None:
+            return ["--crtp-sim", str(self.crtp_sim)]
+        return ["--sim"] if self.sim else []
 
     def refuse_what_is_simulated(self) -> None:
         """Raise `BadInput` if real drones are meant, and flags that only simulated ones obey."""
@@ -183,7 +188,7 @@ def _chance(parser: ArgumentParser, only: str = "") -> None:
     parser.add_argument(
         "--seed",
         metavar="N",
-        type=whole,
+        type=whole_number(),
         default=0,
         help=f"{only}what chance depends on (default 0)",
     )
@@ -199,7 +204,10 @@ def _chance(parser: ArgumentParser, only: str = "") -> None:
 def _simulation(parser: ArgumentParser) -> None:
     _chance(parser)
     parser.add_argument(
-        "--runs", metavar="N", type=count, help="simulate N times, with N seeds from --seed on"
+        "--runs",
+        metavar="N",
+        type=whole_number(1),
+        help="simulate N times, with N seeds from --seed on",
     )
     parser.add_argument(
         "--plot",
@@ -217,19 +225,3 @@ def _simulation(parser: ArgumentParser) -> None:
         "--trace", metavar="FILE", type=Path, help="write every event there, a JSON object a line"
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead")
-
-
-def whole(text: str) -> int:
-    """Read a whole number."""
-    try:
-        return int(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{quoted(text)} is not a whole number") from None
-
-
-def count(text: str) -> int:
-    """Read a number of times."""
-    number = whole(text)
-    if number < 1:
-        raise ArgumentTypeError(f"{quoted(text)} is less than 1")
-    return number

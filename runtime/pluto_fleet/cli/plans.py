@@ -1,30 +1,31 @@
-"""From the files that a command names to missions and a fleet that can fly them."""
+"""From the files that a command names to missions and a fleet that can fly them; `check` says so."""
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import counted, printable
 
-from ..files.fleet import DEFAULT_SIZE, FleetFile, as_flown, default_fleet, fleet_of
+from ..files.crtp_fleet import fleet_from, missing_categories
+from ..files.fleet import FleetFile, as_flown, fleet_of, too_fast
 from ..files.missions import missions_of
-from ..files.plan_check import endless, look_alikes, problems
+from ..files.plan_check import endless, idle_actions, look_alikes, problems
 from ..files.reading import parsed, shortened, text_of
-from .stand_ins import who_is_missing, with_stand_ins
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Mission
 
-    from ..journal.header import Header
     from .options import Options
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Plan:
+class LoadedPlan:
     """What shall be flown, by whom and where."""
 
     app: App
@@ -37,8 +38,8 @@ class Plan:
     """The same; None: there was none."""
 
 
-def load(app: App, options: Options) -> Plan:
-    """Return the plan of a command's files; raise `BadInput` where nobody could fly it."""
+def load(app: App, options: Options) -> LoadedPlan:
+    """Return the plan of a command's files; raise `BadInput` where it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
     if options.is_real:
         app = as_flown(app, fleet)
@@ -52,7 +53,7 @@ def load(app: App, options: Options) -> Plan:
     if not options.supervised:  # then it has been said
         for sentence in look_alikes(missions, fleet.drones):
             output.tell(f"{options.missions}: warning: {sentence}")
-    return Plan(
+    return LoadedPlan(
         app=app,
         missions=missions,
         fleet=fleet,
@@ -66,24 +67,50 @@ def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
     text = text_of(options.fleet) if options.fleet else None
     if text is not None and options.crtp_sim is not None and not options.supervised:
         whole = fleet_of(parsed(str(options.fleet), text), app)
-        if missing := who_is_missing(whole, options.crtp_sim):
+        if missing := missing_categories(whole, options.crtp_sim):
             output.tell(missing)
-    return _fleet(app, str(options.fleet), text, options.crtp_sim), text
+    return fleet_from(app, str(options.fleet), text, options.crtp_sim), text
 
 
-def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
-    """Return the fleet of a journal; raise `BadInput` if the app does not know it any more."""
-    return _fleet(app, f"{journal} (its fleet)", header["fleet"], header.get("crtp_sim"))
+FLEET = "fleet.toml"
 
 
-def missions_in(app: App, journal: Path, header: Header, fleet: FleetFile) -> list[Mission[Any]]:
-    """Return the missions with which a journal begins, as they were planned."""
-    document = parsed(f"{journal} (its missions)", header["missions"])
-    return missions_of(document, app, fleet.airspace)
+def take_fleet_beside(options: Options) -> None:
+    """Take the fleet file beside the missions where none is named; real drones need a named one."""
+    missions = _missions(options)
+    if missions is None or options.fleet is not None:
+        return
+    fleet = missions.parent / FLEET
+    if os.path.lexists(fleet):
+        options.fleet = fleet
+        output.tell(
+            f"fleet: {printable(os.fspath(fleet))}, beside the missions; or name one: --fleet"
+        )
 
 
-def _fleet(app: App, name: str, text: str | None, stand_ins: int | None) -> FleetFile:
-    if text is None:
-        return default_fleet(app, stand_ins or DEFAULT_SIZE)
-    fleet = fleet_of(parsed(name, text), app)
-    return fleet if stand_ins is None else with_stand_ins(fleet, stand_ins)
+def _missions(options: Options) -> Path | None:
+    """Return the missions file of a command that flies nothing real; None: there is none."""
+    simulated = options.sim or options.crtp_sim is not None
+    match options.command:
+        case "simulate" | "check":
+            return options.missions
+        case "fly" if simulated:
+            return options.missions
+        case "serve" if simulated:
+            return options.plan
+        case _:
+            return None
+
+
+def check(app: App, options: Options) -> int:
+    """Say that the fleet can fly the missions; where it cannot, loading has said why."""
+    plan = load(app, options)
+    for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
+        output.tell(f"{options.fleet or app.name}: warning: {sentence}")
+    trips = sum(len(mission.trips) for mission in plan.missions)
+    missions, drones = len(plan.missions), len(plan.fleet.drones)
+    output.line(
+        f"{counted(missions, 'mission')} with {counted(trips, 'trip')}: "
+        f"a fleet of {counted(drones, 'drone')} can fly them"
+    )
+    return 0

@@ -6,84 +6,105 @@ import asyncio
 import fcntl
 import os
 import secrets
-from collections.abc import Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import in_shell
 
 from ..files.fleet import as_flown
 from ..files.reading import text_of
+from ..flight.standing import finished, records_in
 from ..jobs.reports import Down
 from ..journal import place
 from ..process import respawn as again
 from ..process.forked import not_for_children
-from ..station.phase import Phase
-from ..station.plan.plan import Plan
-from ..station.settings import Settings
+from ..station.config import StationConfig
+from ..station.plan.plan import MissionPlan
+from ..station.session import Phase
 from ..station.station import Station
 from ..station.web.api import Api
 from ..station.web.audit import Audit
-from ..station.web.borrowed import borrowed
 from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
-from ..station.web.server import serve as serve_web
 from ..station.web.static import floor_plan
-from .flight_options import how_it_flies_in
-from .flown import finished, records_in
 from .interrupts import Interrupts
-from .leaving import run
 from .plans import load_fleet
-from .real import check_real
+from .preflight import check_real
+from .shutdown import run
 from .supervise import Supervised, supervise
 
 if TYPE_CHECKING:
+    from socket import socket
+
     from plutoc_runtime.domain.app import App
 
     from .options import Options
+
+    Serve = Callable[[Api, socket, Callable[[], object]], Coroutine[object, object, None]]
 
 AGAIN = "serve shows what was interrupted, and Resume goes on with it"
 
 
 def serve(app: App, options: Options) -> int:
-    """Serve the station until somebody interrupts it; then all drones land first."""
+    """Serve the station until it is interrupted; then all drones land first."""
     options.refuse_what_is_simulated()
-    borrowed(app.name)  # before anything is kept or flown
-    settings = _settings(app, options)
+    serve_web = _web_server(app.name)  # before anything is kept or flown
+    config = _config(app, options)
     if options.is_real:
         where = str(options.fleet or app.name)
-        check_real(app, settings.fleet, where, stand_ins=options.crtp_sim is not None)
-        app = as_flown(app, settings.fleet)
-    _make_room(settings)
+        check_real(app, config.fleet, where, stand_ins=options.crtp_sim is not None)
+        app = as_flown(app, config.fleet)
+    _make_room(config)
     if options.supervise:
-        return _supervised(app, options, settings)
-    with _alone(settings):
-        (settings.own_folder / LEFT).unlink(missing_ok=True)
-        station = Station(app, settings, _plan(app, options, settings))
+        return _supervised(app, options, config)
+    with _alone(config):
+        (config.own_folder / LEFT).unlink(missing_ok=True)
+        station = Station(app, config, _plan(app, options, config))
         leaving = _Leaving(station)
-        left = settings.own_folder / LEFT
+        left = config.own_folder / LEFT
         interrupts = Interrupts(leaving, leaving.journal, AGAIN, last=left.touch)
         with interrupts.listening():
-            run(_serve(app, options, settings, station, interrupts))
+            run(_serve(serve_web, options, config, station, interrupts))
         left.touch()
         return interrupts.code or 0
 
 
+def _web_server(app: str) -> Serve:
+    """Return what serves the pages, or say how to install it."""
+    try:
+        from ..station.web.server import serve
+    except ImportError as error:
+        if (error.name or "").startswith("pluto"):  # a mistake of ours
+            raise
+        package = app.rstrip("_")  # no package's name ends so
+        raise BadInput(
+            "serve needs a web server, the extra `station` of this package:"
+            f" pip install {in_shell(f'{package}[station]')}"
+        ) from None
+    return serve
+
+
 async def _serve(
-    app: App, options: Options, settings: Settings, station: Station, interrupts: Interrupts
+    serve_web: Serve,
+    options: Options,
+    config: StationConfig,
+    station: Station,
+    interrupts: Interrupts,
 ) -> None:
     interrupts.loop = asyncio.get_running_loop()
-    with listening(options.host, _port(options, settings)) as listener:
-        guard = _guard(options, settings, port_of(listener))
-        api = Api(station, guard, Audit(settings.own_folder / "audit.log"))
+    with listening(options.host, _port(options, config)) as listener:
+        guard = _guard(options, config, port_of(listener))
+        api = Api(station, guard, Audit(config.own_folder / "audit.log"))
         station.begin(options.going_on)
         if options.going_on and station.phase is Phase.INTERRUPTED:
             station.resume()
 
         def ready() -> None:
-            (settings.own_folder / PORT).write_text(str(guard.port), encoding="utf-8")
+            (config.own_folder / PORT).write_text(str(guard.port), encoding="utf-8")
             output.line(f"station: {address(guard)}")
             output.flush()
             if options.open:
@@ -91,7 +112,7 @@ async def _serve(
 
                 webbrowser.open(address(guard))
 
-        server = asyncio.create_task(serve_web(api, listener, app.name, ready))
+        server = asyncio.create_task(serve_web(api, listener, ready))
         leaves = asyncio.create_task(station.leaves.wait())
         await asyncio.wait([server, leaves], return_when=asyncio.FIRST_COMPLETED)
         if station.leaves.is_set():
@@ -104,9 +125,9 @@ async def _serve(
             await server
 
 
-def _guard(options: Options, settings: Settings, port: int) -> Guard:
+def _guard(options: Options, config: StationConfig, port: int) -> Guard:
     names = tuple(map(proper_name, options.names))
-    token = _token(settings) if needs_token(options.host, names) else None
+    token = _token(config) if needs_token(options.host, names) else None
     return Guard(host=options.host, port=port, names=names, token=token)
 
 
@@ -123,11 +144,11 @@ class _Leaving:
 
     def journal(self) -> Path | None:
         """Return which journal is being written."""
-        outing = self._station.outing
-        return outing.journal if outing is not None and outing.lives else None
+        session = self._station.session
+        return session.journal if session is not None and session.lives else None
 
 
-def _settings(app: App, options: Options) -> Settings:
+def _config(app: App, options: Options) -> StationConfig:
     fleet, text = load_fleet(app, options)
     folder = options.folder or place.folder_of(app.name)
     image = None
@@ -136,7 +157,7 @@ def _settings(app: App, options: Options) -> Settings:
             image = floor_plan(options.fleet.parent, fleet.image)
         except BadInput as error:
             raise BadInput(f"{options.fleet}: {error}") from None
-    return Settings(
+    return StationConfig(
         folder=folder,
         fleet=fleet,
         fleet_text=text,
@@ -149,13 +170,15 @@ def _settings(app: App, options: Options) -> Settings:
     )
 
 
-def _make_room(settings: Settings) -> None:
+def _make_room(config: StationConfig) -> None:
     """See to it that the station's folder is there."""
-    folder = settings.folder
+    folder = config.folder
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)  # nobody else's, and so all in it
-        settings.own_folder.mkdir(mode=0o700, exist_ok=True)
-        if not os.access(settings.own_folder, os.W_OK | os.X_OK):
+        folder.mkdir(
+            mode=0o700, parents=True, exist_ok=True
+        )  # for this user alone, and so all in it
+        config.own_folder.mkdir(mode=0o700, exist_ok=True)
+        if not os.access(config.own_folder, os.W_OK | os.X_OK):
             raise PermissionError(0, "it may only be read")
     except OSError as error:
         raise BadInput(
@@ -163,12 +186,12 @@ def _make_room(settings: Settings) -> None:
         ) from None
 
 
-def _plan(app: App, options: Options, settings: Settings) -> Plan:
-    plan = Plan(app, settings.fleet, settings.own_folder / "plan.json")
+def _plan(app: App, options: Options, config: StationConfig) -> MissionPlan:
+    plan = MissionPlan(app, config.fleet, config.own_folder / "plan.json")
     if options.plan is not None:
         if plan.is_empty:
             plan.import_toml(text_of(options.plan), plan.revision, str(options.plan))
-        elif not options.going_on:  # nobody has just said so
+        elif not options.going_on:  # after a crash that was said before
             output.tell(f"the plan that was drawn here stays: {options.plan} is not read")
     return plan
 
@@ -180,16 +203,16 @@ PORT = "port"
 """The file that says where browsers look for the station: after a crash it is there again."""
 
 
-def _port(options: Options, settings: Settings) -> int:
+def _port(options: Options, config: StationConfig) -> int:
     if options.going_on and not options.port:
         with suppress(OSError, ValueError):
-            return int((settings.own_folder / PORT).read_text(encoding="utf-8"))
+            return int((config.own_folder / PORT).read_text(encoding="utf-8"))
     return options.port
 
 
-def _token(settings: Settings) -> str:
-    """Return the token: the same after a restart, so that nobody is locked out in mid-flight."""
-    file = settings.own_folder / "token"
+def _token(config: StationConfig) -> str:
+    """Return the token: the same after a restart, so that no page is locked out in mid-flight."""
+    file = config.own_folder / "token"
     with suppress(OSError, ValueError):
         known = file.read_text(encoding="ascii").strip()
         if len(known) >= _TOKEN:
@@ -205,15 +228,15 @@ _TOKEN = 32
 
 
 @contextmanager
-def _alone(settings: Settings) -> Iterator[None]:
-    """Let nobody else serve from this folder."""
-    with (settings.own_folder / "lock").open("a+", encoding="ascii") as lock:
+def _alone(config: StationConfig) -> Iterator[None]:
+    """Let no other station serve from this folder."""
+    with (config.own_folder / "lock").open("a+", encoding="ascii") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             lock.seek(0)
             raise BadInput(
-                f"{settings.folder}: another station is being served from there"
+                f"{config.folder}: another station is being served from there"
                 f" (process {lock.read()}): end that one, or name another folder with --folder"
             ) from None
         not_for_children(lock.fileno())
@@ -223,12 +246,12 @@ def _alone(settings: Settings) -> Iterator[None]:
         yield
 
 
-def _supervised(app: App, options: Options, settings: Settings) -> int:
+def _supervised(app: App, options: Options, config: StationConfig) -> int:
     """Let another process serve, and start it again, going on, when it crashes."""
     first = again.command(*_words(options))
 
     def done() -> int:
-        journal = place.newest_in(settings.folder)
+        journal = place.newest_in(config.folder)
         with suppress(BadInput):  # it is damaged, or another app's: the station says so
             return finished(records_in(app, journal)) if journal is not None else 0
         return 0
@@ -239,7 +262,7 @@ def _supervised(app: App, options: Options, settings: Settings) -> int:
             first=first,
             again=lambda: [*(word for word in first if word != "--open"), "--going-on"],
             finished=done,
-            over=lambda _: (settings.own_folder / LEFT).exists(),
+            over=lambda _: (config.own_folder / LEFT).exists(),
             how_to_go_on=AGAIN,
         )
     )
@@ -259,4 +282,4 @@ def _words(options: Options) -> list[str]:
     names = [word for name in options.names for word in ("--name", name)]
     where = ["--host", options.host, "--port", str(options.port), "--seed", str(options.seed)]
     opens = ["--open"] if options.open else []
-    return ["serve", *how_it_flies_in(options), "--supervised", *where, *names, *given, *opens]
+    return ["serve", *options.drone_flags, "--supervised", *where, *names, *given, *opens]

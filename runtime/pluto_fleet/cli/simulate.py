@@ -1,26 +1,28 @@
-"""`simulate`: the whole app in virtual time."""
+"""`simulate`: the whole app in virtual time, and the file of `--trace`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from copy import deepcopy
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.simulate import Outcome, outcome_data
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import duration
 from plutoc_runtime.domain.trace import Event, dumped
-from plutoc_runtime.flow.session import Outcome, outcome_data
 
 from ..flight.simulate import simulate as simulated
+from ..journal.event_line import line
 from ..process.signal_guard import Interrupted
-from .events import line_of
-from .plans import Plan, load
-from .progress import Progress, on_terminal
-from .report import report
-from .trace_file import trace_file
-from .verdict import exit_code
+from ..report.progress import Progress, simulation_progress
+from ..report.report import exit_code, report
+from ..report.sentences import line_of
+from .plans import LoadedPlan, load
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -41,11 +43,11 @@ class Halt(Interrupted):
 def simulate(app: App, options: Options) -> int:
     """Simulate the missions, once or with many seeds, and say what came of them."""
     plan = load(app, options)
-    progress = on_terminal(quiet=options.json or options.runs is not None)
+    progress = simulation_progress(quiet=options.json or options.runs is not None)
     try:
         if options.runs is None:
             return _once(app, options, plan, progress)
-        from .often import often  # one run has no need of it
+        from .runs import often  # one run has no need of it
 
         def again(seed: int) -> Outcome:
             return _fly(app, options, plan, seed, None)
@@ -55,7 +57,7 @@ def simulate(app: App, options: Options) -> int:
         progress.clear()
 
 
-def _once(app: App, options: Options, plan: Plan, progress: Progress) -> int:
+def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> int:
     watch = _watcher(options, len(plan.missions), progress)
     with trace_file(options.trace) as write:
 
@@ -83,7 +85,9 @@ def _once(app: App, options: Options, plan: Plan, progress: Progress) -> int:
     return exit_code(outcome)
 
 
-def _fly(app: App, options: Options, plan: Plan, seed: int, listener: Listener | None) -> Outcome:
+def _fly(
+    app: App, options: Options, plan: LoadedPlan, seed: int, listener: Listener | None
+) -> Outcome:
     return simulated(
         app,
         deepcopy(plan.missions),  # a run changes its missions
@@ -113,3 +117,66 @@ def _tell(event: Event, progress: Progress) -> None:
     if line is not None:
         progress.clear()
         output.line(line)
+
+
+@contextmanager
+def trace_file(path: Path | None) -> Iterator[Callable[[Event], None]]:
+    """Give a function that keeps an event; the file gets its name once everything is in it."""
+    if path is None:
+        yield _forget
+        return
+    trace = _Trace(path)
+    try:
+        yield trace.write
+        trace.finish()
+    finally:
+        trace.drop()
+
+
+def _forget(event: Event) -> None:
+    pass
+
+
+class _Trace:
+    """A trace on its way into a file."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            self._whole = Path(os.path.realpath(path))  # a link stays a link
+            if path.is_dir():
+                raise IsADirectoryError(0, "it is a folder")
+            # a pipe or a device cannot be replaced: it is written to as it is
+            replaceable = path.is_file() or not path.exists()
+            part = self._whole.with_name(f".{self._whole.name}.{os.getpid()}.part")
+            self._part = part if replaceable else None
+            self._file = (self._part or path).open("w", encoding="utf-8")
+        except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+            raise self._failed(error) from None
+
+    def write(self, event: Event) -> None:
+        """Write an event as one line."""
+        try:
+            self._file.write(line(event) + "\n")
+        except OSError as error:
+            raise self._failed(error) from None
+
+    def finish(self) -> None:
+        """Everything is written: now the file may be seen."""
+        try:
+            self._file.close()
+            if self._part is not None:
+                self._part.replace(self._whole)
+        except OSError as error:
+            raise self._failed(error) from None
+
+    def drop(self) -> None:
+        """Leave nothing half-written behind; there is nothing left after `finish`."""
+        with suppress(OSError):
+            self._file.close()
+        if self._part is not None:
+            self._part.unlink(missing_ok=True)
+
+    def _failed(self, error: Exception) -> BadInput:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        return BadInput(f"{self._path}: the trace cannot be written: {why}")

@@ -36,7 +36,7 @@ BAD_INPUT = 2
 _SIGNALS = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
 
 ENDS, STOPS = (0, 1, 4), (*(128 + number for number in _SIGNALS), 141)
-"""Exit codes of an app that meant to end: because all is over, and because somebody wanted it to."""
+"""Exit codes of an app that meant to end: because all is over, and because it was told to."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,12 +86,12 @@ class _Watch:
     """The process that runs now, and who asked that all shall end."""
 
     asked: int = 0
-    """The exit code for that; 0: nobody did."""
+    """The exit code for that; 0: it was not asked for."""
     refused: bool = False
     """Whether the process that ran last has said that it refuses to go on."""
     _child: subprocess.Popen[bytes] | None = None
     _bell: int = -1
-    """A pipe's end: whoever waits at its other end is woken by a byte."""
+    """A pipe's end: a byte in it wakes what waits at the other end."""
     _door: int = -1
 
     @contextmanager
@@ -123,7 +123,7 @@ class _Watch:
                 pass_fds=[says],
                 env={**os.environ, REFUSES: str(says)},
             )
-            if self.asked:  # in the moment before there was somebody to tell
+            if self.asked:  # in the moment before there was a process to tell
                 self._pass_on(signal.SIGTERM)
             code = self._child.wait()
             self.refused = _was_written(hears)
@@ -134,7 +134,7 @@ class _Watch:
         return 128 - code if code < 0 else code
 
     def pause(self, seconds: float) -> None:
-        """Wait, unless somebody asks that all shall end."""
+        """Wait, unless all shall end."""
         select.select([self._door], [], [], seconds)
 
     def _told(self, number: int, _: object) -> None:
@@ -149,7 +149,7 @@ class _Watch:
 
 
 def refuse() -> None:
-    """Say to whoever supervises this process, if anybody does, that it refuses to go on."""
+    """Say to this process's supervisor, if it has one, that it refuses to go on."""
     with suppress(KeyError, ValueError, OSError):
         os.write(int(os.environ[REFUSES]), b"!")
 

@@ -1,4 +1,4 @@
-"""`tell`: a command for the app that runs."""
+"""`tell` and `decide`: commands for the app that runs, and what only a person can know."""
 
 from __future__ import annotations
 
@@ -11,20 +11,23 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import in_shell
+from plutoc_runtime.domain.text import in_shell, printable, quoted
 
+from ..flight import offline
+from ..flight.offline import record_decision
+from ..flight.standing import ANSWERS, records_in, waiting
 from ..gateway.starting import cut_directly, stop_directly
 from ..jobs.reports import Down
 from ..journal.errors import missing
 from ..journal.lock import holder
 from ..journal.place import commands_note, gateway_folder
 from ..process.ipc import AnswerLost, NoAnswer, NotRunning, ask
-from . import stop_mark
-from .looked_after import looked_after
+from ..report.report import waiting_lines
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
+    from ..journal.fold import Records
     from .options import Options
 
 AT_ONCE = 1.0
@@ -53,7 +56,7 @@ def _bring_back(app: App, options: Options, request: Mapping[str, object]) -> st
     try:
         return asked(app, options, request)
     except NotRunning:
-        return looked_after(app, options.the_journal, str(request["drone"]))
+        return offline.record_return(app, options.the_journal, str(request["drone"]))
 
 
 def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
@@ -65,7 +68,7 @@ def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
         if not journal.exists():
             raise missing(journal) from None
         raise NotRunning(
-            f"{journal}: {app.name} is not running, so there is nobody to tell; "
+            f"{journal}: {app.name} is not running, so it cannot be told; "
             f"{app.name} resume {in_shell(journal)} goes on"
         ) from None
     except AnswerLost as error:
@@ -129,23 +132,23 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     journal, how = Path(os.path.realpath(options.the_journal)), Down(request["how"])
     again = f"{app.name} resume {in_shell(journal)}"
     if gateway_folder(journal).is_dir():
-        # If the app crashes meanwhile, whoever starts it again shall land as well.
-        stop_mark.leave(journal, how)
+        # If the app crashes meanwhile, the next one that is started shall land as well.
+        offline.leave_stop(journal, how)
     until = time.monotonic() + PATIENCE
     while True:
         try:
             return ask(commands_note(journal), request, AT_ONCE)
-        except (NotRunning, NoAnswer) as error:
+        except (NotRunning, NoAnswer) as unheard:
             with suppress(NotRunning):
                 said = stop_directly(gateway_folder(journal), how, PATIENCE)
-                return f"{error}: {said} without it; {again} goes on"
+                return f"{unheard}: {said} without it; {again} goes on"
         if holder(journal) is None:
             if not journal.exists():
                 raise missing(journal)
             raise NotRunning(f"{journal}: {app.name} is not running, and no drone flies")
         if time.monotonic() > until:
             raise NoAnswer(f"{journal}: {app.name} runs, but has come to no drones: end it")
-        stop_mark.leave(journal, how)  # it has only just begun: it shall not fly
+        offline.leave_stop(journal, how)  # it has only just begun: it shall not fly
         time.sleep(0.1)
 
 
@@ -161,13 +164,52 @@ def cut_motors(app: App, journal: Path, drone: str | None) -> str:
                 break
         except NoAnswer:
             raise NoAnswer(
-                f"{journal}: what commands the drones does not answer, so nobody can say whether"
+                f"{journal}: what commands the drones does not answer, so it is not known whether"
                 " their motors are cut"
             ) from None
         time.sleep(0.05)  # it may have died this moment, and be started again
     if not journal.exists():
         raise missing(journal)
     raise NotRunning(
-        f"{journal}: nobody commands its drones, so no motor can be cut from here;"
+        f"{journal}: nothing commands its drones, so no motor can be cut from here;"
         f" {app.name} resume {in_shell(journal)} reaches them again"
     )
+
+
+def decide(app: App, options: Options) -> int:
+    """Settle what a mission waits for, in the running app or in its journal."""
+    journal, mission, answer = options.the_journal, options.mission, options.answer
+    records = records_in(app, journal)
+    if mission is None:
+        listed = [*waiting_lines(app, journal, records)]
+        for line in listed or ["no mission waits for a person"]:
+            output.line(line)
+        return 0
+    # A mistaken answer may be changed for as long as nothing has come of it.
+    questions = {name: (what, why) for name, what, why in waiting(records, answered=True)}
+    if mission not in questions:
+        raise BadInput(_not_asked(journal, mission, records))
+    what, question = questions[mission]
+    if answer not in ANSWERS[what]:
+        fitting = ", ".join(ANSWERS[what])
+        raise BadInput(
+            f"{journal}: mission {quoted(mission)}: {printable(question)}; say one of: {fitting}"
+        )
+    try:
+        request = {"command": "decide", "mission": mission, "answer": answer}
+        output.line(asked(app, options, request))
+    except NotRunning:
+        record_decision(journal, mission, answer, records.time)
+        output.line(
+            f"mission {quoted(mission)}: {answer}; it is on record, and "
+            f"{app.name} resume {in_shell(journal)} acts on it"
+        )
+    return 0
+
+
+def _not_asked(journal: Path, mission: str, records: Records) -> str:
+    known = mission in records.missions
+    what = "waits for no decision" if known else "is not in this journal"
+    others = ", ".join(quoted(name) for name, _, _ in waiting(records))
+    rest = f"; those that wait are: {others}" if others else ""
+    return f"{journal}: mission {quoted(mission)} {what}{rest}"

@@ -104,7 +104,7 @@ def _entries(session: CrazyflieSession) -> int:
 
 
 def _ask_again(session: CrazyflieSession) -> None:
-    """Ask once more what cflib asks only once: who it is, and its protocol's version."""
+    """Ask once more what cflib asks only once: what it is, and its protocol's version."""
     cf = session.cf
     if cf.platform.get_protocol_version() < 0:
         port = PLATFORM if session.answered else LINK_CONTROL

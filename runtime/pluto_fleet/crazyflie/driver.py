@@ -112,7 +112,7 @@ _HANGS = 0.3
 
 
 class NullLink:
-    """A link without an other end, for what cflib sends and expects while it is put away."""
+    """A link that ends nowhere, for what cflib sends and expects while it is put away."""
 
     needs_resending = False
 

@@ -50,7 +50,7 @@ class CrazyflieOptions:
     starts_at_home: bool
     """It knows only how far it has flown: it is told that it stands at home."""
     addresses: tuple[str, ...]
-    """Radio addresses to look at when looking who is there."""
+    """Radio addresses to look at in a scan."""
     udp: tuple[str, ...]
     """Simulated drones to look at then."""
 

@@ -105,7 +105,7 @@ async def recover_from_crash(session: CrazyflieSession) -> None:
     def send(cf: Cf) -> None:
         cf.supervisor.send_crash_recovery_request()
 
-    answer = await answered(session, (SUPERVISOR, _RECOVER), send, "recover_from_crash", well=False)
+    answer = await answered(session, (SUPERVISOR, _RECOVER), send, "recover", well=False)
     done = answer[1] == _DONE
     if not done or await session.until(lambda now: not now.crashed, _RECOVERED, well=False) is None:
         raise NotReady(messages.not_recovered(session.drone))

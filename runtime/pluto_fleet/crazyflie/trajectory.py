@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from math import dist, inf, isfinite, sqrt
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
 
 from . import messages, parameters
 
@@ -41,7 +41,7 @@ REST = 0.15
 """Metres per second below which it hovers: wind and beacons let it sway."""
 
 _AHEAD, _BRAKE = 0.2, 3.6
-"""The share of the way that it would make while it stops, which it is let go on: it cannot braking at once,
+"""The share of the way that it would make while it stops, which it is let go on: it cannot stop at once,
 and is flown back less. What it then brakes with, at one metre per second and in one second."""
 _SOON, _RECENT = 0.05, 0.5
 """Seconds between two states, by the drone's clock, from which a speed can be told."""
@@ -50,7 +50,7 @@ _LOOK = 0.3
 _FASTEST = 5.0
 """Metres per second; what seems faster is a position that has jumped, or a clock."""
 _FARTHEST = 1.0
-"""Metres that it may take to braking."""
+"""Metres that it may take to stop."""
 _LOWEST = 0.2
 """Metres above the ground at which it may hover."""
 
@@ -88,7 +88,7 @@ def hovers(states: Sequence[State], off: Callable[[State], float]) -> bool:
 
 
 def braking(before: State | None, state: State) -> tuple[Point, float]:
-    """Return where a drone is to hover that is to braking now, and how long that takes.
+    """Return where a drone is to hover that is to stop now, and how long that takes.
 
     That is never far, even if its telemetry is wrong: else it is where it says that it is.
     """

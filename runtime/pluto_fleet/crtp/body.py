@@ -53,7 +53,7 @@ class Profile:
 def profile(start: AxisState, end: float, duration: float) -> Profile:
     """Plan from a state to rest at the end.
 
-    Whoever is moving at the start flies past the end and comes back, if there is no room to brake:
+    A drone that is moving at the start flies past the end and comes back, if there is no room to brake:
     as the firmware's planner does.
     """
     v, a = start.velocity * duration, start.acceleration * duration**2

@@ -46,7 +46,7 @@ STOP = bytes(14)
 
 
 def hover(height: float) -> bytes:
-    """Return the setpoint of somebody who lets it hover where it is."""
+    """Return the setpoint that lets it hover where it is."""
     return struct.pack("<Bffff", Setpoint.HOVER, 0.0, 0.0, 0.0, height)
 
 

@@ -55,7 +55,7 @@ class Build:
     shuts_down: bool = False
     """Whether its battery switches it off at 3.0 V a cell; few builds do that."""
     knows_where: bool = True
-    """Whether it finds its position by itself; else only while somebody tells it."""
+    """Whether it finds its position by itself; else only while it is told."""
     noise: float = NOISE
     """Metres that a position is off, usually: 0.01 for Lighthouse, 0.05 to 0.15 for UWB."""
     rate: float = RATE
@@ -64,7 +64,7 @@ class Build:
 
 
 class SimulatedCrazyflie:
-    """A drone; whatever it sends goes to `send`. Times are those of `time.monotonic`."""
+    """A drone; what it sends goes to `send`. Times are those of `time.monotonic`."""
 
     def __init__(self, build: Build, log: FlightLog, send: Callable[[bytes], None]) -> None:
         self.build, self._log, self._send = build, log, send
@@ -146,7 +146,7 @@ class SimulatedCrazyflie:
                 self._send(raw)
 
     def hear(self, raw: bytes) -> None:
-        """Take a packet from somebody else, now."""
+        """Take a packet from another sender, now."""
         self.receive(raw, self._now)
 
     def receive(self, raw: bytes, now: float) -> None:
@@ -192,7 +192,7 @@ class SimulatedCrazyflie:
 
     def _link(self, channel: int, data: bytes) -> None:
         if channel == 1:
-            self.note("asked")  # whoever connects begins with it
+            self.note("asked")  # a client begins with it
             self._send(packed(Port.LINK, 1, _WHO))
         elif channel in (0, 3):
             self._send(packed(Port.LINK, channel, data))

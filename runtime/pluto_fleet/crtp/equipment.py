@@ -37,7 +37,7 @@ def frames(number: int) -> bytes:
 
 
 async def camera(port: int = 0) -> asyncio.Server:
-    """Stream pictures to whoever connects; close what is returned to end it."""
+    """Stream pictures to every client; close what is returned to end it."""
     return await asyncio.start_server(_stream, HOST, port)
 
 
@@ -63,7 +63,7 @@ def port_of(server: asyncio.Server) -> int:
 
 _SENSORS = {"temperature": "bme.temp", "humidity": "bme.humidity", "pressure": "baro.pressure"}
 _ANY = {"*": "sim.measured"}
-"""A sensor for every other quantity, also for those that nobody has asked for yet."""
+"""A sensor for every other quantity, also for those that were not asked for yet."""
 _GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.5}
 
 

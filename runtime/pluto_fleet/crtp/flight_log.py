@@ -38,7 +38,7 @@ class PositionRecord(NamedTuple):
 
 
 class FlightLog(Protocol):
-    """Whoever is told what happens; times are those of `time.monotonic`."""
+    """Told what happens; times are those of `time.monotonic`."""
 
     def command(self, command: CommandRecord) -> None:
         """Hear of a command."""

@@ -13,7 +13,7 @@ from random import Random
 from typing import NamedTuple
 
 NULL = b"\xff"
-"""Says nothing; whoever looks for drones sends it, and is answered the same."""
+"""Says nothing; a scan for drones sends it, and is answered the same."""
 
 PROTOCOL = 12
 """The version of the protocol that is spoken."""

@@ -59,7 +59,7 @@ class Parameter:
 
 
 class Parameters:
-    """The parameters of one drone; `changed` is told of each that somebody sets."""
+    """The parameters of one drone; `changed` is told of each that is set."""
 
     def __init__(
         self, parameters: Sequence[Parameter], changed: Callable[[str, float], None]

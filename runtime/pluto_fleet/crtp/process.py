@@ -1,6 +1,6 @@
-"""Simulated drones as a process of its own, which outlives whoever flies them, as real ones would.
+"""Simulated drones as a process of its own, which outlives the program that flies them, as real ones would.
 
-It ends when all are on the ground and nobody has talked to any for a while. Whoever starts it again
+It ends when all are on the ground and none was talked to for a while. A program that starts it again
 finds the drones where they were, at the same ports if those are still free.
 """
 
@@ -35,7 +35,7 @@ COMMAND = "crtp"
 GATEWAY_LOCK = "lock"
 """What the gateway of a flight keeps locked in this folder."""
 _IDLE = 60.0
-"""Seconds with nobody in the air and nobody who talks, after which it ends."""
+"""Seconds without a drone in the air and without a packet, after which it ends."""
 _PATIENCE = 10.0
 """Seconds that it may take to begin, or to answer."""
 _LOOK = 1.0
@@ -101,7 +101,7 @@ def end(folder: Path) -> None:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run the simulated drones of a folder until nobody needs them."""
+    """Run the simulated drones of a folder until they are not needed."""
     folder = Path(*arguments[:1])
     if len(arguments) != 1 or not (folder / DRONES).is_file():
         print(_FOR_APPS, file=sys.stderr)
@@ -191,7 +191,7 @@ def _build(id: str, number: int, data: Mapping[str, Any]) -> Build:
 def _restore(drone: SimulatedCrazyflie, data: Mapping[str, Any]) -> None:
     if "at" in data:
         x, y, _ = data["at"]
-        drone.body.place((x, y, 0.0))  # whatever flew has fallen meanwhile
+        drone.body.place((x, y, 0.0))  # what flew has fallen meanwhile
         drone.body.yaw = data["yaw"]
 
 

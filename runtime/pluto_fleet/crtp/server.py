@@ -56,7 +56,7 @@ class Endpoint(asyncio.DatagramProtocol):
         self._port = self._transport.get_extra_info("sockname")[1]
 
     def close(self) -> None:
-        """Listen no more: whoever talks to it is told that nobody is there."""
+        """Listen no more: a client is told that the port is closed."""
         if self._transport is not None:
             self._transport.close()
             self._transport = None
@@ -72,7 +72,7 @@ class Endpoint(asyncio.DatagramProtocol):
             self._receive(data, addr)
 
     def _receive(self, data: bytes, addr: Address) -> None:
-        if data == NULL:  # somebody looks who is there, and talks to nobody yet
+        if data == NULL:  # a scan for drones, and no client yet
             if self.drone.answers:
                 self._sendto(NULL, addr)
             return

@@ -1,4 +1,4 @@
-"""What a drone is told, one thing after the other; whatever is broken off ends in a hover."""
+"""What a drone is told, one thing after the other; what is broken off ends in a hover."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 T = TypeVar("T")
 
 _CANNOT_HOVER = frozenset({Failure.LINK, Failure.CRASH})
-"""Who has failed so cannot be told to hover."""
+"""Failures after which a drone cannot be told to hover."""
 
 
 class CommandQueue:
@@ -30,7 +30,7 @@ class CommandQueue:
     async def run(self, doing: str, work: Callable[[], Coroutine[Any, Any, T]]) -> T:
         """Do this when all else is done; raise `FlightFailed` as soon as it is broken off.
 
-        Whoever cancels it, breaks it off or lets it fail leaves the drone hovering.
+        When it is cancelled, broken off or fails, the drone is left hovering.
         """
         async with self._turn:
             await self._braked()
@@ -59,7 +59,7 @@ class CommandQueue:
             self._over.set_exception(error)
 
     def release(self) -> None:
-        """Do not wait until it hovers: nobody wants that any longer."""
+        """Do not wait until it hovers."""
         if self._brake is not None:
             self._brake.cancel()
 
@@ -79,7 +79,7 @@ class CommandQueue:
             await self._hold()
 
     async def _braked(self) -> None:
-        """Wait until it hovers, or cannot; whoever is cancelled meanwhile leaves that going on."""
+        """Wait until it hovers, or cannot; that goes on when this is cancelled."""
         brake = self._brake
         if brake is not None:
             await asyncio.wait((brake,))
@@ -90,6 +90,6 @@ class CommandQueue:
 
 
 def _heard(task: asyncio.Task[Any]) -> None:
-    """Whatever it ended with, somebody else has been told why."""
+    """Take note of how it ended: its caller has been told why."""
     if not task.cancelled():
         task.exception()

@@ -110,7 +110,7 @@ async def _fly_to(vehicle: Vehicle, target: Point) -> None:
 
 
 async def fly(vehicle: Vehicle, target: Point) -> None:
-    """Fly straight to a point, whatever it takes no commands for."""
+    """Fly straight to a point, also where it takes no commands."""
     seconds = dist(vehicle.telemetry.location, target) / min(vehicle.speed, SLOWEST_PLANNED)
     what = f"arrive at {place(target)}"
     await vehicle.go(what, seconds, vehicle.navigation.go_to, target, vehicle.speed)
@@ -122,7 +122,7 @@ async def land(vehicle: Vehicle) -> None:
 
 
 async def descend(vehicle: Vehicle) -> None:
-    """Land here, whatever it takes no commands for, if only it is linked."""
+    """Land here, also where it takes no commands, if only it is linked."""
     if vehicle.telemetry.landed:
         return
     if vehicle.is_cut:
@@ -149,7 +149,7 @@ async def _hold(vehicle: Vehicle) -> None:
 
 
 async def cut(vehicle: Vehicle) -> None:
-    """Switch its motors off, now: whatever it does ends so, and it does not even hover."""
+    """Switch its motors off, now: what it does ends, and it does not even hover."""
     vehicle.is_cut = True
     vehicle.commands.release()
     try:

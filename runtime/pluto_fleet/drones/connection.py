@@ -26,7 +26,7 @@ WAIT_FOR_CONNECTION = 15.0
 ATTEMPT_LIMIT = 60.0
 """Seconds that an attempt may take, waited for or not: the first over a busy radio is slow."""
 PAUSES = (1.0, 2.0, 4.0, 5.0)
-"""Seconds between attempts; the last for as long as it may fly, or somebody waits for it."""
+"""Seconds between attempts; the last for as long as it may fly, or while it is waited for."""
 PAUSE_ON_GROUND = 30.0
 """Seconds between attempts for one that stands on the ground: others need the radio."""
 FRESH = 1.0
@@ -70,7 +70,7 @@ class Connection:
         return vehicle.linked
 
     async def within(self, limit: float) -> bool:
-        """Wait until it is linked, and say whether it is; after that nobody waits any longer."""
+        """Wait until it is linked, and say whether it is; after that it counts as given up."""
         self._given_up = False
         self._wanted.set()
         self._waiting += 1
@@ -130,7 +130,7 @@ class Connection:
             self._vehicle.calls.say(why)
 
     def _is_back(self, flew: bool) -> None:
-        """It was lost meanwhile: it hovers on, or somebody has switched it off and on."""
+        """It was lost meanwhile: it hovers on, or was switched off and on."""
         vehicle, telemetry = self._vehicle, self._vehicle.telemetry
         where = place(telemetry.location)
         if telemetry.landed:
@@ -152,7 +152,7 @@ _LANDING_ATTEMPTS, _BETWEEN_LANDINGS = 3, 1.0
 async def close(team: Sequence[tuple[Vehicle, Connection]]) -> None:
     """Land all that fly, wait until they have landed, and let go of each.
 
-    One limit holds for all landings: who must be connected to first has as long as who flies highest.
+    One limit holds for all landings: one that must be connected to first has as long as the one that flies highest.
     """
     slowest = max((_seconds(vehicle) for vehicle, _ in team), default=0.0)
     until = asyncio.get_running_loop().time() + WAIT_FOR_CONNECTION + slowest

@@ -13,7 +13,7 @@ from typing import ClassVar
 class NavigationError(Exception):
     """A drone could not do what it was told, for a reason that the world is to blame for.
 
-    Whatever else a navigation raises is a mistake in it: the flight fails, saying so, and the
+    Any other exception of a navigation is a mistake in it: the flight fails, saying so, and the
     mistake goes to the log with its traceback.
     """
 
@@ -24,7 +24,7 @@ class NavigationError(Exception):
 class LinkLost(NavigationError):
     """It does not answer, or has not told anything for more than a second.
 
-    Where it is nobody knows; it is connected to again, and flown home if it still hovers.
+    Where it is is unknown; it is connected to again, and flown home if it still hovers.
     """
 
     failure = "LINK"
@@ -37,7 +37,7 @@ class Crashed(NavigationError):
 
 
 class Locked(NavigationError):
-    """Its motors are locked until somebody switches it off and on."""
+    """Its motors are locked until it is switched off and on."""
 
     failure = "CRASH"
 

@@ -151,7 +151,7 @@ def _imported(kind: PluginKind, name: str, module: str, path: str) -> object:
 
 @contextmanager
 def _only_what_is_installed() -> Iterator[None]:
-    """Look for no module in the folder where somebody happens to be, as `python -m` would.
+    """Look for no module in the current folder, as `python -m` would.
 
     Nor does the gateway's process: so both find the same.
     """

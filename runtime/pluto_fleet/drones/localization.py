@@ -1,4 +1,4 @@
-"""Positions that are measured from outside: who measures them, and how they are fed to the drones.
+"""Positions that are measured from outside: what measures them, and how they are fed to the drones.
 
 A drone that estimates its own position (by a Lighthouse deck, Loco anchors, a flow deck, GPS) needs
 nothing of this: that is the localization `own`. Any other is a class of a user's, named in the fleet
@@ -27,12 +27,12 @@ OWN = "own"
 
 
 class Localization(Protocol):
-    """Somebody who sees the drones; the class is called with the table `[localization]`."""
+    """A system that measures where drones are; the class is called with the table `[localization]`."""
 
     def positions(self) -> AsyncIterator[tuple[str, Point]]:
-        """Return who is where, for as long as anybody iterates: the drone's id, and its position.
+        """Yield positions for as long as they are wanted: the drone's id, and where it is.
 
-        Metres, in the map's frame: who measures in another one converts here. At least ten times a
+        Metres, in the map's frame: positions in another frame are converted here. At least ten times a
         second for each drone; one that has had none for a second may not take off, and its flight
         fails. A drone that cannot be seen is left out, never given its last place again.
 
@@ -47,9 +47,9 @@ SILENCE = 1.0
 PAUSE = 1.0
 """Seconds until a source that ended is asked again."""
 _MISTAKES: tuple[type[Exception], ...] = (Exception,)
-"""Whatever a class of somebody else's raises: it is put into the log, and nothing else stops."""
+"""What a class of a user's raises is put into the log, and nothing else stops."""
 _MOST_SENTENCES = 20
-"""How many strangers are named: a source may make up ever new ones."""
+"""How many unknown drones are named: a source may make up ever new ones."""
 
 
 class LocalizationFeed:

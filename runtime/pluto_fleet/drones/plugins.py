@@ -42,7 +42,7 @@ class PluginKind:
     argument: str
     """What the class is called with."""
     such_as: str
-    """One that somebody could write."""
+    """An example of a name."""
     methods: tuple[Method, ...]
     together: tuple[tuple[Method, ...], ...] = ()
     """What only some have: all of such a group, or none of it."""

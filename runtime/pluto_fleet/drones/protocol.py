@@ -1,6 +1,6 @@
 """How one drone is flown: what a class must have for an app to fly with it (thesis 4.4).
 
-Metres, seconds, radians, volts, in the map's frame: whoever wraps a library that counts in feet or
+Metres, seconds, radians, volts, in the map's frame: a class that wraps a library that counts in feet or
 from the place of take-off converts, here and nowhere else. `docs/navigation.md` has one in forty
 lines, and `conformance` tests any.
 
@@ -40,7 +40,7 @@ LINK_LOST = "link lost"
 CRASHED = "crashed"
 """It fell, hit something or lies on its back."""
 LOCKED = "locked"
-"""It will not fly until somebody switches it off and on."""
+"""It will not fly until it is switched off and on."""
 BATTERY_LOW = "battery low"
 """It must come down now, where it is."""
 POSITION_LOST = "position lost"
@@ -54,7 +54,7 @@ class DroneTelemetry:
     time: float
     """When it told this, by `time.monotonic()`; minus infinity: it has not told anything yet.
 
-    This is how silence is seen: it must not be the time at which somebody asks.
+    This is how silence is seen: it must not be the time at which it is asked.
     """
     position: Point
     """Metres, in the map's frame: x and y along the map, z up from its ground."""
@@ -70,7 +70,7 @@ class DroneTelemetry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneEvent:
-    """Something that happened to a drone, which nobody has asked for."""
+    """Something that happened to a drone without a command."""
 
     kind: str
     """`LINK_LOST`, `CRASHED`, `LOCKED`, `BATTERY_LOW` or `POSITION_LOST`; others are only put into the log."""
@@ -168,7 +168,7 @@ class DroneNavigation(Protocol):
         ...
 
     def events(self) -> AsyncIterator[DroneEvent]:
-        """Return what happens to it that nobody has asked for, from when it was made until `close`.
+        """Return what happens to it without a command, from when it was made until `close`.
 
         Iterated over once. Tell each thing once, when it begins.
         """
@@ -212,7 +212,7 @@ class Readable(Protocol):
 
 @runtime_checkable
 class Locatable(Protocol):
-    """A drone that can be told where it is, by whoever sees it from outside."""
+    """A drone that can be told its position, as measured from outside."""
 
     async def locate(self, position: Point) -> None:
         """Hear where it is now, in the map's frame: many times a second. Waits for no answer."""
@@ -221,7 +221,7 @@ class Locatable(Protocol):
 
 @runtime_checkable
 class CaredFor(Protocol):
-    """A drone that must be told that somebody has looked after it, before it flies again."""
+    """A drone that must be told that a person has looked after it, before it flies again."""
 
     async def looked_after(self) -> None:
         """Forget what has happened to it, a crash, say; starts no motor.
@@ -242,7 +242,7 @@ class Identifiable(Protocol):
 
 @runtime_checkable
 class Scannable(Protocol):
-    """A class, not a drone: one that can look who is there."""
+    """A class, not a drone: one that can look which drones are there."""
 
     async def scan(self, options: Mapping[str, object]) -> Sequence[str]:
         """Return the URIs of all drones that answer; a static method of the class.

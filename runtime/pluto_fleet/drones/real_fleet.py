@@ -32,7 +32,7 @@ class RealDrone:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RequiredAction:
-    """A built-in action that the plan asks for: who cannot do it is not ready."""
+    """A built-in action that the plan asks for: a drone that cannot do it is not ready."""
 
     action: str
     parameters: Mapping[str, Plain]
@@ -44,7 +44,7 @@ class RealFleet:
 
     drones: tuple[RealDrone, ...]
     localization: str
-    """Who tells them where they are: `own`, a name, or `module:Class`."""
+    """What tells them where they are: `own`, a name, or `module:Class`."""
     localization_options: Mapping[str, object]
     wanted: tuple[RequiredAction, ...] = ()
 

@@ -20,7 +20,7 @@ RECONNECT_LIMIT = 120.0
 READY_LIMIT = 10.0
 """Seconds that one on the ground gets until it is ready: its position may have to settle."""
 HOME_LIMIT = 600.0
-"""Seconds within which somebody must have put it home."""
+"""Seconds within which a person must have put it home."""
 BETWEEN_LOOKS = 2.0
 """Seconds between two looks."""
 
@@ -70,9 +70,9 @@ async def _is_ready(vehicle: Vehicle) -> bool:
 
 
 async def wait_until_home(vehicle: Vehicle) -> bool:
-    """Wait until a drone stands at home, ready; False: nobody has put it there, or it has crashed.
+    """Wait until a drone stands at home, ready; False: it was not put there in time, or has crashed.
 
-    One that has crashed on its way is lost: else nobody could say that it was looked after.
+    One that has crashed on its way is lost: else it could not be said that it was looked after.
     """
     said: tuple[str, ...] = ()
     try:
@@ -92,7 +92,7 @@ async def wait_until_home(vehicle: Vehicle) -> bool:
 
 
 def _lands(vehicle: Vehicle) -> None:
-    """See to it that a drone comes down which nobody commands any more."""
+    """See to it that a drone comes down which is not commanded any more."""
     if vehicle.linked and not vehicle.telemetry.landed and not vehicle.must_land:
         where = place(vehicle.telemetry.location)
         why = f"{vehicle.id} could not be flown home: it lands at {where}"

@@ -12,11 +12,11 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING
 
-from pluto_fleet.jobs.landing_sites import free_spot
 from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
 from plutoc_runtime.domain.geometry import Polygon, distance, inside, tidy
 from plutoc_runtime.domain.text import duration, number, percent, place
 
+from ..jobs.landing_sites import free_spot
 from .commands import descend, fly
 from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from .timeouts import shortened
@@ -74,7 +74,7 @@ _CLEARANCE = 0.5
 
 
 async def land_by_itself(vehicle: Vehicle, airspace: Airspace, others: Sequence[Point]) -> None:
-    """Land here; who is over a no-fly area flies out of it first, the shortest way.
+    """Land here; one that is over a no-fly area flies out of it first, the shortest way.
 
     One that does not know where it is goes nowhere: it stops, and lands.
     """
@@ -99,7 +99,7 @@ async def _down(vehicle: Vehicle, airspace: Airspace, others: Sequence[Point]) -
 
 
 BETWEEN_EVENTS = 0.01
-"""Seconds between two events: one that never ends to have news would let nobody else do anything."""
+"""Seconds between two events: one that never ends to have news would block the loop."""
 
 
 async def follow_events(vehicle: Vehicle) -> None:
@@ -148,7 +148,7 @@ EMPTY, LOW_FOR = 0.03, 3.0
 FALLEN_FOR = 1.0
 """Seconds on the ground in the midst of a flight after which it must have fallen."""
 LATE = 0.3
-"""Seconds by which a look may be late before the log says so: nobody watches meanwhile."""
+"""Seconds by which a look may be late before the log says so: the drones are not watched meanwhile."""
 
 
 class SafetyMonitor:
@@ -175,14 +175,14 @@ class SafetyMonitor:
             self.look(vehicle, late)
 
     def stop(self) -> list[asyncio.Task[None]]:
-        """Bring nobody down any more; return what ends now."""
+        """Bring no drone down any more; return what ends now."""
         landings = list(self._landings.values())
         for task in landings:
             task.cancel()
         return landings
 
     def look(self, vehicle: Vehicle, late: float) -> None:
-        """Look at one drone; what it told while nobody could hear counts as told now."""
+        """Look at one drone; what it told while the loop was blocked counts as told now."""
         telemetry = vehicle.telemetry
         if not vehicle.linked:
             return

@@ -188,11 +188,11 @@ class Team:
         )
 
     async def fetched(self, drone: str) -> bool:
-        """Wait until a person has put a drone back into its dock, well; False: that does not happen."""
+        """Wait until a person has put a drone back into its dock, well; False: not in time."""
         return bool(await self._kernel.call_hook(wait_until_home, self._vehicles[drone]))
 
     def unload(self, drone: str) -> None:
-        """Take off what it carries: a person meets it in its dock."""
+        """What it carries is taken off."""
         self._cargo.carries(drone, None)
 
     async def drone_report(self, drone: str) -> DroneReport:

@@ -24,7 +24,6 @@ T = TypeVar("T")
 
 SILENCE = 1.0
 """Seconds without a word, after which a link is lost."""
-_LOOK = 0.02
 
 
 class Reports:
@@ -39,6 +38,7 @@ class Reports:
         self.crashed = ""
         """Why it is said to have crashed, if it has."""
         self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
+        self._told = asyncio.Event()
 
     def tell(
         self,
@@ -62,19 +62,21 @@ class Reports:
         if crashed and not self.crashed:
             self.happened(CRASHED, crashed)
         self.crashed = crashed
+        self._told.set()
+        self._told = asyncio.Event()
 
     def from_thread(self, hear: Callable[[T], object]) -> Callable[[T], object]:
         """Return what any thread may call, for `hear` to be called within the event loop."""
         loop = asyncio.get_running_loop()
 
         def hand_over(told: T) -> None:
-            with suppress(RuntimeError):  # the loop is closed: nobody wants to hear any more
+            with suppress(RuntimeError):  # the loop is closed
                 loop.call_soon_threadsafe(hear, told)
 
         return hand_over
 
     def happened(self, kind: str, reason: str) -> None:
-        """Tell of something that nobody has asked for, once."""
+        """Tell of something that happened without a command, once."""
         self._events.put_nowait(DroneEvent(kind=kind, reason=reason))
 
     def refuse(self, target: Point, speed: float) -> None:
@@ -101,7 +103,9 @@ class Reports:
                 raise LinkLost(f"{self._id} has told nothing for {SILENCE:.0f} s")
             if now - began > seconds:
                 raise TargetTimeout(f"{self._id} is not there after {seconds:.0f} s")
-            await asyncio.sleep(_LOOK)
+            with suppress(TimeoutError):
+                async with asyncio.timeout(SILENCE / 10):
+                    await self._told.wait()
 
     async def events(self) -> AsyncIterator[DroneEvent]:
         """Yield what happens, until `close`."""
@@ -131,7 +135,7 @@ class Sample:
 
 
 class VehicleTelemetry:
-    """A drone's telemetry, for all who want to know: it stays current.
+    """A drone's telemetry, for all subscribers: it stays current.
 
     Before its first word it stands at home, with nothing in its battery.
     """
@@ -185,7 +189,7 @@ class VehicleTelemetry:
 
     @property
     def landed(self) -> bool:
-        """Whether it is on the ground; who was silent for longer than it can fly must be."""
+        """Whether it is on the ground; one that was silent for longer than it can fly must be."""
         last, now = self.look(), self._calls.clock()
         if now < self.rises_until:
             return False

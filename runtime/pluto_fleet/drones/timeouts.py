@@ -43,7 +43,7 @@ class _Timed(Generic[T]):
 
 
 async def _awaiting(awaited: Awaitable[T]) -> T:
-    """Whatever it is, a coroutine can be driven by hand."""
+    """Make a coroutine of any awaitable: that can be driven by hand."""
     return await awaited
 
 
@@ -65,7 +65,7 @@ class NavigationCalls:
     ) -> None:
         self.drone, self.say, self.clock = drone, say, clock
         self._strays: set[asyncio.Task[Any]] = set()
-        """NavigationCalls that nobody waits for any more, and that have not ended."""
+        """Calls that were given up and have not ended."""
         self._said: dict[str, float] = {}
 
     async def call(
@@ -73,7 +73,7 @@ class NavigationCalls:
     ) -> T:
         """Return what a method gives; raise `FlightFailed` for all it may end with.
 
-        Whoever cancels this cancels the method, and need not wait for it: see `parted`.
+        Cancelling this cancels the method, without waiting for it: see `parted`.
         """
         task = asyncio.ensure_future(self._outcome(what, partial(method, *args)))
         try:
@@ -144,7 +144,7 @@ class NavigationCalls:
         return lambda: value
 
     def _failure(self, what: str, error: BaseException) -> FlightFailed:
-        """Return what becomes of a flight; by what the error says of itself, whatever its class."""
+        """Return what becomes of a flight; by what the error says of itself, not by its class."""
         failure = _named(error)
         if failure is None:
             return self.mistake(what, error)

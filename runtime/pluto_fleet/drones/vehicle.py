@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import place
-from plutoc_runtime.fleet.energy import CLIMB_SPEED, docked
+from plutoc_runtime.fleet.reach import CLIMB_SPEED, docked
 
 from .command_queue import CommandQueue
 from .protocol import CaredFor
@@ -110,7 +110,7 @@ class Vehicle:
     ) -> None:
         self.drone, self.id, self.navigation = drone, drone.id, drone.navigation
         self.position_problem: Callable[[], str | None] = _seeing
-        """Says why it does not know where it is, if somebody else must tell it and does not."""
+        """Says why it does not know where it is, if it must be told its position and is not."""
         self.missing_actions: Callable[[], tuple[str, ...]] = tuple
         """Says what the plan asks for, and its hardware does not do."""
         self.cargo, self.calls = cargo, NavigationCalls(drone.id, say, clock)
@@ -122,7 +122,7 @@ class Vehicle:
         )
         self.commands = CommandQueue(self.hover)
         self.linked = False
-        self.on_lost: Callable[[], object] = _nobody
+        self.on_lost: Callable[[], object] = _nothing
         """Told when its link is lost."""
         self.out_of_reach = f"{drone.id} has not been reached yet"
         """Why it is not linked, if it is not."""
@@ -131,7 +131,7 @@ class Vehicle:
         self.down: FlightFailed | None = None
         """Why it takes no commands though it is linked, if it takes none."""
         self.needs_person = False
-        """Only somebody who has put it home ends that."""
+        """Only a person who has put it home ends that."""
         self.looked_after = False
         """A person has looked after it, which it has not been told yet."""
         self.is_cut = False
@@ -181,7 +181,7 @@ class Vehicle:
         self.commands.fail(FlightFailed(Failure.LINK, self.out_of_reach))
 
     def crashed(self, why: str) -> None:
-        """It fell out of the air: somebody must look after it."""
+        """It fell out of the air: a person must look after it."""
         self.must_land = False
         self.refuse(FlightFailed(Failure.CRASH, why))
 
@@ -213,7 +213,7 @@ class Vehicle:
     async def report_care(self) -> bool:
         """Tell it that a person has looked after it, if one has and it wants to know; False: in vain.
 
-        One that flies need not know: what befalls it later nobody has looked after.
+        One that flies need not know: what befalls it later has not been looked after.
         """
         if not (self.looked_after and self.linked):
             return True
@@ -245,7 +245,7 @@ class Vehicle:
         return told if blind is None else (*told, blind)
 
     def break_off(self) -> None:
-        """Stop whatever it does, and hover; but who must land does."""
+        """Stop what it does, and hover; but one that must land does."""
         if not self.must_land:
             why = f"{self.id} was told to break it off"
             self.commands.fail(FlightFailed(Failure.REFUSED, why))
@@ -280,7 +280,7 @@ class Vehicle:
         return holds()
 
     async def hover(self) -> None:
-        """Hover, after whatever was broken off; where it cannot, the log says why."""
+        """Hover, after a command was broken off; where it cannot, the log says why."""
         await self.calls.parted()
         if self.linked and not self.telemetry.landed and not self.is_cut:
             try:
@@ -289,8 +289,8 @@ class Vehicle:
                 self.calls.say(f"{self.id} was to hover: {error}")
 
 
-def _nobody() -> None:
-    """Nobody is told."""
+def _nothing() -> None:
+    """Tells of no lost link."""
 
 
 def _seeing() -> None:

@@ -34,8 +34,8 @@ from .reconcile import (
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone, Trip
+    from plutoc_runtime.flow.engine import Session
     from plutoc_runtime.flow.mission import MissionState
-    from plutoc_runtime.flow.session import Session
     from plutoc_runtime.trips.flight import Flight
 
     from ..jobs.job import CommandLink
@@ -70,7 +70,7 @@ class Control:
             for work in self._steps_out.values():
                 work.cancel()
             if self.whole is not None:
-                self.whole.cancel()  # a roll call may be under way: nothing may begin after it
+                self.whole.cancel()  # drones may be reporting: nothing may begin after that
             core.trace.note("stopped", how=how.value)
         else:
             self._stops.cancel()

@@ -13,8 +13,8 @@ from plutoc_runtime.time.kernel import Task, mission_key
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission
+    from plutoc_runtime.flow.engine import Session
     from plutoc_runtime.flow.mission import Core
-    from plutoc_runtime.flow.session import Session
 
 
 class LiveEngine(Engine):

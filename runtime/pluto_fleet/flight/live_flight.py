@@ -49,7 +49,7 @@ _ENDED = "the app ended before it could say whether that was done: look, once it
 
 
 class LiveFlight:
-    """From its roll call to its last word."""
+    """From the first report of its drones to its last word."""
 
     def __init__(self, setting: FlightConfig, store: Store, records: Records, begin: float) -> None:
         self._setting, self._store = setting, store

@@ -1,7 +1,7 @@
 """One life of an app that keeps a journal: from its start, or from where an earlier one ended.
 
 An app lives until its last mission has ended, until it is stopped, or until its process dies. The
-next life begins with the journal's records and a roll call of the drones, whichever it was.
+next life begins with the journal's records and a report of the drones, however it ended.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import of, quoted
-from plutoc_runtime.flow.session import Listener, Session
+from plutoc_runtime.flow.engine import Listener, Session
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..files.reading import shortened

@@ -1,4 +1,4 @@
-"""From the records of an earlier life of the app, and a roll call of the drones, to living missions."""
+"""From the records of an earlier life of the app, and a report of the drones, to living missions."""
 
 from __future__ import annotations
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.simulate import Bound, see_through
+from plutoc_runtime.alone.simulate import Bound, Outcome, see_through
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.flow.session import Listener, Outcome, Session
+from plutoc_runtime.flow.engine import Listener, Session
 from plutoc_runtime.time.kernel import Kernel
 from plutoc_runtime.time.virtual import VirtualTime
 

@@ -11,7 +11,7 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.fleet.energy import docked
+from plutoc_runtime.fleet.reach import docked
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..jobs.reports import Down

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.domain.airspace import way_from
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import number
-from plutoc_runtime.fleet.navigation import way_from
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace

@@ -9,7 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
-from plutoc_runtime.fleet.energy import docked, flight_seconds
+from plutoc_runtime.fleet.reach import docked, flight_seconds
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..jobs.job import motors_cut

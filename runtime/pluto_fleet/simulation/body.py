@@ -13,9 +13,9 @@ from operator import is_
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.alone.faults import Drawn, befell
-from plutoc_runtime.alone.motion import Charge, Leg, standing
+from plutoc_runtime.alone.ideal import Charge, Leg, standing
 from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.fleet.energy import CLIMB_SPEED, docked
+from plutoc_runtime.fleet.reach import CLIMB_SPEED, docked
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Key
 
@@ -150,7 +150,7 @@ class Body:
 
     @property
     def standing(self) -> DroneReport:
-        """What it answers when the roll is called; one that takes no commands does not answer."""
+        """What it reports when it is asked; one that takes no commands does not answer."""
         now = self._clock()
         self.settle(now)
         return DroneReport(

@@ -19,8 +19,7 @@ from plutoc_runtime.alone.faults import (
 from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import place
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
-from plutoc_runtime.fleet.reach import grip_problem
+from plutoc_runtime.fleet.reach import CLIMB_SPEED, grip_problem
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import Kernel, Kind
 

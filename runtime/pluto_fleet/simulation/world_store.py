@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from plutoc_runtime.alone.faults import Drawn
-from plutoc_runtime.alone.motion import Charge, Leg
+from plutoc_runtime.alone.ideal import Charge, Leg
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 
 from ..journal.values import item_data, item_of, point_of, value_data, value_of

@@ -34,7 +34,7 @@ LARGEST = 1_000_000_000
 
 
 class Malformed(BadInput):
-    """A command that nobody can make sense of, whatever flies: it lacks a name, or has two."""
+    """A command that never makes sense: it lacks a name, say, or has two."""
 
 
 def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:

@@ -1,4 +1,4 @@
-"""What has happened in a flight, for a console; and what it has brought in."""
+"""What pages are sent once and no more: lines of the console, results, and the rows that have changed."""
 
 from __future__ import annotations
 
@@ -10,11 +10,31 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.domain.actions import MEASURE, PICK, RELEASE
 from plutoc_runtime.domain.text import bounded
 
-from ..cli.events import line_of, sentence_of
+from ..report.sentences import line_of, sentence_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.trace import Event
+
+
+class VersionedRows:
+    """Rows by their names, each as JSON with the number of its last change."""
+
+    def __init__(self) -> None:
+        self._rows: dict[str, tuple[int, object, str]] = {}
+
+    def put(self, name: str, row: object, number: int) -> bool:
+        """Keep a row; say whether it is another than it was."""
+        known = self._rows.get(name)
+        if known is not None and known[1] == row:
+            return False
+        self._rows[name] = number, row, json.dumps(row)
+        return True
+
+    def since(self, number: int) -> Iterator[str]:
+        """Yield the rows that have changed after that number."""
+        return (text for changed, _, text in self._rows.values() if changed > number)
+
 
 KEPT = 20_000
 """Lines, and results; older ones are in the journal alone."""

@@ -1,20 +1,23 @@
-"""What everybody sees of a mission and of a drone, as plain data."""
+"""What pages show of a mission and of a drone, as plain data; and at which blocks a mission is."""
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable, Iterable, Sequence
+from functools import cache
 from math import isfinite
+from types import CodeType, FrameType
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.status import Status, TripStatus
 from plutoc_runtime.domain.text import cut_off
+from plutoc_runtime.flow.location import declaration_above
 
-from ..cli.flown import aside
 from ..flight.control import ANSWERS
 from ..flight.interventions import PRIORITY
+from ..flight.standing import aside
 from ..gateway.wire import STALE_AFTER
-from .whereabouts import END, ENDED, blocks_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -23,6 +26,54 @@ if TYPE_CHECKING:
 
     from ..gateway.sightings import Sighting
     from ..journal.fold import Record
+
+END = "end"
+"""Where missions are that have ended."""
+
+ENDED = (Status.COMPLETED, Status.FAILED, Status.CANCELLED)
+
+_BRANCHES = re.compile(r"\[(.*)\]")
+_WORD = re.compile(r"\w+")
+
+
+def blocks_of(state: MissionState, flow: Callable[..., Any]) -> tuple[str, ...]:
+    """Return the blocks at which a living mission waits: several within a fork.
+
+    They are read off its coroutine, which waits below a comment that quotes the block's declaration:
+    so a flight costs nothing more for being watched.
+    """
+    if state.task is None:
+        return (state.at,) if state.at is not None else ()
+    return _named(_waiting_at(state.task.coroutine, flow))
+
+
+_KNOWN: dict[tuple[CodeType, int], str] = {}
+"""Comments that were found before, by the line below them."""
+
+
+def _waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block at which a mission's coroutine waits; empty: at none."""
+    file, found = flow.__code__.co_filename, ""
+    while coroutine is not None:
+        frame: FrameType | None = getattr(coroutine, "cr_frame", None)
+        if frame is not None and frame.f_code.co_filename == file:
+            place = frame.f_code, frame.f_lineno
+            if place not in _KNOWN:
+                _KNOWN[place] = declaration_above(frame, frame.f_lineno)
+            found = _KNOWN[place] or found
+        coroutine = getattr(coroutine, "cr_await", None)
+    return found
+
+
+@cache
+def _named(declaration: str) -> tuple[str, ...]:
+    """Read `launch -> [watch, timer] -> first = GateFIFO` as two blocks, `wait = Clock` as one."""
+    branches = _BRANCHES.search(declaration.partition("(")[0])
+    if branches is not None:
+        return tuple(word[0] for part in branches[1].split(",") if (word := _WORD.search(part)))
+    word = _WORD.match(declaration)
+    return (word[0],) if word is not None else ()
+
 
 Row = dict[str, object]
 
@@ -125,7 +176,7 @@ def drone_at(
     retired: bool,
     why: str,
 ) -> Row:
-    """Return the same of a drone that nobody commands now; `seen` is when it was heard of last."""
+    """Return the same of a drone that is not commanded now; `seen` is when it was heard of last."""
     if seen is None:
         return _drone_row(id, status, None, None, None, trips, retired, why)
     battery = seen.battery if seen.when else None
@@ -174,7 +225,7 @@ def _trip(trip: Trip) -> list[object]:
 def _recorded_trip(data: Record, status: str) -> list[object]:
     x, y, _ = data["target"]
     stands = data.get("status", status)
-    if stands == TripStatus.EXECUTING.value:  # nobody knows: it will be asked
+    if stands == TripStatus.EXECUTING.value:  # not known: it will be asked
         stands = TripStatus.WAITING.value
     priority = data.get("fields", {}).get(PRIORITY)
     return [data["name"], stands, round(x, 3), round(y, 3), priority, data["action"]]

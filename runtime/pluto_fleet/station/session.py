@@ -1,4 +1,4 @@
-"""One flight of the station, from its Start to its end: lived, stopped, gone on with."""
+"""What goes on at a station."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import closing, suppress
+from enum import Enum
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,23 +17,23 @@ from plutoc_runtime import output
 from plutoc_runtime.alone.world import UNITS
 from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
 
-from ..cli.flights import Flight, Watcher, lives
-from ..cli.flown import records_in
 from ..flight.config import End, Stops
 from ..flight.live_engine import live_engine
 from ..flight.live_fleet import live_fleet
+from ..flight.lives import FlightObserver, FlightSetup, run_flight
+from ..flight.standing import records_in
 from ..journal.fold import Records
 from ..journal.lock import holder
 from ..journal.place import written
 from ..journal.reader import Reader
 from . import rows
-from .feed import Feed
+from .between_flights import IdleDrones
+from .feed import Feed, VersionedRows
 from .plan.shape import BROKEN_OFF
-from .rest import Rest
-from .versions import Versions
-from .waiting import Waiting
+from .wait_reasons import WaitReasons
 
 if TYPE_CHECKING:
+    # was an import of itself
     from plutoc_runtime.domain.trace import Event
 
     from ..flight.fly import Recovered
@@ -41,12 +42,44 @@ if TYPE_CHECKING:
     from ..journal.store import Store
 
 
-class Outing:
-    """A journal, whoever lives it, and what everybody sees of it."""
+class Phase(Enum):
+    """Whether anything flies, and what can be done next."""
+
+    IDLE = "idle"
+    FLYING = "flying"
+    STOPPING = "stopping"
+    """All drones are coming down."""
+    STOPPED = "stopped"
+    """It was stopped: it can be resumed, or put away."""
+    INTERRUPTED = "interrupted"
+    """It has ended otherwise than it should: the same."""
+    OVER = "over"
+    """Every mission has ended."""
+
+
+def phase_of(session: FlightSession | None) -> Phase:
+    """Return what goes on, by the flight there is."""
+    if session is None:
+        return Phase.IDLE
+    if session.lives:
+        return Phase.STOPPING if session.stops.asked is not None else Phase.FLYING
+    if session.trouble:
+        return Phase.INTERRUPTED
+    match session.end:
+        case End.OVER:
+            return Phase.OVER
+        case End.STOPPED:
+            return Phase.STOPPED
+    was_stopped = session.records is not None and session.records.stopped
+    return Phase.STOPPED if was_stopped else Phase.INTERRUPTED
+
+
+class FlightSession:
+    """A journal, the life that it is gone on with, and what pages show of it."""
 
     def __init__(
         self,
-        flight: Flight,
+        flight: FlightSetup,
         ended: Callable[[], object],
         seen: Callable[[], object],
         known: Records | None = None,
@@ -58,7 +91,7 @@ class Outing:
         self.flight = flight
         self.id = flight.journal.name
         self.feed = Feed(flight.app, UNITS if flight.sim else {})
-        self.missions, self.drones = Versions(), Versions()
+        self.missions, self.drones = VersionedRows(), VersionedRows()
         self.stops = Stops()
         self.one: LiveFlight | None = None
         """What is lived now."""
@@ -70,8 +103,8 @@ class Outing:
         """Why it could not go on."""
         self.task: asyncio.Task[None] | None = None
         self._ended, self._seen = ended, seen
-        self._rest = Rest(flight.fleet.drones, flight.journal)
-        self._waiting = Waiting(time.monotonic)
+        self._idle = IdleDrones(flight.fleet.drones, flight.journal)
+        self._waiting = WaitReasons(time.monotonic)
         self._left_at = 0.0
         self._read_at: int | None = None
         """When its journal had been written last, as it was read."""
@@ -114,7 +147,7 @@ class Outing:
         }
 
     def read(self, known: Recovered) -> None:
-        """Show what a journal says that nobody lives."""
+        """Show what the journal of an ended life says."""
         self.records = known.records
         told = Records()
         with closing(Reader(self.flight.journal)) as reader:
@@ -132,9 +165,9 @@ class Outing:
         self.task.add_done_callback(lambda _: self._ended())
 
     async def _live(self, store: Store, known: Recovered | None) -> None:
-        watcher = Watcher(tell=self._hear, say=self._say, born=self._born, patient=True)
+        observer = FlightObserver(tell=self._hear, say=self._say, born=self._born, patient=True)
         try:
-            lived = await lives(self.flight, store, self.stops, known, watcher)
+            lived = await run_flight(self.flight, store, self.stops, known, observer)
         except BadInput as error:
             self.trouble = str(error)
         except (asyncio.CancelledError, KeyboardInterrupt, SystemExit):
@@ -164,7 +197,7 @@ class Outing:
         one.on_telemetry(self._seen)
 
     def _hear(self, event: Event) -> None:
-        """Tell everybody, but not within the instant that flies: it must not fall by a console."""
+        """Tell the pages, but not within the instant that flies: it must not fail by a console."""
         asyncio.get_running_loop().call_soon(self.feed.take, event)
 
     def _say(self, text: str, kind: str = "bad") -> None:
@@ -178,7 +211,7 @@ class Outing:
         known = self.records.time if self.records is not None else 0.0
         return max(known, self._left_at)  # that of those who saw the drones down does not go back
 
-    # What everybody sees
+    # What pages show
 
     def look(self, number: int) -> bool:
         """Note what has changed, under this number; say whether anything has."""
@@ -195,7 +228,7 @@ class Outing:
                 if holder(self.journal) is not None:  # it is read when that has ended
                     return
                 self._show_what_counts()
-            if self._rest.write_down(self.flight.app, self.records):
+            if self._idle.write_down(self.flight.app, self.records):
                 self._show_what_counts()
             self._read_at = written(self.journal)
 
@@ -217,7 +250,7 @@ class Outing:
     def _see_drones(self, number: int) -> bool:
         put, changed = self.drones.put, False
         life = self.life
-        for row in self._rest.rows(self.records) if life is None else self._drones_now(life):
+        for row in self._idle.rows(self.records) if life is None else self._drones_now(life):
             changed |= put(str(row["id"]), row, number)
         return changed
 

@@ -1,4 +1,4 @@
-"""What everybody sees: one look at the station a tenth of a second, whoever watches.
+"""What pages show: one look at the station a tenth of a second, for all that watch.
 
 A page says what it has seen, and is told once what has changed since, when anything has. So one that
 does not read costs nothing, and sees the newest state as soon as it does.
@@ -12,62 +12,62 @@ import time
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Protocol
 
-from .phase import phase_of
-from .versions import Versions
+from .feed import VersionedRows
+from .session import phase_of
 
 if TYPE_CHECKING:
-    from .inheritance import Inheritance
-    from .plan.plan import Plan
-    from .session import Outing
+    from .between_flights import FleetHistory
+    from .plan.plan import MissionPlan
+    from .session import FlightSession
 
 LATEST = 0.12
-"""Seconds between two looks at what has changed, when nobody says that there is something new."""
+"""Seconds between two looks at what has changed, unless something new is announced."""
 
 SOONEST = 0.08
 """Seconds between two looks, however much is new: the drones are heard of ten times a second."""
 
 PATIENCE = 1.0
-"""Seconds after which whoever asks is answered, though nothing has changed."""
+"""Seconds after which a page is answered, though nothing has changed."""
 
 
-class Shown(Protocol):
+class StationState(Protocol):
     """What there is to see."""
 
     described: dict[str, object]
-    outing: Outing | None
-    plan: Plan
-    inheritance: Inheritance
+    session: FlightSession | None
+    plan: MissionPlan
+    history: FleetHistory
 
 
-class Scene:
+class Updates:
     """The newest state of a station, and what of it is new to whom."""
 
-    def __init__(self, station: Shown) -> None:
+    def __init__(self, station: StationState) -> None:
         self._station = station
         self._number, self._state = 0, ""
-        self.drones = Versions()
+        self.drones = VersionedRows()
         """Those that are seen while there is no flight."""
         self._tick: asyncio.Future[None] | None = None
         self._timer: asyncio.Handle | None = None
         self._ticked_at = 0.0
 
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
-        """Return what has changed since somebody looked, as soon as anything has, or in a second."""
+        """Return what has changed since a page looked, as soon as anything has, or in a second."""
         loop = asyncio.get_running_loop()
         until = loop.time() + PATIENCE
         while True:
             await self._next_tick()
-            outing = self._station.outing
-            if (outing.id if outing is not None else "") != flight:
-                return self._told(outing, 0, 0, 0)
+            session = self._station.session
+            if (session.id if session is not None else "") != flight:
+                return self._told(session, 0, 0, 0)
             new = seen < self._number
-            if outing is not None:
-                new |= log < outing.feed.log.last or results < outing.feed.results.last
+            if session is not None:
+                new |= log < session.feed.log.last or results < session.feed.results.last
             if new or loop.time() >= until:
-                return self._told(outing, seen, log, results)
+                return self._told(session, seen, log, results)
 
     async def _next_tick(self) -> None:
-        """Wait for the next look, which is everybody's."""
+        """Wait for the next look, which all pages share."""
         loop = asyncio.get_running_loop()
         if self._tick is None:
             self._tick = loop.create_future()
@@ -77,7 +77,7 @@ class Scene:
     def hurry(self) -> None:
         """The drones were just heard of: look now, and what is seen of them is new.
 
-        Not within this call: whoever hears of drones must not fall by what is shown of them.
+        Not within this call: what flies must not fail by what is shown of it.
         """
         loop = asyncio.get_running_loop()
         if self._timer is not None and loop.time() - self._ticked_at >= SOONEST:
@@ -92,60 +92,60 @@ class Scene:
         self._ticked_at = asyncio.get_running_loop().time()
         try:
             self._note_what_is_new()
-        finally:  # whoever waits is answered, whatever could not be shown
+        finally:  # pages are answered though something could not be shown
             if tick is not None:
                 tick.set_result(None)
 
     def _note_what_is_new(self) -> None:
         number = self._number + 1
-        outing, state = self._station.outing, self._state_now()
+        session, state = self._station.session, self._state_now()
         changed = state != self._state
         self._state = state
-        if outing is not None:
-            changed |= outing.look(number)
+        if session is not None:
+            changed |= session.look(number)
         else:
-            for row in self._station.inheritance.rows():
+            for row in self._station.history.rows():
                 changed |= self.drones.put(str(row["id"]), row, number)
         if changed:
             self._number = number
 
     def _state_now(self) -> str:
-        outing = self._station.outing
-        how = outing.stops.asked if outing is not None and outing.lives else None
+        session = self._station.session
+        how = session.stops.asked if session is not None and session.lives else None
         return json.dumps(
             {
-                "phase": phase_of(outing).value,
-                "journal": str(outing.journal) if outing is not None else None,
+                "phase": phase_of(session).value,
+                "journal": str(session.journal) if session is not None else None,
                 "plan": self._station.plan.revision,
-                "said": (outing.trouble if outing is not None else "")
+                "said": (session.trouble if session is not None else "")
                 or self._station.plan.trouble,
                 "how": how.value if how is not None else None,
-                "busy": _busy(outing),
+                "busy": _busy(session),
             }
         )
 
-    def _told(self, outing: Outing | None, seen: int, log: int, results: int) -> str:
+    def _told(self, session: FlightSession | None, seen: int, log: int, results: int) -> str:
         parts = {
             "server": json.dumps(self._station.described["server"]),
             "n": str(self._number),
             "made": str(round(time.time() * 1000)),
-            "flight": json.dumps(outing.id if outing is not None else ""),
-            "state": f'{{"time": {outing.now if outing else 0.0:.3f}, {self._state[1:]}',
-            "missions": _listed(outing.missions.since(seen) if outing else ()),
-            "drones": _listed((outing or self).drones.since(seen)),
-            "log": _listed(outing.feed.log.since(log) if outing else ()),
-            "results": _listed(outing.feed.results.since(results) if outing else ()),
+            "flight": json.dumps(session.id if session is not None else ""),
+            "state": f'{{"time": {session.now if session else 0.0:.3f}, {self._state[1:]}',
+            "missions": _listed(session.missions.since(seen) if session else ()),
+            "drones": _listed((session or self).drones.since(seen)),
+            "log": _listed(session.feed.log.since(log) if session else ()),
+            "results": _listed(session.feed.results.since(results) if session else ()),
         }
         return "{" + ", ".join(f'"{name}": {text}' for name, text in parts.items()) + "}"
 
 
-def _busy(outing: Outing | None) -> str:
-    """Return for what everybody has to wait."""
-    if outing is None or not outing.lives:
+def _busy(session: FlightSession | None) -> str:
+    """Return for what all have to wait."""
+    if session is None or not session.lives:
         return ""
-    if outing.life is None:
+    if session.life is None:
         return "looking for the drones"
-    return "" if outing.life.missions else "asking the drones where they are"
+    return "" if session.life.missions else "asking the drones where they are"
 
 
 def _listed(texts: Iterable[str]) -> str:

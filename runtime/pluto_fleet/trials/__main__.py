@@ -14,7 +14,7 @@ def run(name: str, words: list[str]) -> int:
     from plutoc_runtime import output
     from plutoc_runtime.hooks.calls import loaded
 
-    from ..cli import Ending
+    from ..process.exit_code import ExitCode
     from ..process.forked import refused
     from ..process.signal_guard import guard_hooks, interrupted_by_a_person
     from .command import test
@@ -26,7 +26,7 @@ def run(name: str, words: list[str]) -> int:
 
     output.prepare()
     guard_hooks()
-    ending = Ending(name)
+    ending = ExitCode(name)
     with ending:
         # a hook may raise a KeyboardInterrupt, or end the process, and is found then
         with interrupted_by_a_person(), refused():

@@ -22,15 +22,13 @@ from ..files.fleet import FleetFile, default_fleet, load_fleet
 from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions
 from ..files.plan_check import idle_actions, problems
-from .alike import first_the_same, shows_the_same
+from ..report.progress import trial_progress
 from .case import FAIR, Case
-from .explore import Finding, Tally, drawn_case, everywhere, explored, small_case
+from .explore import Finding, Tally, everywhere, explored, random_case, small_case
+from .lives import tried
 from .options import Options, parse
-from .patience import patience
-from .plan_text import missions_text
-from .report import findings_data, repeated, report, shown_again
-from .rig import tried
-from .shrink import shrunk
+from .report import findings_data, missions_text, repeated, report, shown_again
+from .shrink import first_the_same, shows_the_same, shrunk
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -41,7 +39,7 @@ FOUND, BAD_INPUT = 1, 2
 STRUCK_EVERYWHERE = 3
 """Of so many seeds, what can strike does so at every row of the journal."""
 ENOUGH = 5
-"""After so many findings nobody looks for more."""
+"""After so many findings the search ends."""
 
 _WRONG = attrgetter("wrong")
 
@@ -68,15 +66,15 @@ def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
         for sentence in idle_actions(app, fleet):
             output.tell(f"{options.fleet or app.name}: warning: {sentence}, so it is not tried")
     tally = Tally()
-    waiting = patience(lines=not options.json)
-    way = _Way()
+    progress = trial_progress(lines=not options.json)
+    way = _Extent()
 
     def enough(tally: Tally) -> bool:
-        waiting.tell(tally.runs / way.runs, _so_far(tally, way, options))
+        progress.update(tally.runs / way.runs, _so_far(tally, way, options))
         return len(tally.findings) >= ENOUGH
 
     def fails(case: Case) -> bool:
-        waiting.tell(1.0, f"{_so_far(tally, way, options)}: making the first one smaller")
+        progress.update(1.0, f"{_so_far(tally, way, options)}: making the first one smaller")
         return the_same(case)
 
     smallest: Finding | None = None
@@ -93,7 +91,7 @@ def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
             raise
         interrupted = True  # what was tried and found is told all the same
     finally:
-        waiting.over()
+        progress.clear()
     if not tally.runs:
         raise BadInput("the fleet can fly none of the missions that were drawn: use --missions")
     if options.json:
@@ -123,7 +121,7 @@ def _simulated(fleet: FleetFile) -> FleetFile:
 
 
 @dataclass(slots=True)
-class _Way:
+class _Extent:
     """How far the work is, and how much there is of it."""
 
     seeds: int = 0
@@ -133,13 +131,13 @@ class _Way:
 
 
 def _cases(
-    app: App, fleet: FleetFile, options: Options, missions: Sequence[Mission[Any]], way: _Way
+    app: App, fleet: FleetFile, options: Options, missions: Sequence[Mission[Any]], way: _Extent
 ) -> Iterator[Case]:
     known = options.seeds
     for seed in range(options.seed, options.seed + options.seeds):
         way.seeds += 1
         ahead = min(options.seeds, STRUCK_EVERYWHERE) - way.seeds
-        yield drawn_case(app, fleet, seed, missions)
+        yield random_case(app, fleet, seed, missions)
         if ahead >= 0:
             struck = list(everywhere(app, small_case(app, fleet, seed, missions)))
             known += len(struck)
@@ -147,7 +145,7 @@ def _cases(
             yield from struck
 
 
-def _so_far(tally: Tally, way: _Way, options: Options) -> str:
+def _so_far(tally: Tally, way: _Extent, options: Options) -> str:
     found = counted(len(tally.findings), "mistake")
     return f"{counted(tally.runs, 'run')}, seed {way.seeds} of {options.seeds}, {found} found"
 
@@ -178,7 +176,7 @@ def _once_more(
         missions=drawn.missions,
         fleet=fleet,
         weather=options.weather or FAIR,
-        blows=options.strike or (),
+        strikes=options.strike or (),
     )
     trial = tried(app, case)
     if options.json:

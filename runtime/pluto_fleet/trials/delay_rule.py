@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from .rule import Say, at
+from .rules import Say, at
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
@@ -20,7 +20,7 @@ _ROUNDED = 0.002
 class DelaysAreWaited:
     """No trip gets a drone before its delay is over, nor waits for it twice.
 
-    While everything is stopped, or the mission is paused, nobody waits; after a crash time has gone
+    While everything is stopped, or the mission is paused, no time of it runs; after a crash time has gone
     on.
     """
 
@@ -152,11 +152,11 @@ class _Delay:
         self.begins = until if until > over else 0.0
         """A time of day, for which a Stop changes nothing."""
         self.rest: float | None = None
-        """What is left of it, while nobody waits."""
+        """What is left of it, while no time of it runs."""
         self.paused = False
 
     def stand(self, event: Event) -> None:
-        """From now on nobody waits."""
+        """From now on no time of it runs."""
         if self.rest is None:
             self.rest = self.over - float(str(event["t"]))
 

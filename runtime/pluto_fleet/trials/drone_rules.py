@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from .rule import Hears, Say, at
+from .rules import Hears, Say, at
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 UNWELL = ("drone.recovering", "drone.lost", "drone.charging", "drone.offline")
 
 _GROUND = 0.05
-"""Metres. Nobody who stands is higher."""
+"""Metres: a drone that stands is no higher."""
 
 
 class ServesOneMission:
     """A drone gets a second trip only after its first ended and it was free again.
 
     A mission may be given again the drone that it holds: it was not launched yet, or has its item.
-    When an app goes on, nobody is free before the roll was called.
+    When an app goes on, no drone is free before all were asked.
     """
 
     def __init__(self, say: Say) -> None:
@@ -91,7 +91,7 @@ class StaysDown:
             self._say(f"{at(event)}: {event['event']} with {event['drone']} after {state}")
 
     def _begin(self, _: Event) -> None:
-        self._state.clear()  # somebody may have mended it; it is asked
+        self._state.clear()  # a person may have mended it; it is asked
 
     def _become(self, event: Event) -> None:
         drone = event["drone"]

@@ -10,20 +10,121 @@ from dataclasses import dataclass, field, replace
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from .blows import DEATHS, STOPS, Blow, Kind
-from .case import FAIR, Case, Weather
-from .drawing import drawn_missions
-from .rig import tried
+from plutoc_runtime.domain.actions import PICK, RELEASE, Plain
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.model import Item
+from plutoc_runtime.domain.quantities import Type
+
+from ..files.plan_check import problems
+from .case import DEATHS, FAIR, STOPS, Case, Strike, StrikeKind, Weather
+from .lives import tried
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
+    from plutoc_runtime.domain.model import Mission, Point, Trip
 
     from ..files.fleet import FleetFile
-    from .book import Trial
+    from .record import TrialResult
+
+TRIES = 50
+"""So often is a mission drawn until the fleet can fly it."""
+
+_TIMES = (0.0, 2.0, 5.0, 12.0, 30.0)
+_VALUES: dict[Type, Plain] = {
+    Type.INT: 1,
+    Type.BOOL: True,
+    Type.TEXT: "x",
+    Type.MASS: 0.001,
+    Type.PERCENT: 0.5,
+    Type.TEMPERATURE: 293.15,
+}
+"""What is given where an action has no default; any other number is 1."""
+
+
+def random_missions(app: App, fleet: FleetFile, seed: int) -> list[Mission[Any]]:
+    """Return up to three missions of up to three trips that the fleet can fly, by a seed."""
+    drawing = _Generator(app, fleet, Random(f"{seed}/missions"))
+    missions: list[Mission[Any]] = []
+    for _ in range(drawing.rng.choice((1, 2, 2, 3))):
+        for _ in range(TRIES):
+            mission = drawing.mission(len(missions))
+            if not problems([mission], app, fleet, fleet.airspace):
+                missions.append(mission)
+                break
+    return missions
+
+
+class _Generator:
+    def __init__(self, app: App, fleet: FleetFile, rng: Random) -> None:
+        self.app, self.fleet, self.rng = app, fleet, rng
+        self.width, self.depth = fleet.airspace.size
+
+    def mission(self, index: int) -> Mission[Any]:
+        trips: list[Trip] = []
+        for _ in range(self.rng.choice((1, 2, 2, 3))):
+            self.add(trips)
+        mission = self.app.mission(name=f"m{index + 1}", index=index, trips=trips)
+        self.fill(mission, Entity.MISSION)
+        return mission
+
+    def add(self, trips: list[Trip]) -> None:
+        action = self.rng.choice([name for name in self.app.actions if name != RELEASE])
+        payload = min((c.payload for c in self.app.categories if c.can(PICK)), default=0.001)
+        item = Item(name=f"item{len(trips) + 1}", mass=round(payload / 2, 6))
+        for name in (PICK, RELEASE) if action == PICK else (action,):
+            place = len(trips)
+            carries = item if action == PICK else None
+            trips.append(self.trip(place, name, carries))
+
+    def trip(self, place: int, action: str, item: Item | None) -> Trip:
+        given = {
+            parameter.name: (
+                _VALUES.get(parameter.type, 1.0) if parameter.default is None else parameter.default
+            )
+            for parameter in self.app.actions[action].parameters
+        }
+        trip = self.app.trip(
+            name=str(place + 1),
+            action=action,
+            target=self.spot(),
+            source=self.spot() if self.rng.random() < 0.1 else None,
+            parameters=given,
+            item=item,
+            index=place,
+        )
+        self.fill(trip, Entity.TRIP)
+        return trip
+
+    def spot(self) -> Point:
+        airspace = self.fleet.airspace
+        for _ in range(TRIES):
+            x, y = (
+                round(self.rng.uniform(0.3, side - 0.3), 1) for side in (self.width, self.depth)
+            )
+            spot = (x, y, airspace.cruise_height)
+            if airspace.problem(spot) is None:
+                break
+        return spot
+
+    def fill(self, entity: Mission[Any] | Trip, kind: Entity) -> None:
+        for one in self.app.fields:
+            if one.on is kind and self.rng.random() < 0.6:
+                setattr(entity, one.name, self.value(one))
+
+    def value(self, field: Field) -> object:
+        match field.type:
+            case FieldType.TIME:
+                return self.rng.choice(_TIMES)
+            case FieldType.TIME_OF_DAY:
+                return 60.0 * self.rng.randrange(3)
+            case FieldType.EVALUATOR:
+                return self.rng.choice((None, *self.app.evaluators))
+            case _:
+                return self.rng.randrange(3)
+
 
 FAULTS = (
-    *(kind.value for kind in Kind),
+    *(kind.value for kind in StrikeKind),
     "failsafe",
     "death in recovery",
     "report to nobody",
@@ -54,17 +155,17 @@ _MOST_ROWS = 100
 _MIDST = 0.6
 """Seconds before an action is done."""
 _IN_THE_MIDST = (
-    (Kind.CRASH,),
-    (Kind.GATEWAY,),
-    (Kind.FREEZE,),
-    (Kind.CUT,),
-    (Kind.PAUSE,),
-    (Kind.GATEWAY, Kind.REBOOT),
-    (Kind.CRASH, Kind.REBOOT),
-    (Kind.CRASH, Kind.GATEWAY),
+    (StrikeKind.CRASH,),
+    (StrikeKind.GATEWAY,),
+    (StrikeKind.FREEZE,),
+    (StrikeKind.CUT,),
+    (StrikeKind.PAUSE,),
+    (StrikeKind.GATEWAY, StrikeKind.REBOOT),
+    (StrikeKind.CRASH, StrikeKind.REBOOT),
+    (StrikeKind.CRASH, StrikeKind.GATEWAY),
 )
 _BEYOND = 14
-"""Rows among which the next blow of a drawn case falls."""
+"""Rows among which the next strike of a drawn case falls."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -93,7 +194,7 @@ def explored(
     cases: Iterable[Case],
     tally: Tally,
     enough: Callable[[Tally], bool],
-    wrong: Callable[[Trial], tuple[str, ...]] = lambda trial: trial.wrong,
+    wrong: Callable[[TrialResult], tuple[str, ...]] = lambda trial: trial.wrong,
 ) -> None:
     """Try one case after the other, until all are tried or it is enough; `wrong` says what to find."""
     for case in cases:
@@ -126,54 +227,56 @@ def everywhere(app: App, case: Case) -> Iterator[Case]:
     trial = tried(app, case)
     for row in range(1, trial.rows + 1, 1 + trial.rows // _MOST_ROWS):
         for kind in (*DEATHS, *STOPS):
-            yield replace(case, blows=(Blow(kind=kind, row=row),))
+            yield replace(case, strikes=(Strike(kind=kind, row=row),))
         for death in DEATHS:
             for stop in STOPS:
-                first, second = Blow(kind=death, row=row), Blow(kind=stop, row=row + 1)
-                yield replace(case, blows=(first, second))
-                first, second = Blow(kind=stop, row=row), Blow(kind=death, row=row + 1)
-                yield replace(case, blows=(first, second))
+                first, second = Strike(kind=death, row=row), Strike(kind=stop, row=row + 1)
+                yield replace(case, strikes=(first, second))
+                first, second = Strike(kind=stop, row=row), Strike(kind=death, row=row + 1)
+                yield replace(case, strikes=(first, second))
     for act in trial.acts[:: 1 + len(trial.acts) // _MOST_ROWS]:
         moment = act.time - _MIDST
         row = bisect_right(trial.times, moment)
         if row:
             after = round(moment - trial.times[row - 1], 3)
             for kinds in _IN_THE_MIDST:
-                blows = tuple(Blow(kind=kind, row=row, after=after) for kind in kinds)
-                yield replace(case, blows=blows)
+                strikes = tuple(Strike(kind=kind, row=row, after=after) for kind in kinds)
+                yield replace(case, strikes=strikes)
 
 
 def small_case(
     app: App, fleet: FleetFile, seed: int, missions: Sequence[Mission[Any]] = ()
 ) -> Case:
     """Return a case to strike everywhere: small missions, and weather that is fair every other time."""
-    weather = FAIR if seed % 2 == 0 else drawn_weather(Random(f"{seed}/weather"))
-    flown = missions or drawn_missions(app, fleet, seed)
+    weather = FAIR if seed % 2 == 0 else random_weather(Random(f"{seed}/weather"))
+    flown = missions or random_missions(app, fleet, seed)
     return Case(seed=seed, missions=tuple(flown), fleet=fleet, weather=weather)
 
 
-def drawn_case(
+def random_case(
     app: App, fleet: FleetFile, seed: int, missions: Sequence[Mission[Any]] = ()
 ) -> Case:
     """Return a case in which anything may strike, by a seed."""
     rng = Random(f"{seed}/case")
-    blows = []
+    strikes = []
     row = 0
     for _ in range(rng.choice((1, 1, 2, 2, 3))):
         row += rng.randrange(1, _BEYOND)
-        blows.append(Blow(kind=rng.choice(tuple(Kind)), row=row, after=rng.choice(_MOMENTS)))
+        strikes.append(
+            Strike(kind=rng.choice(tuple(StrikeKind)), row=row, after=rng.choice(_MOMENTS))
+        )
         if rng.random() < 0.5:
             row = max(0, row - _BEYOND // 2)  # something else soon after, or during recovery
     return Case(
         seed=seed,
-        missions=tuple(missions or drawn_missions(app, fleet, seed)),
+        missions=tuple(missions or random_missions(app, fleet, seed)),
         fleet=fleet,
-        weather=drawn_weather(rng),
-        blows=tuple(blows),
+        weather=random_weather(rng),
+        strikes=tuple(strikes),
     )
 
 
-def drawn_weather(rng: Random) -> Weather:
+def random_weather(rng: Random) -> Weather:
     """Return some weather."""
     share = (0.0, 0.0, 0.1, 0.3)
     return Weather(

@@ -1,4 +1,4 @@
-"""What must be true of every run of every app, whatever goes wrong: read off its events.
+"""What must be true of every run of every app with any faults: read off its events.
 
 The rules know nothing of how the runtime works inside. They are told one event after the other (see
 `trace.py`), so a run may be as long as it likes, and they cost little beside it. A run may have
@@ -15,15 +15,25 @@ from plutoc_runtime.domain.actions import PICK, RELEASE
 
 from .delay_rule import DelaysAreWaited
 from .drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
-from .mission_rules import ENDS, CompletedDidEverything, EndsOnce, NothingAfterTheEnd
-from .rule import OVER, Hears, Say, at
-from .trip_rules import AttemptsCountUp, LimitsAreKept, TripsDoNotOverlap
+from .rules import (
+    ENDS,
+    OVER,
+    AttemptsCountUp,
+    CompletedDidEverything,
+    EndsOnce,
+    Hears,
+    LimitsAreKept,
+    NothingAfterTheEnd,
+    Say,
+    TripsDoNotOverlap,
+    at,
+)
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission
     from plutoc_runtime.domain.trace import Event
 
-    from .rule import Rule
+    from .rules import Rule
 
 __all__ = ["ENDS", "RULES", "Invariants", "Items", "items_of", "violations"]
 

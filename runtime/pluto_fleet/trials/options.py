@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
-from ..cli.options import count, whole
-from .blows import Blow, blows_of
-from .case import Weather, weather_of
+from ..arguments import whole_number
+from .case import Strike, Weather, strikes_of, weather_of
 
 SEEDS = 100
 
@@ -27,7 +26,7 @@ class Options:
     fleet: Path | None = None
     seeds: int = SEEDS
     seed: int = 0
-    strike: tuple[Blow, ...] | None = None
+    strike: tuple[Strike, ...] | None = None
     weather: Weather | None = None
     json: bool = False
 
@@ -41,18 +40,18 @@ _USAGE = """plutoc test [-h] [--seeds N] [--seed N] [--missions M.toml]
                    [--fleet F.toml] [--strike WHAT@ROW,…]
                    [--weather WHAT=HOW,…] [--json]
                    FILE"""
-"""As `plutoc test` itself has it: whoever reads this has typed that."""
+"""As `plutoc test` itself has it: that is what the reader has typed."""
 
 
 def parse(argv: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after an error."""
     parser = ArgumentParser(prog="plutoc test", usage=_USAGE, allow_abbrev=False)
     parser.add_argument("--file", type=Path)
-    parser.add_argument("--seeds", type=count)
-    parser.add_argument("--seed", type=whole)
+    parser.add_argument("--seeds", type=whole_number(1))
+    parser.add_argument("--seed", type=whole_number())
     parser.add_argument("--missions", type=Path)
     parser.add_argument("--fleet", type=Path)
-    parser.add_argument("--strike", type=_read(blows_of))
+    parser.add_argument("--strike", type=_read(strikes_of))
     parser.add_argument("--weather", type=_read(weather_of))
     parser.add_argument("--json", action="store_true")
     return parser.parse_args(argv, namespace=Options())

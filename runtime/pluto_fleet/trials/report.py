@@ -5,28 +5,65 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import tomlkit
+
+from plutoc_runtime.domain.fields import Entity, FieldType
+from plutoc_runtime.domain.model import Mission, Trip
 from plutoc_runtime.domain.text import counted, in_shell, printable
 
-from ..cli.events import line_of
-from ..cli.report import table
 from ..files.fleet_text import fleet_text
-from .alike import Alike
-from .blows import blows_text
-from .case import weather_text
+from ..report.report import table
+from ..report.sentences import line_of
+from .case import ENDS, WORDS, WRITTEN, strikes_text, weather_text
 from .explore import FAULTS
 from .options import SEEDS
-from .plan_text import missions_text
-from .wording import ENDS, WORDS, WRITTEN
+from .shrink import MistakeKinds
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
-    from .book import Trial
     from .case import Case
     from .explore import Finding, Tally
     from .options import Options
+    from .record import TrialResult
+
+
+def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
+    """Return the missions file."""
+    return tomlkit.dumps({"mission": [_mission(app, mission) for mission in missions]})
+
+
+def _mission(app: App, mission: Mission[Any]) -> dict[str, Any]:
+    trips = [_trip(app, trip) for trip in mission.trips]
+    return {"name": mission.name, **_fields(app, Entity.MISSION, mission), "trip": trips}
+
+
+def _trip(app: App, trip: Trip) -> dict[str, Any]:
+    table: dict[str, Any] = {"name": trip.name, "action": trip.action}
+    if trip.source is not None:
+        table["source"] = [float(along) for along in trip.source]
+    table["target"] = [float(along) for along in trip.target]
+    table.update(_fields(app, Entity.TRIP, trip))
+    if trip.parameters:
+        table["parameters"] = {**trip.parameters}
+    if trip.item is not None:
+        table["item"] = {"name": trip.item.name, "mass": trip.item.mass}
+    return table
+
+
+def _fields(app: App, entity: Entity, of: Mission[Any] | Trip) -> dict[str, Any]:
+    fields: dict[str, Any] = {}
+    for field in app.fields:
+        given = getattr(of, field.name) if field.on is entity else None
+        if given is not None and field.type is FieldType.TIME_OF_DAY:
+            minutes = round(given / 60)
+            fields[field.name] = f"{minutes // 60:02}:{minutes % 60:02}"
+        elif given is not None:
+            fields[field.name] = given
+    return fields
+
 
 _MOST_EVENTS = 200
 _WAS_INTERRUPTED = "It was interrupted before that was made smaller."
@@ -100,11 +137,11 @@ def _said(finding: Finding) -> Iterator[str]:
 
 def _others(findings: Sequence[Finding]) -> Iterator[str]:
     """Yield what else was found, once each: a mistake that shows once shows often."""
-    alike = Alike(findings[0].case)
+    alike = MistakeKinds(findings[0].case)
     known = {alike.kind(sentence) for sentence in findings[0].sentences}
     new: list[str] = []
     for finding in findings[1:]:
-        alike = Alike(finding.case)
+        alike = MistakeKinds(finding.case)
         for sentence in finding.sentences:
             if alike.kind(sentence) not in known:
                 known.add(alike.kind(sentence))
@@ -144,14 +181,14 @@ def repeated(case: Case, missions: Path | None, fleet: Path | None) -> list[str]
         words += [] if path is None else [flag, str(path)]
     words += ["--seed", str(case.seed)]
     weather = weather_text(case.weather)
-    if case.blows or not weather:
-        words += ["--strike", blows_text(case.blows) or "-"]
+    if case.strikes or not weather:
+        words += ["--strike", strikes_text(case.strikes) or "-"]
     if weather:
         words += ["--weather", weather]
     return words
 
 
-def shown_again(trial: Trial) -> Iterator[str]:
+def shown_again(trial: TrialResult) -> Iterator[str]:
     """Yield what happened in one case, and what of it may not be."""
     lines = [line for event in trial.events if (line := line_of(event)) is not None]
     yield from lines[-_MOST_EVENTS:]
@@ -175,7 +212,7 @@ def findings_data(app: App, tally: Tally, smallest: Finding | None) -> dict[str,
             {
                 "seed": finding.case.seed,
                 "what": list(finding.sentences),
-                "strike": blows_text(finding.case.blows),
+                "strike": strikes_text(finding.case.strikes),
                 "weather": weather_text(finding.case.weather),
             }
             for finding in tally.findings
@@ -189,7 +226,7 @@ def _data(app: App, finding: Finding) -> dict[str, object]:
     return {
         "what": list(finding.sentences),
         "seed": case.seed,
-        "strike": blows_text(case.blows),
+        "strike": strikes_text(case.strikes),
         "weather": weather_text(case.weather),
         "missions": missions_text(app, case.missions),
         "fleet": fleet_text(case.fleet),

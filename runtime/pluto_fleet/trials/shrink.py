@@ -1,7 +1,8 @@
-"""Makes a case smaller for as long as it still shows a mistake."""
+"""Makes a case smaller for as long as it still shows the same mistake."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from copy import deepcopy
 from dataclasses import replace
@@ -9,13 +10,73 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from plutoc_runtime.domain.actions import PICK, RELEASE
 
+from ..files.plan_check import problems
 from .case import FAIR
+from .lives import tried
 
 if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Mission
 
-    from .blows import Blow
-    from .case import Case, Weather
+    from .case import Case, Strike, Weather
+    from .explore import Finding
+    from .record import TrialResult
+
+_SOME = "·"
+_NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?\w*")
+"""With its unit; or the address of an object."""
+_SEVERAL = re.compile(rf"{_SOME}(?:, {_SOME})+")
+
+
+class MistakeKinds:
+    """Tells the kinds of mistakes of one case apart, and of those that are made from it."""
+
+    def __init__(self, case: Case) -> None:
+        names = sorted(set(_names(case)), key=len, reverse=True)
+        self._names = re.compile(
+            rf"(?<!\w)(?<!\d\.)(?:{'|'.join(map(re.escape, names))})(?!\w|\.\d)"
+        )
+
+    def kind(self, sentence: str) -> str:
+        """Return the sentence with nothing of who, when and how much: the rule that is broken, and how."""
+        return _SEVERAL.sub(_SOME, _NUMBER.sub(_SOME, self._names.sub(_SOME, sentence)))
+
+
+def _names(case: Case) -> Iterator[str]:
+    yield from (drone.id for drone in case.fleet.drones)
+    for mission in case.missions:
+        yield mission.name
+        for trip in mission.trips:
+            yield trip.name
+            if trip.item is not None:
+                yield trip.item.name
+
+
+def shows_the_same(
+    app: App, finding: Finding, wrong: Callable[[TrialResult], tuple[str, ...]]
+) -> Callable[[Case], bool]:
+    """Return what says of a smaller case whether it shows the finding's first mistake, and no other.
+
+    A case that the fleet cannot fly shows nothing: it is refused before anything can go wrong.
+    """
+    alike = MistakeKinds(finding.case)
+    kinds = [alike.kind(sentence) for sentence in finding.sentences]
+
+    def fails(case: Case) -> bool:
+        if problems(case.missions, app, case.fleet, case.fleet.airspace):
+            return False
+        found = {alike.kind(sentence) for sentence in wrong(tried(app, case))}
+        return kinds[0] in found and found.issubset(kinds)
+
+    return fails
+
+
+def first_the_same(finding: Finding, sentences: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what is said of a smaller case, what the finding says first in front."""
+    alike = MistakeKinds(finding.case)
+    kind = alike.kind(finding.sentences[0])
+    return tuple(sorted(sentences, key=lambda sentence: alike.kind(sentence) != kind))
+
 
 TRIES = 1500
 
@@ -39,8 +100,8 @@ def shrunk(case: Case, fails: Callable[[Case], bool], tries: int = TRIES) -> Cas
 
 def _smaller(case: Case) -> Iterator[Case]:
     """Yield simpler cases, those first that leave out most."""
-    for place in range(len(case.blows)):
-        yield replace(case, blows=_without(case.blows, place))
+    for place in range(len(case.strikes)):
+        yield replace(case, strikes=_without(case.strikes, place))
     yield from (
         replace(case, weather=weather)
         for weather in _fairer(case.weather)
@@ -56,9 +117,11 @@ def _smaller(case: Case) -> Iterator[Case]:
         for place in range(len(case.fleet.drones)):
             drones = _without(case.fleet.drones, place)
             yield replace(case, fleet=replace(case.fleet, drones=drones))
-    for place, blow in enumerate(case.blows):
-        for earlier in _earlier(blow):
-            yield replace(case, blows=(*case.blows[:place], earlier, *case.blows[place + 1 :]))
+    for place, strike in enumerate(case.strikes):
+        for earlier in _earlier(strike):
+            yield replace(
+                case, strikes=(*case.strikes[:place], earlier, *case.strikes[place + 1 :])
+            )
 
 
 def _fairer(weather: Weather) -> Iterator[Weather]:
@@ -111,22 +174,23 @@ def _chains(mission: Mission[Any]) -> Iterator[list[int]]:
 
 def _moved(case: Case) -> Iterator[Case]:
     """With fewer missions the journal has fewer rows: what strikes must strike earlier."""
-    if len(case.blows) == 1:
-        for row in range(1, case.blows[0].row):
-            yield replace(case, blows=(replace(case.blows[0], row=row),))
-    elif case.blows:
-        for less in range(1, min(blow.row for blow in case.blows)):
+    if len(case.strikes) == 1:
+        for row in range(1, case.strikes[0].row):
+            yield replace(case, strikes=(replace(case.strikes[0], row=row),))
+    elif case.strikes:
+        for less in range(1, min(strike.row for strike in case.strikes)):
             yield replace(
-                case, blows=tuple(replace(blow, row=blow.row - less) for blow in case.blows)
+                case,
+                strikes=tuple(replace(strike, row=strike.row - less) for strike in case.strikes),
             )
 
 
-def _earlier(blow: Blow) -> Iterator[Blow]:
-    if blow.after:
-        yield replace(blow, after=0.0)
-    if blow.row > 1:
-        yield replace(blow, row=blow.row // 2)
-        yield replace(blow, row=blow.row - 1)
+def _earlier(strike: Strike) -> Iterator[Strike]:
+    if strike.after:
+        yield replace(strike, after=0.0)
+    if strike.row > 1:
+        yield replace(strike, row=strike.row // 2)
+        yield replace(strike, row=strike.row - 1)
 
 
 def _without(values: tuple[T, ...], place: int) -> tuple[T, ...]:

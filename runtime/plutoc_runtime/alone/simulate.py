@@ -7,21 +7,57 @@ hours, as a plan may well last for months.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..domain.airspace import Airspace
 from ..domain.errors import BadInput
 from ..domain.fleet_data import DroneData, FleetData
+from ..domain.model import Drone, Mission
+from ..domain.status import DroneStatus, Status
 from ..domain.text import counted, duration, quoted
-from ..flow.session import Listener, Outcome, Session
+from ..domain.trace import Event
+from ..flow.engine import Listener, Session
 from ..time.virtual import Stuck, VirtualTime
 from .ideal import IdealNavigation
 
 if TYPE_CHECKING:
     from ..domain.app import App
-    from ..domain.model import Mission
-    from ..domain.trace import Event
     from .faults import Faults
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """What came of a flown plan."""
+
+    duration: float
+    """Seconds, until the last mission ended."""
+    missions: tuple[Mission[Any], ...]
+    drones: tuple[Drone, ...]
+    flown: dict[str, float]
+    """Metres, by the drones' ids."""
+    events: tuple[Event, ...]
+    given_up: str = ""
+    """Why a simulation was ended that would have gone on for ever."""
+
+    @property
+    def crashed(self) -> int:
+        """How many drones have crashed: none is brought back in a simulation."""
+        return sum(drone.status is DroneStatus.LOST for drone in self.drones)
+
+    @property
+    def log(self) -> list[str]:
+        """The lines of the console."""
+        return [str(event["text"]) for event in self.events if event["event"] == "log"]
+
+    def count(self, kind: str) -> int:
+        """Return how many events of this kind there were."""
+        return sum(event["event"] == kind for event in self.events)
+
+    @property
+    def completed(self) -> bool:
+        """Whether every mission was completed."""
+        return all(mission.status is Status.COMPLETED for mission in self.missions)
 
 
 def default_fleet(app: App) -> FleetData:
@@ -150,3 +186,46 @@ def see_through(
         ) from None
     finally:
         kernel.close()
+
+
+def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
+    """Return the object that `simulate --json` prints."""
+    return {
+        "app": name,
+        "seed": seed,
+        "duration_s": outcome.duration,
+        "missions": [
+            {
+                "name": mission.name,
+                "status": mission.status.value,
+                "reason": mission.reason,
+                "completed_trips": [trip.name for trip in mission.completed_trips],
+                "rounds": mission.round + 1,
+                "attempts": mission.attempts,
+            }
+            for mission in outcome.missions
+        ],
+        "trips": trips_data(outcome),
+        "drones": [
+            {
+                "id": drone.id,
+                "trips": drone.trips,
+                "flown_m": outcome.flown[drone.id],
+                "battery_level": drone.battery_level,
+                "status": drone.status.value,
+            }
+            for drone in outcome.drones
+        ],
+        "log": outcome.log,
+        **({"crashed_drones": outcome.crashed} if outcome.crashed else {}),
+        **({"given_up": outcome.given_up} if outcome.given_up else {}),
+    }
+
+
+def trips_data(outcome: Outcome) -> dict[str, int]:
+    """Return how many flights there were, and how they ended."""
+    return {
+        "completed": outcome.count("trip.completed"),
+        "failed": outcome.count("trip.failed"),
+        "attempts": outcome.count("trip.launched"),
+    }

@@ -8,6 +8,7 @@ from itertools import pairwise
 from math import dist, inf
 from typing import TYPE_CHECKING
 
+from .errors import Failure, FlightFailed
 from .geometry import EPSILON, Corner, edge_points, enters, inside, outlined, pushed_out
 from .text import number, place
 
@@ -200,3 +201,21 @@ def _climbing(start: Point, corners: list[Corner], end: Point) -> tuple[Point, .
         gone += leg
         way.append((x, y, start[2] + (end[2] - start[2]) * gone / whole))
     return *way, end
+
+
+def permitted_way(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
+    """Return the points to fly through, the end included; raise `FlightFailed` if there is no way."""
+    route = airspace.route(start, end)
+    if route is None:
+        raise FlightFailed(
+            Failure.REFUSED, f"there is no permitted way from {drone} to {place(end)}"
+        )
+    return route
+
+
+def way_from(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
+    """Return such a way; one that begins where no drone may be leads back in first."""
+    if airspace.problem(start) is None or airspace.problem(end) is not None:
+        return permitted_way(airspace, drone, start, end)
+    back = airspace.way_back(start)
+    return (back, *permitted_way(airspace, drone, back, end))

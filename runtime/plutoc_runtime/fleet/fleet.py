@@ -9,14 +9,14 @@ from collections.abc import Callable, Coroutine, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..domain.airspace import permitted_way
 from ..domain.errors import FlightFailed
 from ..domain.model import AfterTrip
 from ..domain.status import DroneStatus
 from ..domain.text import cut_off, printable
 from ..time.future import Future
 from ..time.kernel import FLEET, Kernel, Key, Kind, Task
-from .energy import docked
-from .navigation import permitted_way
+from .reach import docked
 
 if TYPE_CHECKING:
     from ..domain.airspace import Airspace

@@ -12,11 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
-from ..domain.errors import Failure, FlightFailed
-from ..domain.text import place
-
 if TYPE_CHECKING:
-    from ..domain.airspace import Airspace
     from ..domain.model import Point, Telemetry
 
 
@@ -74,21 +70,3 @@ class Navigation(Protocol[J_contra]):
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it is lost."""
         ...
-
-
-def permitted_way(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
-    """Return the points to fly through, the end included; raise `FlightFailed` if there is no way."""
-    route = airspace.route(start, end)
-    if route is None:
-        raise FlightFailed(
-            Failure.REFUSED, f"there is no permitted way from {drone} to {place(end)}"
-        )
-    return route
-
-
-def way_from(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
-    """Return such a way; one that begins where no drone may be leads back in first."""
-    if airspace.problem(start) is None or airspace.problem(end) is not None:
-        return permitted_way(airspace, drone, start, end)
-    back = airspace.way_back(start)
-    return (back, *permitted_way(airspace, drone, back, end))

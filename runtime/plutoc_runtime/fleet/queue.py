@@ -10,6 +10,7 @@ from __future__ import annotations
 from bisect import insort
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
+from functools import update_wrapper
 from math import inf
 from operator import attrgetter
 from typing import TYPE_CHECKING
@@ -18,9 +19,7 @@ from ..domain.errors import HookFault, MissionFailed
 from ..domain.status import DroneStatus
 from ..time.future import Future
 from ..time.kernel import FLEET, Kernel, Kind, Timer
-from .energy import docked
-from .policy import Batch, Choice, Policy
-from .reach import Demand, Reach
+from .reach import Demand, Reach, docked
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Trip
@@ -29,6 +28,49 @@ _FREE, _BUSY, _LOST = DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.LOST
 _IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
 _in_the_file = attrgetter("index")
+
+
+Able = Callable[["Drone"], bool]
+"""Says whether a drone may fly the trip now. It can take a route: ask it of as few as will do."""
+
+Choice = tuple["Drone", str]
+"""The drone that gets a trip, and why it was chosen."""
+
+OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
+"""Chooses one of the free drones, which come in the fleet's order, for a trip; None: none of them."""
+
+AllAtOnce = Callable[[Sequence[tuple["Trip", Able]], Sequence["Drone"]], Sequence[Choice | None]]
+"""Chooses a free drone, or None, for each of the trips that wait with one priority; none twice."""
+
+
+class Batch:
+    """A policy that looks at all trips at once: what decorates the function that does."""
+
+    def __init__(self, policy: AllAtOnce) -> None:
+        self._policy = policy
+        update_wrapper(self, policy)
+
+    def __call__(
+        self, offers: Sequence[tuple[Trip, Able]], free: Sequence[Drone]
+    ) -> Sequence[Choice | None]:
+        """Return a drone, or None, for each trip."""
+        return self._policy(offers, free)
+
+
+Policy = OneByOne | Batch
+
+
+def lowest(
+    free: Sequence[Drone], able: Able, rank: Callable[[Drone], float]
+) -> tuple[Drone, float] | None:
+    """Return the able drone of the lowest rank, and that rank; of equals, the fleet's first."""
+    found: Drone | None = None
+    least = inf
+    for drone in free:
+        here = rank(drone)
+        if here < least and able(drone):
+            found, least = drone, here
+    return None if found is None else (found, least)
 
 
 class Request(Future["Drone"]):

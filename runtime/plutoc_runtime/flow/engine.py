@@ -2,21 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from gc import freeze
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import Cancelled, HookFault, MissionFailed
 from ..domain.fields import Entity, wrong_field
-from ..domain.status import FAILED, UNEXECUTED, Status
+from ..domain.model import Drone, Mission
+from ..domain.results import ResultStore
+from ..domain.status import FAILED, UNEXECUTED, DroneStatus, Status
+from ..domain.trace import Event, Trace
+from ..fleet.fleet import Fleet
+from ..fleet.queue import Queue
+from ..fleet.reach import Reach
 from ..time.future import Future
-from ..time.kernel import Task, mission_key
+from ..time.kernel import FLEET, Kernel, Task, mission_key
+from ..trips.transitions import Transitions
 from .location import as_crash, blame, blamed
-from .mission import MissionState
+from .mission import Core, FailLater, MissionState, Recorder
 from .run import Run
 
 if TYPE_CHECKING:
-    from ..domain.model import Mission
-    from .mission import Core
+    from ..domain.app import App
+    from ..domain.fleet_data import FleetData
+    from ..fleet.navigation import Navigation
+    from ..trips.flight import Flight
 
 
 class Engine:
@@ -117,3 +127,83 @@ class Engine:
         state.allocated = state.carrier = state.carries = None
         self._core.transitions.end(mission, status, reason)
         self.look_for_the_end()
+
+
+Listener = Callable[[Event], object]
+
+
+class Session:
+    """One running app: its engine, over any navigation, on any kernel."""
+
+    def __init__(
+        self,
+        app: App,
+        fleet: FleetData,
+        kernel: Kernel,
+        navigation: Navigation[Flight],
+        listeners: Sequence[Listener],
+        recorder: Recorder | None = None,
+        fail_later: FailLater | None = None,
+        kind_of_fleet: type[Fleet] = Fleet,
+        kind_of_engine: type[Engine] = Engine,
+    ) -> None:
+        self._kernel = kernel
+        known = DroneStatus.FREE if recorder is None else DroneStatus.OFFLINE
+        categories = {category.name: category for category in app.categories}
+        self.drones = tuple(
+            Drone(
+                id=entry.id,
+                category=categories[entry.category],
+                home=entry.home,
+                telemetry=navigation.telemetry(entry.id),
+                status=known,
+                index=index,
+            )
+            for index, entry in enumerate(fleet.drones)
+        )
+        trace, results = Trace(kernel, listeners), ResultStore()
+        queue = Queue(kernel, Reach(app, fleet.airspace), self.drones, fleet.max_airborne)
+        self.core = Core(
+            app=app,
+            kernel=kernel,
+            airspace=fleet.airspace,
+            navigation=navigation,
+            trace=trace,
+            results=results,
+            transitions=Transitions(kernel, trace, results),
+            queue=queue,
+            fleet=kind_of_fleet(
+                kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
+            ),
+            recorder=recorder,
+            fail_later=fail_later,
+        )
+        if recorder is not None:
+            recorder.trace, recorder.results = trace, results
+        self.engine = kind_of_engine(self.core)
+
+    def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
+        """Set the missions on their way; the task gives the time at which the last one ended.
+
+        It is done when every drone is down as well.
+        """
+        self.set_out(missions)
+        return self._kernel.spawn(self.see_through(), FLEET, "the session")
+
+    def set_out(self, missions: Sequence[Mission[Any]]) -> None:
+        """Start the missions."""
+        # All this lives until the end: the garbage collector need not look at it again and again,
+        # neither at what has been given while all set out, nor at that afterwards.
+        freeze()
+        self.engine.start(missions)
+        freeze()
+
+    async def see_through(self) -> float:
+        """Wait until the last mission has ended and every drone is down; return when it ended."""
+        engine = self.engine
+        while True:
+            await engine.done
+            ended = self._kernel.now
+            await self.core.fleet.all_down()
+            if engine.done.is_set:  # and no mission has been let go on meanwhile
+                return ended

@@ -12,8 +12,7 @@ from plutoc_runtime.domain.text import duration
 from plutoc_runtime.time.kernel import Kind
 
 if TYPE_CHECKING:
-    from plutoc_runtime.fleet.policy import Policy
-    from plutoc_runtime.fleet.queue import Request
+    from plutoc_runtime.fleet.queue import Policy, Request
     from plutoc_runtime.flow.run import Run
 
 

@@ -12,11 +12,10 @@ from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
-from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.airspace import Airspace, permitted_way
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Category, Point
-from plutoc_runtime.fleet.energy import docked
-from plutoc_runtime.fleet.navigation import permitted_way
+from plutoc_runtime.fleet.reach import docked
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Kind
 from plutoc_runtime.time.kernel import Task as Coroutine

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli.beside import take_fleet_beside
 from pluto_fleet.cli.options import parse
+from pluto_fleet.cli.plans import take_fleet_beside
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP
 

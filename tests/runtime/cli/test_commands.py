@@ -68,7 +68,7 @@ def test_check_warns_of_names_that_look_alike(missions: Path, command: Command) 
     )
 
 
-def test_a_plan_that_no_drone_can_fly_is_refused(missions: Path, command: Command) -> None:
+def test_a_plan_that_unflyable_trips_is_refused(missions: Path, command: Command) -> None:
     """By check and simulate alike, before anything starts."""
     fleet = missions.with_name("f.toml")
     fleet.write_text('[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n')
@@ -179,5 +179,5 @@ def test_a_full_disk_is_told_once(missions: Path) -> None:
 def test_check_imports_no_engine_and_no_event_loop(missions: Path) -> None:
     """A command brings in only what it needs."""
     code = "c.main(APP, ['check', sys.argv[1]]); "
-    code += "sys.exit('asyncio' in sys.modules or 'plutoc_runtime.flow.session' in sys.modules)"
+    code += "sys.exit('asyncio' in sys.modules or 'plutoc_runtime.flow.engine' in sys.modules)"
     assert in_a_process(code, missions, stdout=subprocess.DEVNULL).returncode == 0

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli import drone_answers
+from pluto_fleet.cli import drone_status as drone_answers
 from pluto_fleet.drones import localization
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.gateway.drone_lock import lock_drones

@@ -55,7 +55,7 @@ def _own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def air() -> Iterator[Air]:
-    """Drones that answer; whatever is asked of them, none is armed, and none moves."""
+    """Drones that answer; asked anything, none is armed, and none moves."""
     record, loop = MemoryLog(), asyncio.new_event_loop()
     builds = [Build(id=f"cf{n}", home=(float(n), 1.0, 0.0), seed=n) for n in (1, 2, 3)]
     server = Server(builds, record)

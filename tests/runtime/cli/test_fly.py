@@ -80,7 +80,7 @@ def test_what_an_earlier_flight_has_left_is_not_taken_for_this_ones(
     assert not (tmp_path / "a.journal").exists()
 
 
-def test_a_plan_that_no_drone_can_fly_leaves_no_journal(tmp_path: Path, command: Command) -> None:
+def test_a_plan_that_unflyable_trips_leaves_no_journal(tmp_path: Path, command: Command) -> None:
     path = tmp_path / "new.journal"
     assert command("fly", tmp_path / "none.toml", "--sim", "--journal", path)[0] == 2
     assert not path.exists()

@@ -21,7 +21,7 @@ from plutoc_runtime.fleet.policies.nearest import nearest
 from plutoc_runtime.flow.run import Run
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, FieldMission
-from tests.testing.examples import WAITING, app_of
+from tests.trials.examples import WAITING, app_of
 
 WHY = 'mission "South" has set out 100 times for 1 trip, and nothing ends that; to fly on, say how'
 

@@ -12,11 +12,11 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.cli import often
-from pluto_fleet.cli.summary import percentile, run_of
+from pluto_fleet.cli import runs as often
+from pluto_fleet.cli.runs import percentile, run_of
 from pluto_fleet.trials.invariants import Items
+from plutoc_runtime.alone.simulate import Outcome
 from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.flow.session import Outcome
 from tests.runtime.cli.conftest import Command
 
 CRASHES = ("--fail", "crash=30%", "--seed", 10)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli.flight_options import ACTIONS, ANSWERS
+from pluto_fleet.cli.flags import ACTIONS, ANSWERS
 from pluto_fleet.cli.options import parse
 from pluto_fleet.cli.supervise import GIVES_UP_AFTER
 from tests.runtime.files.an_app import APP

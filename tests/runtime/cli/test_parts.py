@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.cli.events import line_of
-from pluto_fleet.cli.progress import Progress
-from pluto_fleet.cli.report import table
-from pluto_fleet.cli.summary import Run, spread, summary
+from pluto_fleet.cli.runs import RunFigures, spread, summary
+from pluto_fleet.report.progress import Progress
+from pluto_fleet.report.report import table
+from pluto_fleet.report.sentences import line_of
 from plutoc_runtime.alone.faults import shares
 from plutoc_runtime.domain.text import duration, mass, number, quoted
 from plutoc_runtime.domain.trace import dumped
@@ -21,7 +21,7 @@ from plutoc_runtime.domain.trace import dumped
 def test_the_summary_counts_successes_and_times_only_those() -> None:
     """A mission that failed early is not a fast one."""
     runs = [
-        Run(seed=seed, success=seed != 2, makespan=float(10 * seed), attempts=seed, failed=0)
+        RunFigures(seed=seed, success=seed != 2, makespan=float(10 * seed), attempts=seed, failed=0)
         for seed in range(1, 5)
     ]
     figures = summary(runs)

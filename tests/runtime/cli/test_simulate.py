@@ -226,7 +226,7 @@ def test_a_mistake_in_a_block_names_the_block(missions: Path, command: Command) 
     assert err == (
         "alfalfa: internal error: ZeroDivisionError: by accident\n"
         "in block scan = survey.GridScan\n"
-        "This is a mistake of ours, or of whoever made that block: please report it "
+        "This is a mistake of ours, or of that block's author: please report it "
         "(PLUTO_DEBUG=1 shows where it happened).\n"
     )
 

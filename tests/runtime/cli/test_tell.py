@@ -10,7 +10,7 @@ from threading import Event, Thread
 
 import pytest
 
-from pluto_fleet.cli import stop_mark
+from pluto_fleet.flight import offline
 from pluto_fleet.flight.commands import hear_commands
 from pluto_fleet.gateway.process import NOTE
 from pluto_fleet.jobs.reports import Down
@@ -95,7 +95,7 @@ def test_motors_are_cut_by_the_gateway_without_a_word_to_the_app(
     with running(gateway_folder(journal) / NOTE, answer):
         assert command("tell", journal, "cut-motors", *words) == (0, "they are cut\n", "")
     assert heard == [request_]
-    assert stop_mark.found(journal) is None
+    assert offline.pending_stop(journal) is None
 
 
 def test_where_no_gateway_commands_drones_no_motor_is_cut(journal: Path, command: Command) -> None:
@@ -103,7 +103,7 @@ def test_where_no_gateway_commands_drones_no_motor_is_cut(journal: Path, command
     journal.touch()
     code, _, err = command("tell", journal, "cut-motors", "--all")
     assert code == 2
-    assert "nobody commands its drones, so no motor can be cut from here" in err
+    assert "nothing commands its drones, so no motor can be cut from here" in err
     assert "resume" in err
 
 
@@ -148,7 +148,7 @@ def test_where_no_app_runs_one_is_told_how_to_go_on(journal: Path, command: Comm
     code, out, err = command("tell", journal, "pause")
     assert (code, out) == (2, "")
     assert err == (
-        f"{journal}: alfalfa is not running, so there is nobody to tell; "
+        f"{journal}: alfalfa is not running, so it cannot be told; "
         f"alfalfa resume {journal} goes on\n"
     )
 
@@ -173,7 +173,7 @@ def test_a_stop_is_kept_for_the_apps_next_start(journal: Path, command: Command)
     """It may crash while its drones come down."""
     with running(commands_note(journal), lambda request: "stopping"):
         assert command("tell", journal, "stop", "--rtl") == (0, "stopping\n", "")
-        assert stop_mark.found(journal) is Down.HOME
+        assert offline.pending_stop(journal) is Down.HOME
 
 
 def test_where_nothing_runs_there_is_nothing_to_stop(journal: Path, command: Command) -> None:
@@ -186,7 +186,7 @@ def test_an_app_that_has_only_just_begun_is_stopped_before_it_flies(
     journal: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It reads its journal, and hears nothing yet: what it shall do is left where it will look."""
-    lock, leave = Lock.take(journal), stop_mark.leave
+    lock, leave = Lock.take(journal), offline.leave_stop
     left, over = Event(), Event()
 
     def leave_and_tell(journal: Path, how: Down) -> None:
@@ -201,12 +201,12 @@ def test_an_app_that_has_only_just_begun_is_stopped_before_it_flies(
         with running(commands_note(journal), answer):
             over.wait()
 
-    monkeypatch.setattr(stop_mark, "leave", leave_and_tell)
+    monkeypatch.setattr(offline, "leave_stop", leave_and_tell)
     app = Thread(target=begin)
     app.start()
     try:
         assert command("tell", journal, "stop", "--rtl") == (0, "stopping\n", "")
-        assert stop_mark.found(journal) is Down.HOME
+        assert offline.pending_stop(journal) is Down.HOME
     finally:
         over.set()
         app.join()

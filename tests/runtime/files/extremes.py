@@ -9,7 +9,7 @@ from random import Random
 
 from pluto_fleet.files.values import APART, HEIGHT, MASS, PLACE, RADIUS, SIDE, TIME, Limit
 from plutoc_runtime.domain.app import App
-from tests.testing.examples import app_of
+from tests.trials.examples import app_of
 
 LONGEST = 100_000.0
 """Seconds of the delays that are flown: nothing of longer ones differs, and a trial is a week at most."""

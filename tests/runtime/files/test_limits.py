@@ -14,9 +14,8 @@ from pluto_fleet.files.fleet import FleetFile, load_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.plan_check import problems
 from pluto_fleet.files.values import APART, RADIUS, SIDE
-from pluto_fleet.trials.blows import Blow, Kind
-from pluto_fleet.trials.case import Case, Weather
-from pluto_fleet.trials.rig import Rig
+from pluto_fleet.trials.case import Case, Strike, StrikeKind, Weather
+from pluto_fleet.trials.lives import TrialRun
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Mission
 from tests.runtime.files.extremes import CATEGORIES, Extremes, extreme_app
@@ -102,18 +101,18 @@ def test_what_is_accepted_flies(tmp_path: Path, number: int, seed: int) -> None:
         return  # it was drawn into a no-fly area, say
     if problems(missions, app, fleet, fleet.airspace):
         return
-    kind = rng.choice((Kind.RTL, Kind.LAND, Kind.CRASH, Kind.GATEWAY))
-    blows = (Blow(kind=kind, row=rng.choice((1, 3, 6)), after=rng.choice((0.0, 3.0))),)
+    kind = rng.choice((StrikeKind.RTL, StrikeKind.LAND, StrikeKind.CRASH, StrikeKind.GATEWAY))
+    strikes = (Strike(kind=kind, row=rng.choice((1, 3, 6)), after=rng.choice((0.0, 3.0))),)
     weather = Weather(crash=0.1, link=0.1, battery=0.1)
-    case = Case(seed=seed, missions=tuple(missions), fleet=fleet, weather=weather, blows=blows)
-    rig = Rig(app, case)
-    rig.be_born()
+    case = Case(seed=seed, missions=tuple(missions), fleet=fleet, weather=weather, strikes=strikes)
+    run = TrialRun(app, case)
+    run.start_life()
     for _ in range(TURNS):
-        if rig.over or not rig.turn():
+        if run.over or not run.turn():
             break
-    trial = rig.book.closed(rig.lives)
-    for brain in rig.brains:
+    trial = run.record.closed(run.lives)
+    for brain in run.brains:
         brain.die()
-    rig.world.close()
-    assert [said for said in rig.found if not said.startswith("it goes on for ever")] == []
+    run.world.close()
+    assert [said for said in run.found if not said.startswith("it goes on for ever")] == []
     assert not any("Error" in said for said in trial.wrong)

@@ -14,7 +14,7 @@ from plutoc_runtime.alone.faults import Faults, draw
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Item, Point
-from plutoc_runtime.fleet.energy import docked
+from plutoc_runtime.fleet.reach import docked
 from plutoc_runtime.time.kernel import FLEET
 from plutoc_runtime.time.virtual import VirtualTime
 from tests.runtime.simulation.flights import CLIMB, HOME, SCOUT, Team, failure, fly, order, team

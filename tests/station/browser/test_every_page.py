@@ -27,7 +27,14 @@ SMALL = 100_000
 """Bytes of a picture."""
 
 
-@pytest.mark.parametrize("device", SIZES)
+@pytest.mark.parametrize(
+    "device",
+    [
+        # half a minute each
+        pytest.param(device, marks=[] if device == "laptop" else [pytest.mark.long])
+        for device in SIZES
+    ],
+)
 def test_every_page_in_every_phase_can_be_seen_and_pressed_and_read_aloud(
     serve: Serve, visit: Visit, device: str, update: bool
 ) -> None:

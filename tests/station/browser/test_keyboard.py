@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.station.browser.conftest import Serve, Visit
@@ -65,6 +66,7 @@ def drawn(station: Station) -> dict[str, list[Place]]:
     }
 
 
+@pytest.mark.long  # a whole flight once more
 def test_the_exercise_is_drawn_and_flown_without_a_mouse(serve: Serve, visit: Visit) -> None:
     station = serve("drugs_distribution")
     page = visit(station)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from playwright.sync_api import Route, expect
 
 from tests.station.browser.conftest import Serve, Visit
@@ -53,6 +54,7 @@ def test_a_start_that_is_answered_late_does_not_take_one_away_from_where_one_has
     expect(page.get_by_role("tab", name="Trips")).to_have_attribute("aria-selected", "true")
 
 
+@pytest.mark.long  # whole flights, as in tests/station/flights/test_again.py
 def test_the_whole_plan_flies_again_when_all_has_ended_and_nothing_old_is_shown(
     serve: Serve, visit: Visit
 ) -> None:
@@ -69,6 +71,7 @@ def test_the_whole_plan_flies_again_when_all_has_ended_and_nothing_old_is_shown(
     assert set(station.done().values()) == {2}
 
 
+@pytest.mark.long  # whole flights, as in tests/station/flights/test_again.py
 def test_what_was_stopped_is_put_away_and_the_plan_begins_anew(serve: Serve, visit: Visit) -> None:
     """Its missions can be changed again."""
     station = serve("drugs_distribution")

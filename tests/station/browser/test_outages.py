@@ -44,6 +44,7 @@ def is_carried(station: Station) -> bool:
     return ("pick_item", "Mission 3/1/0") in station.done()
 
 
+@pytest.mark.long  # a whole flight once more
 def test_a_browser_that_is_closed_changes_nothing_and_another_one_sees_the_flight(
     station: Station, visit: Visit
 ) -> None:
@@ -96,6 +97,7 @@ def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
     assert station.done() == DONE
 
 
+@pytest.mark.long  # a whole flight once more
 def test_a_server_that_is_supervised_goes_on_by_itself(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
@@ -122,6 +124,7 @@ def _serves(process: int) -> bool:
     return b"serve" in Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
 
 
+@pytest.mark.long  # a whole flight once more
 def test_an_answer_that_is_lost_starts_nothing_twice(
     station: Station, visit: Visit, watch: Watch
 ) -> None:
@@ -139,6 +142,7 @@ def test_an_answer_that_is_lost_starts_nothing_twice(
     assert station.done() == DONE
 
 
+@pytest.mark.long  # a whole flight once more
 def test_an_answer_that_is_lost_skips_one_trip_and_not_two(
     station: Station, visit: Visit, watch: Watch
 ) -> None:
@@ -212,6 +216,7 @@ def _lose_first(route: Route, asked: list[str]) -> None:
         route.continue_()
 
 
+@pytest.mark.long  # a whole flight once more
 def test_a_page_without_websockets_asks_and_asks(
     station: Station, visit: Visit, watch: Watch
 ) -> None:

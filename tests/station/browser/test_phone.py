@@ -40,6 +40,7 @@ NAMELESS = """
 """
 
 
+@pytest.mark.long  # all phases of a flight, as on a laptop
 def test_every_page_in_every_phase_fits_on_a_phone(serve: Serve, visit: Visit) -> None:
     """Nothing scrolls to the side, neither the page nor a list in it; 24 pixels can be hit."""
     station = serve("drugs_distribution", "--speed", "5")

@@ -13,6 +13,7 @@ import signal
 from pathlib import Path
 from typing import Any
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from pluto_fleet.gateway.starting import still_runs
@@ -89,6 +90,7 @@ def flies(page: Page, station: Station) -> None:
     until(lambda: station.phase == "flying" and is_away(station), "a drone is away")
 
 
+@pytest.mark.long  # many flights, as in tests/station/flights/test_at_rest.py
 def test_page_and_world_agree_on_each_drone_after_every_end_and_every_new_start(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:

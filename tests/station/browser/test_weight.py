@@ -10,6 +10,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.release.environments import ROOT
 from tests.station.browser.chrome import chromium
 
@@ -36,6 +38,7 @@ def test_no_page_names_another_machine() -> None:
         assert named <= {"http://www.w3.org"}, path.name
 
 
+@pytest.mark.long  # twenty seconds of a flight, once more
 def test_what_it_costs_to_watch_is_measured() -> None:
     chromium()
     few = ["--drones", "2", "--missions", "3", "--tabs", "1", "--seconds", "1", "--json"]

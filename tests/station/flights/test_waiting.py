@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from pluto_fleet.flight.live_fleet import live_fleet
-from pluto_fleet.station.waiting import AT_ONCE, Waiting, why_nobody
-from plutoc_runtime.alone.motion import Charge
+from pluto_fleet.station.wait_reasons import AT_ONCE, WaitReasons, why_no_drone
+from plutoc_runtime.alone.ideal import Charge
 from plutoc_runtime.domain.model import Category, Item
 from plutoc_runtime.domain.status import DroneStatus
 from tests.runtime import apps
@@ -33,7 +33,7 @@ def said(fleet: Living) -> list[str]:
     """Return what is said of each that waits."""
     session = fleet.life.session
     return [
-        why_nobody(live_fleet(session.core), request) for request in session.core.queue.waiters()
+        why_no_drone(live_fleet(session.core), request) for request in session.core.queue.waiters()
     ]
 
 
@@ -76,7 +76,7 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
     None
 ):
     def why_low(fleet: Living) -> list[str]:
-        waiting, core = Waiting(lambda: 0.0), fleet.life.session.core
+        waiting, core = WaitReasons(lambda: 0.0), fleet.life.session.core
         waiting.look(live_fleet(core))
         return [waiting.why_low(live_fleet(core), drone) for drone in live_fleet(core).drones]
 
@@ -92,7 +92,7 @@ def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
     """None is forgotten, and nothing is found out twice within seconds."""
     fleet = living(*[far(f"m{n}") for n in range(3 * AT_ONCE)], low=0.25)
     core = fleet.life.session.core
-    waiting, seen = Waiting(lambda: 0.0), []
+    waiting, seen = WaitReasons(lambda: 0.0), []
     trips = [request.trip for request in core.queue.waiters()]
     for _ in range(4):
         waiting.look(live_fleet(core))

@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.flight.live_engine import live_engine
 from pluto_fleet.flight.simulate import Simulation
-from pluto_fleet.station.whereabouts import _named, blocks_of
+from pluto_fleet.station.rows import _named, blocks_of
 from plutoc.compile import analyse
 from plutoc.source import Source
 from plutoc_runtime.alone.faults import Faults

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 from typing import Any
 
-from pluto_fleet.station.graph.grid import Point
-from pluto_fleet.station.graph.layout import Laid
-from pluto_fleet.station.graph.routes import Piece
-from pluto_fleet.station.graph.words import Area
+from pluto_fleet.station.graph.layout import Area, Layout, Point
+
+Piece = tuple[Point, Point]
 
 STAND = 13.0
 LETTER = 5.4
@@ -21,7 +20,7 @@ LETTER = 5.4
 class Pictured:
     """What a page draws."""
 
-    laid: Laid
+    laid: Layout
     ways: list[tuple[int, int]]
     """From which box to which."""
     words: list[Area]
@@ -40,7 +39,7 @@ def pictured(plain: Mapping[str, Any]) -> Pictured:
     """Return the same from what a page gets."""
     number = {block["name"]: place for place, block in enumerate(plain["blocks"])}
     edges = plain["edges"]
-    laid = Laid(
+    laid = Layout(
         width=plain["width"],
         height=plain["height"],
         boxes=tuple(
@@ -73,7 +72,7 @@ def covered(piece: Piece) -> Area:
     return min(x, to_x), min(y, to_y), max(x, to_x), max(y, to_y)
 
 
-def mistakes(laid: Laid, ways: Sequence[tuple[int, int]]) -> Iterator[str]:
+def mistakes(laid: Layout, ways: Sequence[tuple[int, int]]) -> Iterator[str]:
     """Yield what must never be: boxes over boxes, ways through boxes, loose ends, slanted ways."""
     boxes = laid.boxes
     for (a, one), (b, other) in combinations(enumerate(boxes), 2):
@@ -105,7 +104,7 @@ def touches(box: Area, point: Point) -> bool:
     return on_side or ((_same(y, top) or _same(y, bottom)) and left < x < right)
 
 
-def lying_together(laid: Laid) -> Iterator[tuple[Piece, Piece]]:
+def lying_together(laid: Layout) -> Iterator[tuple[Piece, Piece]]:
     """Yield the pieces of different ways that cannot be told apart for a stretch."""
     pieces = [(number, piece) for number, way in enumerate(laid.ways) for piece in pairwise(way)]
     for (number, one), (its_number, other) in combinations(pieces, 2):
@@ -122,7 +121,7 @@ def lying_together(laid: Laid) -> Iterator[tuple[Piece, Piece]]:
             yield one, other
 
 
-def _pieces(laid: Laid) -> Iterator[Piece]:
+def _pieces(laid: Layout) -> Iterator[Piece]:
     for way in laid.ways:
         yield from pairwise(way)
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.station.graph.read import app_graph
+from pluto_fleet.station.graph.picture import app_graph
 from plutoc.compile import compile_source
 from plutoc.source import Source
 from tests.emit.apps import PLAIN

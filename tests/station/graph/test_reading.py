@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from pluto_fleet.station.graph.read import graph_in
+from pluto_fleet.station.graph.picture import graph_in
 from plutoc.block import ANY_SAME, Block
 from plutoc.check.model import Checked
 from plutoc.emit.readme_file import readme

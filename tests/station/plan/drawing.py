@@ -9,7 +9,7 @@ from typing import Any
 from hypothesis import strategies as st
 
 from pluto_fleet.files.fleet import FleetFile, default_fleet
-from pluto_fleet.station.plan.plan import Plan
+from pluto_fleet.station.plan.plan import MissionPlan
 from tests.runtime.files.an_app import APP
 
 FLEET = default_fleet(APP)
@@ -18,9 +18,9 @@ FLEET = default_fleet(APP)
 Json = dict[str, Any]
 
 
-def a_plan(keep: Path | None = None, fleet: FleetFile = FLEET, now: float = 0.0) -> Plan:
+def a_plan(keep: Path | None = None, fleet: FleetFile = FLEET, now: float = 0.0) -> MissionPlan:
     """Return an empty plan, or the one that is kept there; its revisions count from 1."""
-    return Plan(APP, fleet, keep, now=lambda: now)
+    return MissionPlan(APP, fleet, keep, now=lambda: now)
 
 
 def trip(key: str = "trip-one", **given: object) -> Json:
@@ -33,14 +33,14 @@ def mission(key: str = "mission-one", *trips: Json, **given: object) -> Json:
     return {"key": key, "name": key, "trips": list(trips or (trip(f"{key}-trip"),)), **given}
 
 
-def drawn(*missions: Json, fleet: FleetFile = FLEET) -> Plan:
+def drawn(*missions: Json, fleet: FleetFile = FLEET) -> MissionPlan:
     """Return a plan of these missions."""
     plan = a_plan(fleet=fleet)
     plan.replace(plan.revision, list(missions))
     return plan
 
 
-def said(plan: Plan) -> list[tuple[str | None, str | None, str | None, str]]:
+def said(plan: MissionPlan) -> list[tuple[str | None, str | None, str | None, str]]:
     """Return what is said of a plan: mission, trip, field, sentence."""
     asyncio.run(plan.examined())
     problems: Any = plan.data()["problems"]

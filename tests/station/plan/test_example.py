@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.station.plan.plan import Plan
+from pluto_fleet.station.plan.plan import MissionPlan
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.actions import Action, Parameter
 from plutoc_runtime.domain.airspace import Airspace
@@ -24,13 +24,13 @@ from plutoc_runtime.domain.status import Status
 from tests.flying import EXAMPLES
 from tests.runtime.files.an_app import APP, PLAIN
 from tests.station.plan.drawing import FLEET, a_plan, drawn, mission
-from tests.testing.examples import example, fleet_of
+from tests.trials.examples import example, fleet_of
 
 NAMES = sorted(path.parent.name for path in EXAMPLES.glob("*/app.pluto"))
 
 
-def shown(app: App, fleet: FleetFile) -> Plan:
-    plan = Plan(app, fleet, None)
+def shown(app: App, fleet: FleetFile) -> MissionPlan:
+    plan = MissionPlan(app, fleet, None)
     plan.example(plan.revision)
     return plan
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.station.plan.errors import Stale
-from pluto_fleet.station.plan.plan import Plan
+from pluto_fleet.station.plan.plan import MissionPlan
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Mission
 from tests.runtime.files.an_app import APP
@@ -59,7 +59,7 @@ name = "2"
 """
 
 
-def imported(text: str) -> Plan:
+def imported(text: str) -> MissionPlan:
     plan = a_plan()
     plan.import_toml(text, plan.revision)
     return plan
@@ -167,8 +167,8 @@ def test_a_bad_file_is_told_by_the_name_that_it_has() -> None:
         asyncio.run(plan.import_file("[[mission]", plan.revision, "north.toml"))
 
 
-def test_what_no_drone_can_fly_is_taken_and_told() -> None:
-    """The person who draws can mend it."""
+def test_what_unflyable_trips_is_taken_and_told() -> None:
+    """Whoever draws can mend it."""
     plan = imported(FILE.replace('"4 g"', '"8 g"').replace("0.004", "0.008"))
     [(_, _, _, sentence)] = said(plan)
     assert "carrier carries at most 5 g" in sentence

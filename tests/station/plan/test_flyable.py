@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.station.plan.plan import MOST_SHOWN, Plan
+from pluto_fleet.station.plan.plan import MOST_SHOWN, MissionPlan
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import FLEET, a_plan, drawn, mission, said, trip
@@ -18,7 +18,7 @@ WALLED = replace(FLEET, airspace=Airspace(no_fly=(WALL,)))
 FAR = trip(target=[12, 1])
 
 
-def told(plan: Plan) -> int:
+def told(plan: MissionPlan) -> int:
     """Return how many problems a page would see now."""
     problems: Any = plan.data()["problems"]
     return len(problems)
@@ -56,7 +56,7 @@ def test_start_does_not_wait() -> None:
 def test_drawing_meanwhile_is_waited_for() -> None:
     """The answer is about the newest plan."""
 
-    async def both(plan: Plan) -> None:
+    async def both(plan: MissionPlan) -> None:
         asking = asyncio.ensure_future(plan.examined())
         await asyncio.sleep(0)
         plan.replace(plan.revision, [mission("mission-two", FAR)])

@@ -17,7 +17,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.station.plan.plan import Plan
+from pluto_fleet.station.plan.plan import MissionPlan
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.fields import Entity
 from tests.runtime.files.an_app import APP, PLAIN
@@ -31,12 +31,12 @@ def file(tmp_path: Path) -> Path:
     return tmp_path / "plan.json"
 
 
-def missions_of(plan: Plan) -> list[Json]:
+def missions_of(plan: MissionPlan) -> list[Json]:
     missions: Any = plan.data()["missions"]
     return list(missions)
 
 
-def kept(file: Path, *missions: Json) -> Plan:
+def kept(file: Path, *missions: Json) -> MissionPlan:
     plan = a_plan(file)
     plan.replace(plan.revision, list(missions))
     return plan
@@ -161,7 +161,7 @@ def test_a_changed_app_takes_what_it_still_knows(file: Path) -> None:
     kept(file, full).launched([M])
     was = file.read_bytes()
     fields = tuple(one for one in APP.fields if one.on is Entity.MISSION and one.name != "repeat")
-    plan = Plan(replace(APP, fields=fields), FLEET, file)
+    plan = MissionPlan(replace(APP, fields=fields), FLEET, file)
     assert plan.trouble == (
         "The plan that was kept has repeat, delay, priority, which this app does not have any "
         f"more. The rest is here; as it was, it lies in {file}.bad."
@@ -179,7 +179,7 @@ def test_an_action_that_is_gone_is_a_problem_of_the_plan(file: Path) -> None:
     dose = {"dose": "40 mg"}
     kept(file, mission(M, trip(action="pollinate", parameters=dose)))
     changed = replace(PLAIN, name=APP.name, categories=APP.categories)
-    plan = Plan(changed, FLEET, file)
+    plan = MissionPlan(changed, FLEET, file)
     assert plan.trouble == ""
     problems: Any = plan.data()["problems"]
     assert [one["field"] for one in problems] == ["action"]
@@ -215,13 +215,13 @@ def full_disk() -> Iterator[None]:
         signal(SIGXFSZ, before)
 
 
-def ended(plan: Plan) -> dict[str, object]:
+def ended(plan: MissionPlan) -> dict[str, object]:
     """Return how the missions of a plan have ended, by their names."""
     missions: Any = plan.data()["missions"]
     return {mission["name"]: mission["ended"] for mission in missions}
 
 
-def flown(keep: Path | None = None) -> Plan:
+def flown(keep: Path | None = None) -> MissionPlan:
     """Return a plan of three missions that have flown: one failed, one was broken off."""
     plan = a_plan(keep)
     plan.replace(plan.revision, [mission(f"mission-{name}") for name in ("one", "two", "six")])

@@ -119,7 +119,7 @@ def test_two_of_one_name_are_told_at_the_second() -> None:
     ]
 
 
-def test_what_no_drone_can_fly_is_told_at_its_first_trip() -> None:
+def test_what_unflyable_trips_is_told_at_its_first_trip() -> None:
     """With the trips that belong to it."""
     heavy = {"name": "pills", "mass": "8 g"}
     pick, release = (

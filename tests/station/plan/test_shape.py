@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.station.plan.errors import Stale
-from pluto_fleet.station.plan.plan import Plan
+from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.plan.shape import LONGEST_TEXT, MOST_MISSIONS, MOST_TRIPS
 from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import PLANS, Json, a_plan, mission, said, trip
@@ -141,7 +141,7 @@ def test_a_plan_with_anything_in_one_place_is_taken_or_refused(
     assert all(text for *_, text in said(plan))
 
 
-def try_to(plan: Plan, revision: object, missions: object) -> None:
+def try_to(plan: MissionPlan, revision: object, missions: object) -> None:
     try:
         plan.replace(revision, missions)
     except (BadInput, Stale) as error:

@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from pluto_fleet.station.plan.errors import Stale
-from pluto_fleet.station.plan.plan import Plan
+from pluto_fleet.station.plan.plan import MissionPlan
 from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
 
 KEYS = ["mission-one", "mission-two"]
 
 
-def keys_of(plan: Plan) -> list[str]:
+def keys_of(plan: MissionPlan) -> list[str]:
     missions: Any = plan.data()["missions"]
     return [one["key"] for one in missions]
 

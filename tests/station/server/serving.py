@@ -106,7 +106,7 @@ async def served(file: Path | None = None, **guard: Any) -> AsyncIterator[Served
         port = port_of(listener)
         api = Api(station, Guard(host="127.0.0.1", port=port, **guard), Audit(file))
         ready = asyncio.Event()
-        serving = asyncio.create_task(serve(api, listener, "alfalfa", ready.set))
+        serving = asyncio.create_task(serve(api, listener, ready.set))
         try:
             await ready.wait()
             yield Served(station, port)

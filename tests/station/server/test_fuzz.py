@@ -12,12 +12,11 @@ from tempfile import TemporaryDirectory
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.station.phase import Phase
-from pluto_fleet.station.plan.plan import Plan
-from pluto_fleet.station.settings import Settings
+from pluto_fleet.station.config import StationConfig
+from pluto_fleet.station.plan.plan import MissionPlan
+from pluto_fleet.station.session import Phase
 from pluto_fleet.station.station import Station
-from pluto_fleet.station.web.answers import ADDRESSES
-from pluto_fleet.station.web.api import Api
+from pluto_fleet.station.web.api import ADDRESSES, Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
@@ -96,7 +95,7 @@ def requests(draw: st.DrawFn) -> Request:
 class WithAPlan:
     """A station whose plan is the real one."""
 
-    plan: Plan = field(default_factory=a_plan)
+    plan: MissionPlan = field(default_factory=a_plan)
     rest: AStation = field(default_factory=AStation)
 
     image: Path | None = None
@@ -125,7 +124,7 @@ class WithAPlan:
 
 def a_station(folder: Path) -> Station:
     """Return the real one, at which nothing flies."""
-    settings = Settings(folder=folder, fleet=FLEET, faults={})
+    settings = StationConfig(folder=folder, fleet=FLEET, faults={})
     settings.own_folder.mkdir()
     station = Station(APP, settings, a_plan())
     station.begin()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from pluto_fleet.station.web.guard import (
-    Asking,
+    Access,
     Guard,
     is_loopback,
     knows,
@@ -23,20 +23,20 @@ EVERYWHERE = Guard(host="0.0.0.0", port=8765, names=("ward.example",), token="se
 
 
 def status(
-    guard: Guard, headers: dict[str, str], asking: Asking, local: str = "127.0.0.1"
+    guard: Guard, headers: dict[str, str], access: Access, local: str = "127.0.0.1"
 ) -> int | None:
-    why = refusal(guard, Request(method="", path="", headers=headers, local=local), asking)
+    why = refusal(guard, Request(method="", path="", headers=headers, local=local), access)
     return None if why is None else why.status
 
 
-@pytest.mark.parametrize("asking", Asking)
-def test_a_page_of_the_station_may_ask_everything(asking: Asking) -> None:
-    assert status(LOOPBACK, OURS, asking) is None
+@pytest.mark.parametrize("access", Access)
+def test_a_page_of_the_station_may_ask_everything(access: Access) -> None:
+    assert status(LOOPBACK, OURS, access) is None
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1:8765", "localhost:8765", "[::1]:8765"])
 def test_a_station_on_loopback_goes_by_these_names(host: str) -> None:
-    assert status(LOOPBACK, {"host": host}, Asking.READ) is None
+    assert status(LOOPBACK, {"host": host}, Access.READ) is None
 
 
 @pytest.mark.parametrize(
@@ -62,14 +62,14 @@ def test_a_station_on_loopback_goes_by_these_names(host: str) -> None:
         "127.0.0.1:8765\x00",
     ],
 )
-@pytest.mark.parametrize("asking", Asking)
-def test_a_name_that_was_bent_to_this_machine_gets_nothing(host: str, asking: Asking) -> None:
-    assert status(LOOPBACK, without(host=host), asking) == 403
-    assert status(LOOPBACK, without("host"), asking) == 403
+@pytest.mark.parametrize("access", Access)
+def test_a_name_that_was_bent_to_this_machine_gets_nothing(host: str, access: Access) -> None:
+    assert status(LOOPBACK, without(host=host), access) == 403
+    assert status(LOOPBACK, without("host"), access) == 403
 
 
 def test_at_the_usual_port_the_name_has_none() -> None:
-    assert status(Guard(host="127.0.0.1", port=80), {"host": "localhost"}, Asking.READ) is None
+    assert status(Guard(host="127.0.0.1", port=80), {"host": "localhost"}, Access.READ) is None
 
 
 @pytest.mark.parametrize(
@@ -92,46 +92,46 @@ def test_elsewhere_it_goes_by_its_addresses_and_the_names_it_was_given(
     host: str, local: str, is_ours: bool
 ) -> None:
     headers = {"host": host, "authorization": "Bearer sesame"}
-    assert status(EVERYWHERE, headers, Asking.READ, local) == (None if is_ours else 403)
+    assert status(EVERYWHERE, headers, Access.READ, local) == (None if is_ours else 403)
 
 
 def test_a_name_may_have_a_port_of_its_own() -> None:
     guard = Guard(host="127.0.0.1", port=8765, names=("ward.example:8443",))
     for host, why in (("ward.example:8443", None), ("ward.example", 403)):
         headers = {"host": host, "origin": f"https://{host}"}
-        assert status(guard, headers, Asking.READ) == why
+        assert status(guard, headers, Access.READ) == why
 
 
 FOREIGN = ["http://evil.example", "null", "http://127.0.0.1:8766", "http://localhost:8765", "", "x"]
 
 
 @pytest.mark.parametrize("origin", FOREIGN)
-@pytest.mark.parametrize("asking", [Asking.READ, Asking.COMMAND, Asking.LIVE])
-def test_a_page_of_another_site_may_ask_nothing(origin: str, asking: Asking) -> None:
-    assert status(LOOPBACK, without(origin=origin), asking) == 403
+@pytest.mark.parametrize("access", [Access.READ, Access.COMMAND, Access.LIVE])
+def test_a_page_of_another_site_may_ask_nothing(origin: str, access: Access) -> None:
+    assert status(LOOPBACK, without(origin=origin), access) == 403
 
 
 @pytest.mark.parametrize("site", ["cross-site", "same-site", "none"])
 def test_a_browser_that_says_cross_site_is_believed(site: str) -> None:
     headers = without(sec_fetch_site=site)
-    assert status(LOOPBACK, headers, Asking.COMMAND) == 403
-    assert status(LOOPBACK, headers, Asking.READ) == (None if site == "none" else 403)
-    assert status(LOOPBACK, headers, Asking.LIVE) == (403 if site == "cross-site" else None)
+    assert status(LOOPBACK, headers, Access.COMMAND) == 403
+    assert status(LOOPBACK, headers, Access.READ) == (None if site == "none" else 403)
+    assert status(LOOPBACK, headers, Access.LIVE) == (403 if site == "cross-site" else None)
 
 
 @pytest.mark.parametrize("mark", [None, "0", "", "1, 1", "true"])
 def test_a_command_needs_the_mark(mark: str | None) -> None:
     headers = without("x-pluto") if mark is None else without(x_pluto=mark)
-    assert status(LOOPBACK, headers, Asking.COMMAND) == 403
+    assert status(LOOPBACK, headers, Access.COMMAND) == 403
 
 
 def test_who_is_no_browser_needs_no_origin_but_the_mark() -> None:
     headers = without("origin", "sec-fetch-site")
-    assert status(LOOPBACK, headers, Asking.COMMAND) is None
-    assert status(LOOPBACK, headers, Asking.LIVE) is None
+    assert status(LOOPBACK, headers, Access.COMMAND) is None
+    assert status(LOOPBACK, headers, Access.LIVE) is None
     del headers["x-pluto"]
-    assert status(LOOPBACK, headers, Asking.COMMAND) == 403
-    assert status(LOOPBACK, headers, Asking.LIVE) == 403
+    assert status(LOOPBACK, headers, Access.COMMAND) == 403
+    assert status(LOOPBACK, headers, Access.LIVE) == 403
 
 
 @pytest.mark.parametrize(
@@ -139,13 +139,13 @@ def test_who_is_no_browser_needs_no_origin_but_the_mark() -> None:
 )
 def test_elsewhere_nothing_is_told_without_the_token(bearer: str) -> None:
     headers = {**OURS, "host": "ward.example", "origin": "http://ward.example"}
-    for asking in (Asking.READ, Asking.COMMAND):
-        assert status(EVERYWHERE, {**headers, "authorization": bearer}, asking) == 401
-        assert status(EVERYWHERE, {**headers, "authorization": "bearer sesame"}, asking) is None
+    for access in (Access.READ, Access.COMMAND):
+        assert status(EVERYWHERE, {**headers, "authorization": bearer}, access) == 401
+        assert status(EVERYWHERE, {**headers, "authorization": "bearer sesame"}, access) is None
 
 
 def test_the_pages_themselves_need_no_token() -> None:
-    assert status(EVERYWHERE, {"host": "ward.example"}, Asking.PAGE) is None
+    assert status(EVERYWHERE, {"host": "ward.example"}, Access.PAGE) is None
 
 
 def test_the_token_is_known_to_who_knows_it() -> None:
@@ -159,7 +159,7 @@ def test_what_a_proxy_says_is_not_believed() -> None:
     headers = without(
         "host", x_forwarded_host="127.0.0.1:8765", x_forwarded_for="127.0.0.1", forwarded="x"
     )
-    assert status(LOOPBACK, {**headers, "host": "evil.example"}, Asking.COMMAND) == 403
+    assert status(LOOPBACK, {**headers, "host": "evil.example"}, Access.COMMAND) == 403
 
 
 def test_the_token_shows_nowhere() -> None:

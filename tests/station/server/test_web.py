@@ -15,9 +15,8 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
-from pluto_fleet.station.web import connections as crowd
+from pluto_fleet.cli import serve as command
 from pluto_fleet.station.web import server
-from pluto_fleet.station.web.borrowed import borrowed
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.listening import address, listening, port_of
 from plutoc_runtime.domain.errors import BadInput
@@ -113,7 +112,7 @@ def test_a_body_that_does_not_come_is_not_waited_for(monkeypatch: pytest.MonkeyP
 
 
 def test_a_head_that_does_not_come_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(crowd, "_EACH", 0.05)
+    monkeypatch.setattr(server, "_LOOK_EVERY", 0.05)
 
     async def scene(station: Served) -> None:
         assert await station.say(b"") == b""
@@ -125,7 +124,7 @@ def test_a_head_that_does_not_come_is_not_waited_for(monkeypatch: pytest.MonkeyP
 
 
 def test_who_does_not_read_the_answer_is_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(crowd, "_EACH", 0.02)
+    monkeypatch.setattr(server, "_LOOK_EVERY", 0.02)
 
     async def scene(station: Served) -> None:
         async def endless() -> None:
@@ -138,8 +137,8 @@ def test_who_does_not_read_the_answer_is_let_go(monkeypatch: pytest.MonkeyPatch)
     play(scene)
 
 
-def test_many_who_say_nothing_keep_no_client_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(crowd, "_MOST", 16)
+def test_many_who_say_nothing_keep_nobody_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server, "_CONNECTIONS", 16)
 
     async def scene(station: Served) -> None:
         silent = [await asyncio.open_connection("127.0.0.1", station.port) for _ in range(40)]
@@ -313,9 +312,10 @@ def test_the_address_is_what_one_types() -> None:
 
 
 def test_without_the_extra_it_says_how_to_come_by_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delitem(sys.modules, "pluto_fleet.station.web.server")
     monkeypatch.setitem(sys.modules, "starlette.requests", None)
     with pytest.raises(BadInput, match=r"pip install 'alfalfa\[station\]'"):
-        borrowed("alfalfa_")
+        command._web_server("alfalfa_")
 
 
 def test_a_station_comes_back_to_its_port_at_once() -> None:

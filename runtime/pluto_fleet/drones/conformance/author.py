@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 _FLOWN: WeakKeyDictionary[type, dict[str, FlightRecord]] = WeakKeyDictionary()
 """The flights of each test class."""
 _MISSING = {
-    "make_unreachable": "nobody tried a drone that is not resources",
-    "silence": "nobody tried a drone that falls silent",
-    "crash": "nobody tried a drone that crashes",
-    "may_fall": "nobody tried emergency_stop",
+    "make_unreachable": "no drone was tried that is not there",
+    "silence": "no drone was tried that falls silent",
+    "crash": "no drone was tried that crashes",
+    "may_fall": "emergency_stop was not tried",
 }
 
 
@@ -31,7 +31,7 @@ class Author:
     height = 0.5
     """Metres to rise to."""
     away = 1.0
-    """Metres to fly, along x from where the drone stands: resources must be room."""
+    """Metres to fly, along x from where the drone stands: there must be room."""
     speed = 0.5
     """Metres per second: the limit that is given with each command."""
     rest = 0.4
@@ -53,7 +53,7 @@ class Author:
         raise NotImplementedError("give the kit a navigation: def make(self) -> DroneNavigation")
 
     def make_unreachable(self) -> DroneNavigation:
-        """Return a navigation of a drone that is not resources."""
+        """Return a navigation of a drone that is not there."""
         raise NotImplementedError
 
     def silence(self, navigation: DroneNavigation) -> None:
@@ -92,7 +92,7 @@ class Author:
             "closed in the air": lambda: flights.closed_in_the_air(self),
         }
         if self._gives("make_unreachable"):
-            possible["nobody"] = lambda: flights.nobody(self, self.make_unreachable)
+            possible["unreachable"] = lambda: flights.unreachable(self, self.make_unreachable)
         if self._gives("silence"):
             possible["silent"] = lambda: flights.struck(self, self.silence)
         if self._gives("crash"):

@@ -117,7 +117,7 @@ class NavigationContract(Author):
         ensure(aside <= 2 * self.tolerance, f"on its way along x it was {aside:.2f} m off it")
 
     def test_it_counts_in_metres_and_radians_in_the_maps_frame(self) -> None:
-        """By who knows better, if anybody does; by likelihood if not."""
+        """By the truth where it is known; by likelihood if not."""
         record = self._tour()
         record.step("go_to").done()
         for sample in record.samples:
@@ -230,7 +230,7 @@ class NavigationContract(Author):
 
     def test_a_drone_that_is_not_there_is_a_lost_link(self) -> None:
         self._needs("make_unreachable")
-        record = self._flown("nobody")
+        record = self._flown("unreachable")
         self._failed_by(record, "connect", Failure.LINK)
 
     def test_a_drone_that_falls_silent_is_a_lost_link(self) -> None:

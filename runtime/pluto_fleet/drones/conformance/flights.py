@@ -135,7 +135,7 @@ class Flight:
 
 @asynccontextmanager
 async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
-    """Make a navigation; whatever becomes of its flight, land it and close it."""
+    """Make a navigation; however its flight ends, land it and close it."""
     flight = Flight(subject, make())
     drone = flight.navigation
     watching = asyncio.create_task(flight.watched())
@@ -251,7 +251,7 @@ async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) 
     return flight.record
 
 
-async def nobody(subject: Subject, make: Callable[[], DroneNavigation]) -> FlightRecord:
+async def unreachable(subject: Subject, make: Callable[[], DroneNavigation]) -> FlightRecord:
     """Connect to a drone that is not there."""
     async with flying(subject, make) as flight:
         await flight.tries("connect", flight.navigation.connect, subject.connect_limit)

@@ -93,7 +93,7 @@ _EXECUTOR = "asyncio_"
 
 @dataclass(frozen=True, slots=True)
 class Resources:
-    """What resources is at one moment, in the running loop's process."""
+    """What there is at one moment, in the running loop's process."""
 
     threads: frozenset[threading.Thread]
     tasks: frozenset[asyncio.Task[object]]
@@ -119,7 +119,7 @@ def resources() -> Resources:
 
 
 async def left_since(before: Resources, seconds: float = 1.0) -> list[str]:
-    """Return what has come since and is still resources after a while, a few words each."""
+    """Return what has come since and is still there after a while, a few words each."""
     loop = asyncio.get_running_loop()
     limit = loop.time() + seconds
     while found := _found(before, resources()):

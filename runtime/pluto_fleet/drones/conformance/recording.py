@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Truth:
-    """How a drone really is, by whoever simulates it or sees it from outside."""
+    """How a drone really is, by its simulation or as measured from outside."""
 
     position: Point
     """Metres, in the map's frame."""
@@ -195,7 +195,7 @@ def units_differ(samples: Sequence[Sample], tolerance: float, speed: float) -> s
     """
     for earlier, one in pairwise(samples):
         if one.truth is None or not isfinite(one.telemetry.time):
-            continue  # nobody knows, or it has not told anything yet
+            continue  # unknown, or it has not told anything yet
         position, yaw = one.telemetry.position, one.telemetry.yaw
         off = dist(position, one.truth.position)
         late = one.at - min(earlier.at, one.telemetry.time)

@@ -10,7 +10,7 @@ from math import ceil, dist, sqrt
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.geometry import between
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
 
 from .reservations import Box, box_of
 from .ways import Section

@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fleet.energy import CLIMB_SPEED
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
 from plutoc_runtime.time.future import Future
 
 from .reservations import Reservation, meets

@@ -8,8 +8,9 @@ from itertools import islice, pairwise
 from math import dist, hypot
 from typing import TYPE_CHECKING
 
-from pluto_fleet.jobs.landing_sites import free_spots, is_free
-from plutoc_runtime.fleet.energy import docked
+from plutoc_runtime.fleet.reach import docked
+
+from ...jobs.landing_sites import free_spots, is_free
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace

@@ -1,1 +1,1 @@
-"""The app's own graph, and how it is laid out: boxes in rows that turn like a road."""
+"""The app's own graph, and how it is laid out: layer by layer from top to bottom."""

@@ -1,35 +1,45 @@
-"""From boxes and arrows to a picture: places, and the points of every arrow."""
+"""Where boxes stand and ways run: layer by layer from top to bottom, ways only between them.
+
+A way to the next layer runs in the channel between the two. One that skips layers runs beside all
+boxes, on the left; one that leads back, on the right. So no way can run through a box.
+"""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf
 
-from .grid import Frame, Grid, Line, Point, Room, Side, folded, framed
-from .layers import layers
-from .ports import ports
-from .routes import Route, routes
-from .tracks import tracks
-from .words import Area, words
+Point = tuple[float, float]
+Area = tuple[float, float, float, float]
+"""Left, top, right, bottom."""
+Ways = Sequence[tuple[int, int]]
+"""From which box to which, by their numbers."""
 
-_WIDE, _HIGH = 560.0, 400.0
-"""The panel that the picture shall fit into without being made smaller."""
-_MOST_ROWS, _TRIED, _MANY = 12, 3, 40
-"""So many numbers of rows are thought of, so many tried; of so many boxes, only one."""
-_TURN = 0.12
-"""What a turn from row to row adds to what is paid for a picture."""
-_MARGIN, _APART, _ROOM, _ROOM_BELOW, _AIR = 10.0, 8.0, 16.0, 24.0, 10.0
-"""Around the picture; between two ways; between a box and a way along it, where an arrow's head must have
-its place; the same below a box, where missions stand; beside words."""
+
+_SWEEPS = 6
+_BETWEEN = 26.0
+"""Between boxes of one layer."""
+_MARGIN, _APART, _ABOVE, _BELOW, _LABEL = 10.0, 8.0, 16.0, 24.0, 14.0
+"""Around the picture; between two ways; above a box, where an arrow's head has its place; below it, where
+missions stand; and the height that the words of a way need."""
+_STEP, _NEAR, _CORNER, _STAND = 2.0, (8.0, 6.0, 3.0), 7.0, 14.0
+"""Of the places for the end of a way; what shall be between two ends, and what must do; what is left free
+of a side at each corner, and in the middle of its foot."""
+_LINE, _OVER, _AIR, _FOOT = 12.0, 5.0, 4.0, 18.0
+"""Of a line of words; above a level piece of an arrow, below an upright one; and of the place below a
+box where missions stand."""
+_ON_BOX, _ON_WORDS, _ON_WAY, _ON_STAND, _UPRIGHT, _FURTHER = 400.0, 200.0, 60.0, 50.0, 25.0, 0.4
+"""What is paid for words over such things, on an upright piece, and for each length of way between
+them and where the arrow begins."""
 _FAR = 1e5
 """Further than any picture reaches."""
-_ABOUT_GAP, _ABOUT_CHANNEL = (20.0, 20.0), (22.0, 22.0)
-"""The room that a gap and a channel will have, more or less."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Laid:
+class Layout:
     """A picture, in the order of what was given."""
 
     width: float
@@ -40,122 +50,314 @@ class Laid:
     """The middle of the foot of each arrow's words."""
 
 
-def drawn(
-    sizes: Sequence[tuple[float, float]], ways: Sequence[tuple[int, int]], widths: Sequence[float]
-) -> Laid:
+def drawn(sizes: Sequence[tuple[float, float]], ways: Ways, widths: Sequence[float]) -> Layout:
     """Return the picture of boxes of these sizes, the first of which is where all begins.
 
     `widths` says how wide the words of each way are; 0 where it has none.
     """
     found = layers(len(sizes), ways)
-    grids = [folded(found, sizes, rows) for rows in range(1, min(_MOST_ROWS, len(found)) + 1)]
-    grids.sort(key=lambda grid: -_fit(_about(grid)))
-    tries: list[tuple[float, int, Grid, list[Route]]] = []
-    for place, grid in enumerate(grids[: 1 if len(sizes) > _MANY else _TRIED]):
-        about = _about(grid)
-        chosen, paid = routes(grid, ways, about)
-        tries.append((paid * (1 + _TURN * len(grid.rows)) / _fit(about), place, grid, chosen))
-    _, _, grid, chosen = min(tries, key=lambda one: one[:2])
-    return _laid(grid, chosen, widths)
-
-
-def _about(grid: Grid) -> Frame:
-    return framed(
-        grid, [_ABOUT_GAP] * (len(grid.columns) + 1), [_ABOUT_CHANNEL] * (len(grid.rows) + 1)
-    )
-
-
-def _fit(frame: Frame) -> float:
-    """Return how large a picture can be shown in the panel."""
-    return min(1.0, _WIDE / frame.width, _HIGH / frame.height)
-
-
-def _laid(grid: Grid, chosen: Sequence[Route], widths: Sequence[float]) -> Laid:
-    doors = ports(chosen)
-    track = tracks(chosen, doors)
-    gaps, channels = _rooms(
-        grid, chosen, widths, {one: max(there.values()) for one, there in track.items()}
-    )
-    frame = framed(grid, gaps, channels)
-    boxes = []
-    for spot in grid.spots:
-        left, _ = frame.door(spot, Side.LEFT)
-        x, top = frame.door(spot, Side.TOP)
-        boxes.append((left, top, 2 * x - left, top + spot.h))
-    ways = [
-        tuple(
-            _corners(
-                route.points(frame, door, [_APART * track[one][number] for one in route.lines])
-            )
+    level = {box: number for number, layer in enumerate(found) for box in layer}
+    middle = {box: x for layer in found for box, x in _middles(layer, sizes)}
+    ends = _ends(sizes, ways, level, middle)
+    reach = max(abs(x) + sizes[box][0] / 2 for box, x in middle.items())
+    lane = _lanes(ways, level, reach)
+    runs = _runs(ways, level, ends, lane)
+    track = {channel: _tracks(there) for channel, there in runs.items()}
+    tops, lines = _heights(sizes, found, ways, widths, level, track)
+    left = min([-reach, *lane.values()]) - _MARGIN
+    boxes = [
+        (
+            middle[box] - left - w / 2,
+            tops[level[box]],
+            middle[box] - left + w / 2,
+            tops[level[box]] + h,
         )
-        for number, (route, door) in enumerate(zip(chosen, doors, strict=True))
+        for box, (w, h) in enumerate(sizes)
     ]
-    return Laid(
-        width=frame.width,
-        height=frame.height,
+    paths = []
+    for number, (source, target) in enumerate(ways):
+        start, end = (x - left for x in ends[number])
+        points = [(start, boxes[source][3])]
+        first, last = level[source] + 1, level[target]
+        if number in lane:
+            aside = lane[number] - left
+            y, to_y = (lines[one] + _APART * track[one][number] for one in (first, last))
+            points += [(start, y), (aside, y), (aside, to_y), (end, to_y)]
+        elif start != end:
+            y = lines[first] + _APART * track[first][number]
+            points += [(start, y), (end, y)]
+        paths.append((*points, (end, boxes[target][1])))
+    width = max([reach, *lane.values()]) + _MARGIN - left
+    height = lines[-1] + _APART * max(track[len(found)].values(), default=0) + _MARGIN
+    return Layout(
+        width=width,
+        height=height,
         boxes=tuple(boxes),
-        ways=tuple(ways),
-        words=tuple(words(ways, widths, [*boxes, *_outside(frame)])),
+        ways=tuple(paths),
+        words=tuple(labels(paths, widths, boxes, (width, height))),
     )
 
 
-def _outside(frame: Frame) -> list[Area]:
+def layers(count: int, ways: Ways) -> list[list[int]]:
+    """Return the boxes layer by layer, each layer in an order in which few ways cross.
+
+    A way that leads back to a box before it does not count; all others lead to a later layer.
+    """
+    leaving, before, after = ([list[int]() for _ in range(count)] for _ in range(3))
+    for source, target in ways:
+        leaving[source].append(target)
+    met: set[int] = set()
+    left: dict[int, int] = {}
+    """How many steps there are to each box from which all ways were gone, the last one first."""
+
+    def walk(box: int) -> None:
+        met.add(box)
+        for target in leaving[box]:
+            if target not in met:
+                walk(target)
+            if target in left:
+                after[box].append(target)
+                before[target].append(box)
+        left[box] = 0
+
+    for box in range(count):
+        if box not in met:
+            walk(box)
+    found: list[list[int]] = [[] for _ in range(count)]
+    for box in reversed(list(left)):
+        found[left[box]].append(box)
+        for target in after[box]:
+            left[target] = max(left[target], left[box] + 1)
+    return _untangled([sorted(layer) for layer in found if layer], before, after)
+
+
+def _untangled(
+    found: list[list[int]], before: list[list[int]], after: list[list[int]]
+) -> list[list[int]]:
+    """Return the layers with each box near the barycentre of those that it is joined with."""
+    at = {box: place for layer in found for box, place in _spread(layer)}
+    for joined, order in ((before, found), (after, found[::-1])) * (_SWEEPS // 2):
+        for layer in order:
+            for box in layer:
+                if joined[box]:
+                    at[box] = sum(at[one] for one in joined[box]) / len(joined[box])
+            layer.sort(key=at.__getitem__)
+            at.update(_spread(layer))
+    return found
+
+
+def _spread(layer: list[int]) -> list[tuple[int, float]]:
+    return [(box, place - (len(layer) - 1) / 2) for place, box in enumerate(layer)]
+
+
+def _middles(
+    layer: Sequence[int], sizes: Sequence[tuple[float, float]]
+) -> Iterator[tuple[int, float]]:
+    """Yield the middle of each box of a layer; 0 is the middle of the picture."""
+    x = -(sum(sizes[box][0] for box in layer) + _BETWEEN * (len(layer) - 1)) / 2
+    for box in layer:
+        yield box, x + sizes[box][0] / 2
+        x += sizes[box][0] + _BETWEEN
+
+
+def _ends(
+    sizes: Sequence[tuple[float, float]],
+    ways: Ways,
+    level: dict[int, int],
+    middle: dict[int, float],
+) -> list[tuple[float, float]]:
+    """Return where each way leaves the foot of its box, and where it enters at the head of another."""
+
+    def side(number: int) -> float:
+        """How far to the right a way goes on: beside the boxes, or to the next layer."""
+        source, target = ways[number]
+        step = level[target] - level[source]
+        return middle[target] - middle[source] if step == 1 else inf if step < 1 else -inf
+
+    busy: defaultdict[int, list[float]] = defaultdict(list)
+    start, end = [0.0] * len(ways), [0.0] * len(ways)
+    order = sorted(range(len(ways)), key=lambda one: (abs(side(one)), side(one)))
+    for number in order:
+        source, _ = ways[number]
+        aside = (side(number) > 0) - (side(number) < 0) or 1
+        room = sizes[source][0] / 2 - _CORNER
+        wanted = aside * (room if abs(side(number)) == inf else _STAND + 4)
+        there = busy[level[source] + 1]
+        start[number] = _free(middle[source], wanted, room, there, clear=_STAND)
+        there.append(start[number])
+    for number in order:
+        source, target = ways[number]
+        there = list(busy[level[target]])
+        room = sizes[target][0] / 2 - _CORNER
+        if level[target] - level[source] == 1:
+            there.remove(start[number])  # straight down is the best way
+            wanted = start[number] - middle[target]
+        else:
+            wanted = -room if side(number) < 0 else room
+        end[number] = _free(middle[target], wanted, room, there)
+        busy[level[target]].append(end[number])
+    return list(zip(start, end, strict=True))
+
+
+def _free(
+    middle: float, wanted: float, room: float, busy: Iterable[float], clear: float = 0.0
+) -> float:
+    """Return the place nearest to the wanted one, from the middle, that is apart from all others."""
+    busy = list(busy)
+    steps = int(room / _STEP)
+    places = [_STEP * step for step in range(-steps, steps + 1)]
+    places.sort(key=lambda one: (abs(one) < clear, abs(one - wanted), abs(one)))
+    if abs(wanted) <= room and abs(wanted) >= clear:
+        places.insert(0, wanted)
+    space = {one: min((abs(middle + one - at) for at in busy), default=inf) for one in places}
+    free = [one for near in _NEAR for one in places if space[one] >= near]
+    return middle + (free[0] if free else max(places, key=space.__getitem__))
+
+
+def _lanes(ways: Ways, level: dict[int, int], reach: float) -> dict[int, float]:
+    """Return where ways run beside all boxes: the short ones next to them."""
+    found: dict[int, float] = {}
+    taken: list[tuple[int, int, int, int]] = []
+    spans = {
+        number: (level[source] + 1, level[target])
+        for number, (source, target) in enumerate(ways)
+        if level[target] - level[source] != 1
+    }
+    for number in sorted(spans, key=lambda one: (abs(spans[one][1] - spans[one][0]), one)):
+        first, last = spans[number]
+        side = 1 if last < first else -1
+        low, high = min(first, last), max(first, last)
+        beside = [at for at, one, a, b in taken if one == side and a <= high and low <= b]
+        place = max(beside, default=0) + 1
+        taken.append((place, side, low, high))
+        found[number] = side * (reach + _APART * (place + 1))
+    return found
+
+
+def _runs(
+    ways: Ways,
+    level: dict[int, int],
+    ends: Sequence[tuple[float, float]],
+    lane: dict[int, float],
+) -> dict[int, dict[int, tuple[float, float]]]:
+    """Return what runs along each channel, by its number: the first is above the first layer."""
+    found: defaultdict[int, dict[int, tuple[float, float]]] = defaultdict(dict)
+    for channel in range(max(level.values()) + 2):
+        found[channel] = {}
+    for number, (source, target) in enumerate(ways):
+        start, end = ends[number]
+        if number in lane:
+            found[level[source] + 1][number] = start, lane[number]
+            found[level[target]][number] = lane[number], end
+        elif start != end:
+            found[level[target]][number] = start, end
+    return found
+
+
+def _tracks(runs: dict[int, tuple[float, float]]) -> dict[int, int]:
+    """Return on which track, from 0, each way runs, so that none lie together and few cross."""
+    order = sorted(
+        runs, key=lambda one: -runs[one][0] if runs[one][0] < runs[one][1] else runs[one][0]
+    )
+    found: dict[int, int] = {}
+    for number in order:
+        low, high = sorted(runs[number])
+        beside = [found[it] for it in found if min(runs[it]) <= high and low <= max(runs[it])]
+        found[number] = max(beside, default=-1) + 1
+    return found
+
+
+def _heights(
+    sizes: Sequence[tuple[float, float]],
+    found: Sequence[Sequence[int]],
+    ways: Ways,
+    widths: Sequence[float],
+    level: dict[int, int],
+    track: dict[int, dict[int, int]],
+) -> tuple[list[float], list[float]]:
+    """Return where each layer begins, and where the first track of each channel is."""
+    said = [0] * (len(found) + 1)
+    for (source, _), width in zip(ways, widths, strict=True):
+        said[level[source] + 1] += width > 0
+    y, tops, lines = _MARGIN, list[float](), list[float]()
+    for number in range(len(found) + 1):
+        lines.append(y + (_BELOW if number else 0.0))
+        y = lines[-1] + _APART * max(track[number].values(), default=0)
+        y = max(y, lines[-1] + _LABEL * said[number])
+        y += _ABOVE if track[number] or number else 0.0
+        if number < len(found):
+            tops.append(y)
+            y += max(sizes[box][1] for box in found[number])
+    return tops, lines
+
+
+def labels(
+    ways: Sequence[Sequence[Point]],
+    widths: Sequence[float],
+    boxes: Sequence[Area],
+    whole: Point,
+) -> list[Point | None]:
+    """Return the middle of the foot of each arrow's words; None for one without any.
+
+    `whole` is how large the picture is.
+    """
+    paying = [(_ON_BOX, box) for box in (*boxes, *_outside(*whole))]
+    for left, _, right, bottom in boxes:
+        middle = (left + right) / 2
+        paying.append((_ON_STAND, (middle - _FOOT, bottom, middle + _FOOT, bottom + _FOOT)))
+    pieces = [
+        (number, _covered(*piece)) for number, way in enumerate(ways) for piece in pairwise(way)
+    ]
+    found: list[Point | None] = []
+    for number, (way, width) in enumerate(zip(ways, widths, strict=True)):
+        if not width:
+            found.append(None)
+            continue
+        there = [*paying, *((_ON_WAY, piece) for owner, piece in pieces if owner != number)]
+        _, best = min(
+            (paid + sum(price for price, one in there if _meet(area, one)), at)
+            for paid, at in _places(way)
+            for area in (_area(at, width),)
+        )
+        paying.append((_ON_WORDS, _area(best, width)))
+        found.append(best)
+    return found
+
+
+def _outside(width: float, height: float) -> list[Area]:
     """Return what is around the picture."""
-    right, bottom = frame.width, frame.height
     return [
         (-_FAR, -_FAR, _FAR, 0.0),
         (-_FAR, -_FAR, 0.0, _FAR),
-        (right, -_FAR, _FAR, _FAR),
-        (-_FAR, bottom, _FAR, _FAR),
+        (width, -_FAR, _FAR, _FAR),
+        (-_FAR, height, _FAR, _FAR),
     ]
 
 
-def _rooms(
-    grid: Grid, chosen: Sequence[Route], widths: Sequence[float], last: dict[Line, int]
-) -> tuple[list[Room], list[Room]]:
-    """Return the room of each gap and each channel: for tracks, and in gaps for words, too."""
-    before, after = ([0.0] * (len(grid.columns) + 1) for _ in range(2))
-    for route, width in zip(chosen, widths, strict=True):
-        if width and route.leaving.value[0] and len(route.lines) < 2:
-            right = route.leaving is Side.RIGHT
-            gap = route.source.column + right
-            need = width + _AIR if route.lines else (width + _AIR) / 2
-            if right or not route.lines:
-                before[gap] = max(before[gap], need)
-            if not right or not route.lines:
-                after[gap] = max(after[gap], need)
-    gaps = [
-        _room(
-            last.get((True, number)),
-            number,
-            len(grid.columns),
-            max(_ROOM, words_before),
-            max(_ROOM, behind),
-        )
-        for number, (words_before, behind) in enumerate(zip(before, after, strict=True))
-    ]
-    channels = [
-        _room(last.get((False, number)), number, len(grid.rows), _ROOM_BELOW, _ROOM)
-        for number in range(len(grid.rows) + 1)
-    ]
-    return gaps, channels
+def _places(way: Sequence[Point]) -> Iterator[tuple[float, Point]]:
+    """Yield where words can stand along a way, and what is paid for it."""
+    far = 0.0
+    for (x, y), (to_x, to_y) in pairwise(way):
+        length = abs(to_x - x) + abs(to_y - y)
+        for part in (0.5, 0.25, 0.75):
+            at_x, at_y = x + (to_x - x) * part, y + (to_y - y) * part
+            paid = _FURTHER * (far + length * part)
+            if y == to_y:
+                yield paid, (at_x, at_y - _OVER)
+                yield paid, (at_x, at_y + _LINE)
+            else:
+                yield paid + _UPRIGHT, (at_x, at_y + _AIR)
+        far += length
 
 
-def _room(last: int | None, number: int, end: int, before: float, after: float) -> Room:
-    """Return the room of a gap or a channel; those around everything need less."""
-    tracks_wide = _APART * (last or 0)
-    if number == 0:
-        return _MARGIN, tracks_wide + (after if last is not None else 0.0)
-    if number == end:
-        return before, tracks_wide + _MARGIN if last is not None else 0.0
-    return before, tracks_wide + after
+def _area(at: Point, width: float) -> Area:
+    return at[0] - width / 2, at[1] - _LINE + _AIR / 2, at[0] + width / 2, at[1] + _AIR / 2
 
 
-def _corners(points: Iterable[Point]) -> Iterator[Point]:
-    """Yield the points at which a way begins, turns and ends."""
-    apart = [point for point, before in pairwise([*points, (-1.0, -1.0)]) if point != before]
-    yield apart[0]
-    for (a, b), (_, c) in pairwise(pairwise(apart)):
-        if not (a[0] == b[0] == c[0] or a[1] == b[1] == c[1]):
-            yield b
-    yield apart[-1]
+def _covered(one: Point, other: Point) -> Area:
+    (left, right), (top, bottom) = sorted((one[0], other[0])), sorted((one[1], other[1]))
+    return left, top, right, bottom
+
+
+def _meet(one: Area, other: Area) -> bool:
+    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]

@@ -493,7 +493,8 @@ function graphView({ live, app: { graph } }, chosen) {
   const view = h("div", { class: "graph-view" }, room);
   new ResizeObserver(([{ contentRect }]) => {
     if (!contentRect.width) return;
-    const scale = Math.max(0.35, Math.min(contentRect.width / width, 1.25));
+    const least = Math.max(460 / height, 2 / 3); // so small it may be to be seen at once
+    const scale = Math.max(0.35, Math.min(contentRect.width / width, 1.25, least));
     stage.style.transform = `scale(${scale})`;
     room.style.width = `${width * scale}px`;
     room.style.height = `${height * scale}px`;

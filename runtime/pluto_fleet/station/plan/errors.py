@@ -12,7 +12,7 @@ from ...files.errors import listed, shown
 
 
 class Stale(PlutoError):
-    """Somebody else has changed the plan since: what was drawn was drawn on an old one."""
+    """The plan has changed since: what was drawn was drawn on an old one."""
 
 
 def stale(given: int, current: int) -> Stale:
@@ -73,7 +73,7 @@ def under_way(name: str) -> BadInput:
 
 
 def not_ready(sentences: Sequence[str], most: int) -> BadInput:
-    """Say what is still to be done, as far as somebody reads it."""
+    """Say what is still to be done, as far as it fits a message."""
     more = len(sentences) - most
     lines = [*sentences[:most], f"… and {counted(more, 'more problem')}"]
     return BadInput("\n".join(lines if more > 0 else sentences))

@@ -1,4 +1,4 @@
-"""A small plan for whoever has none yet: this very app and fleet can fly it on this very map."""
+"""A small plan to begin with: this very app and fleet can fly it on this very map."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.text import mass
 
 from . import errors
-from .problems import nobody_can_fly, read
+from .problems import read, unflyable_trips
 from .shape import Shape
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def _mission(
         mission: Shape = {"key": "", "name": "1", "trips": trips}
         if not (
             read(app, fleet.airspace, [mission])[1]
-            or nobody_can_fly(app, fleet, fleet.airspace, mission)
+            or unflyable_trips(app, fleet, fleet.airspace, mission)
         ):
             return {"trips": trips}
     return None

@@ -25,13 +25,13 @@ VERSION = 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Kept:
+class KeptPlan:
     """What an earlier life has left."""
 
     missions: Sequence[Shape] = ()
     revision: int = 0
     said: str = ""
-    """What somebody must hear of it."""
+    """What people must hear of it."""
 
 
 class _Unreadable(Exception):
@@ -56,10 +56,10 @@ def write(path: Path, app: App, revision: int, missions: Sequence[Shape]) -> Non
     _settle(path.parent)
 
 
-def read(path: Path, app: App) -> Kept:
+def read(path: Path, app: App) -> KeptPlan:
     """Return the plan that was kept; one that cannot be read is put aside, and that is said."""
     if not os.path.lexists(path):
-        return Kept()
+        return KeptPlan()
     try:
         data = _data(path)
         if data.get("app") != app.name:
@@ -72,7 +72,7 @@ def read(path: Path, app: App) -> Kept:
         os.replace(path, aside)
     except OSError as error:
         raise errors.in_the_way(path, why, error) from None
-    return Kept(said=errors.not_a_plan(path, why, aside))
+    return KeptPlan(said=errors.not_a_plan(path, why, aside))
 
 
 def _data(path: Path) -> dict[str, object]:
@@ -94,7 +94,7 @@ def _data(path: Path) -> dict[str, object]:
     return data
 
 
-def _kept(path: Path, data: Mapping[str, object], app: App) -> Kept:
+def _kept(path: Path, data: Mapping[str, object], app: App) -> KeptPlan:
     revision, given = data.get("revision"), data.get("missions")
     if isinstance(revision, bool) or not isinstance(revision, int) or revision < 0:
         raise _Unreadable(errors.not_json())
@@ -106,13 +106,13 @@ def _kept(path: Path, data: Mapping[str, object], app: App) -> Kept:
     for shape, was in zip(shapes, missions, strict=True):
         shape["launched"], shape["ended"] = was.get("launched") is True, was.get("ended")
     if not gone:
-        return Kept(missions=shapes, revision=revision)
+        return KeptPlan(missions=shapes, revision=revision)
     aside = _aside(path)
     try:
         aside.write_bytes(path.read_bytes())
     except OSError as error:
         raise errors.in_the_way(path, errors.unreadable(error), error) from None
-    return Kept(missions=shapes, revision=revision, said=errors.not_all_taken(aside, gone))
+    return KeptPlan(missions=shapes, revision=revision, said=errors.not_all_taken(aside, gone))
 
 
 def _without_gone(given: object, app: App) -> tuple[list[Shape], list[str]]:

@@ -13,8 +13,7 @@ from . import errors
 from . import kept as on_disk
 from .errors import Stale
 from .example import example_missions
-from .flyable import Flyable
-from .problems import PlanProblem, as_in_a_file, as_json, read
+from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, read
 from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
 from .text import NAME, shapes_of, text_of
 
@@ -24,16 +23,16 @@ if TYPE_CHECKING:
 
     from ...files.fleet import FleetFile
 
-__all__ = ["Plan", "Stale"]
+__all__ = ["MissionPlan", "Stale"]
 
 MOST_SHOWN = 1_000
-"""Problems that pages get: nobody reads the next one."""
+"""Problems that pages get at most."""
 
 MOST_SAID = 10
-"""So many problems are told to whoever presses Start; all stand where they are."""
+"""Problems that the answer to Start names; pages show all where they are."""
 
 
-class Plan:
+class MissionPlan:
     """Missions as they are drawn; those that were launched stay as they are while anything flies.
 
     Every change has a number, the plan's revision, and says on which one it was drawn.
@@ -43,14 +42,14 @@ class Plan:
         self, app: App, fleet: FleetFile, keep: Path | None, now: Callable[[], float] = time.time
     ) -> None:
         self._app, self._fleet, self._keep = app, fleet, keep
-        kept = on_disk.read(keep, app) if keep else on_disk.Kept()
+        kept = on_disk.read(keep, app) if keep else on_disk.KeptPlan()
         self.trouble = kept.said
-        """What went wrong with keeping it, for everybody; empty: nothing."""
+        """What went wrong with keeping it, as pages show it; empty: nothing."""
         # From the clock: no number may ever mean two plans, though one could not be kept.
         self.revision = max(kept.revision + 1, round(now() * 1000))
         self._missions = list(kept.missions)
         self._unread = read(app, fleet.airspace, self._missions)[1]
-        self._flyable = Flyable(app, fleet)
+        self._flyability = FlyabilityCache(app, fleet)
 
     def data(self) -> Shape:
         """Return the plan as pages get it."""
@@ -63,7 +62,7 @@ class Plan:
 
     @property
     def is_empty(self) -> bool:
-        """Whether nobody has drawn anything yet."""
+        """Whether nothing was drawn yet."""
         return not self._missions
 
     async def examined(self) -> None:
@@ -71,13 +70,13 @@ class Plan:
 
         It is found out beside the loop. Before that `data` tells only what else is wrong.
         """
-        while not self._flyable.knows(self._readable()):  # it may change meanwhile
-            await self._flyable.ask(self._readable())
+        while not self._flyability.knows(self._readable()):  # it may change meanwhile
+            await self._flyability.ask(self._readable())
 
     # What pages do
 
     def replace(self, revision: object, missions: object) -> None:
-        """Take the plan that somebody has drawn; raise `Stale` if it was drawn on an old one."""
+        """Take the plan that a page has drawn; raise `Stale` if it was drawn on an old one."""
         given = missions_from(missions, self._app)
         drawn = self._with_launched(given)
         if drawn != self._missions or self._overrules(given):
@@ -122,11 +121,11 @@ class Plan:
     ) -> tuple[list[Mission[Any]], list[str]]:
         """Return the missions that Start starts, with their keys; raise `BadInput` if it cannot.
 
-        These are the chosen ones, by their keys. Nobody chose: all that have not been completed; if
-        all were, all anew, but not while any of them flies. They are new ones each time: whoever
-        flies them changes them.
+        These are the chosen ones, by their keys. Without a choice: all that have not been completed; if
+        all were, all anew, but not while any of them flies. They are new ones each time: a
+        flight changes them.
         """
-        self._flyable.ask_at_once(self._readable())
+        self._flyability.ask_at_once(self._readable())
         waiting = self._wanted(chosen)
         keys = [str(one["key"]) for one in waiting]
         of_these = (None, *keys)
@@ -150,7 +149,7 @@ class Plan:
         return [mission for mission in waiting if mission["key"] in chosen]
 
     def launched(self, keys: Collection[str]) -> None:
-        """These missions fly: nobody may change them now."""
+        """These missions fly: they may not be changed now."""
         self._mark(lambda mission: bool(mission["launched"]) or mission["key"] in keys)
 
     def adopt(self, names: Collection[str]) -> None:
@@ -180,7 +179,7 @@ class Plan:
 
     def _problems(self) -> Iterator[PlanProblem]:
         yield from self._unread
-        yield from self._flyable.known(self._readable())
+        yield from self._flyability.known(self._readable())
 
     def _readable(self) -> list[Shape]:
         bad = {problem.mission for problem in self._unread}

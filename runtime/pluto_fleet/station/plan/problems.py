@@ -1,24 +1,69 @@
-"""What is wrong with a plan, and where: the checks of a missions file, in a screen's words."""
+"""What is wrong with a plan, and where: the checks of a missions file, in the words of a screen."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import asyncio
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import read_missions
 from ...files.plan_check import unflyable
-from ...files.reading import Document
+from ...files.reading import Document, Wording
 from .shape import Shape, trips_of
-from .words import in_one_go, on_a_screen, own_names, sentence
 
 if TYPE_CHECKING:
+    from collections.abc import Container
+
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
+    from plutoc_runtime.domain.model import Mission, Trip
 
     from ...files.fleet import FleetFile
     from ...files.toml_places import Place
+
+
+_CALLED = {
+    "name": "the name",
+    "target": "the place",
+    "source": "the place where the flight begins",
+    "mass": "the mass",
+}
+_MISSING = {
+    "action": "has no action yet: choose one",
+    "target": "has no place yet: drag it onto the floor plan, or type x and y",
+    "name": "the item has no name yet",
+    "mass": "the item has no mass yet: write it like 4 g",
+}
+
+
+def on_a_screen(app: App) -> Wording:
+    """Return the words for screens, which have labels where files have keys."""
+    called = {**_CALLED, **{field.name: field.label for field in app.fields}}
+    return Wording(
+        called=lambda key: called.get(key, key),
+        missing=lambda key: _MISSING.get(key, f"has no {called.get(key, key)} yet"),
+        no_trips=lambda: "has no trips yet: drag an action onto the floor plan",
+        item_missing=lambda action: f"{action} needs an item: give its name and its mass",
+    )
+
+
+def own_names(app: App) -> frozenset[str]:
+    """Return the names of the app's that a sentence may begin with."""
+    parameters = (one.name for action in app.actions.values() for one in action.parameters)
+    return frozenset((*app.actions, *parameters))
+
+
+def sentence(text: str, names: Container[str]) -> str:
+    """Begin a sentence with a capital, unless one of these names begins it."""
+    return text if text.partition(" ")[0] in names else text[:1].upper() + text[1:]
+
+
+def in_one_go(trips: Sequence[Trip], reason: str) -> str:
+    """Say why no drone can fly these trips, beside the first of them."""
+    if len(trips) == 1:
+        return reason
+    return f"from here to trip {trips[-1].name} one drone must fly all: {reason}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +94,7 @@ def read(
     return found, [_of_its_height(one, missions, airspace) for one in problems]
 
 
-def nobody_can_fly(
+def unflyable_trips(
     app: App, fleet: FleetFile, airspace: Airspace, mission: Shape
 ) -> list[PlanProblem]:
     """Return what no drone of the fleet could ever do of a mission that can be read."""
@@ -126,3 +171,50 @@ def _problem(missions: Sequence[Shape], place: Place, text: str, alone: str) -> 
         text=text,
         alone=alone,
     )
+
+
+class FlyabilityCache:
+    """What is known of each mission, by its key: it is asked about again when it has changed."""
+
+    def __init__(self, app: App, fleet: FleetFile) -> None:
+        self._app, self._fleet = app, fleet
+        self._known: dict[object, tuple[Shape, Sequence[PlanProblem]]] = {}
+        self._beside = replace(fleet.airspace)  # routes are remembered: by one thread each
+        self._one_at_a_time = asyncio.Lock()
+
+    def known(self, missions: Collection[Shape]) -> Iterator[PlanProblem]:
+        """Yield what keeps these missions from being flown, as far as it has been asked."""
+        for mission in missions:
+            if self._is_known(mission):
+                yield from self._known[mission["key"]][1]
+
+    def knows(self, missions: Collection[Shape]) -> bool:
+        """Say whether everything has been asked about these missions."""
+        return not self._unknown(missions)
+
+    async def ask(self, missions: Collection[Shape]) -> None:
+        """Find out what is not known of these missions, in a thread."""
+        async with self._one_at_a_time:
+            for mission in self._unknown(missions):
+                found = await asyncio.to_thread(self._found, mission, self._beside)
+                self._known[mission["key"]] = mission, found
+            self._forget_all_but(missions)
+
+    def ask_at_once(self, missions: Collection[Shape]) -> None:
+        """Find it out before anything else happens."""
+        for mission in self._unknown(missions):
+            self._known[mission["key"]] = mission, self._found(mission, self._fleet.airspace)
+        self._forget_all_but(missions)
+
+    def _unknown(self, missions: Collection[Shape]) -> list[Shape]:
+        return [mission for mission in missions if not self._is_known(mission)]
+
+    def _forget_all_but(self, missions: Collection[Shape]) -> None:
+        keys = [mission["key"] for mission in missions]
+        self._known = {key: self._known[key] for key in keys if key in self._known}
+
+    def _is_known(self, mission: Shape) -> bool:
+        return self._known.get(mission["key"], (None, ()))[0] == mission
+
+    def _found(self, mission: Shape, airspace: Airspace) -> Sequence[PlanProblem]:
+        return unflyable_trips(self._app, self._fleet, airspace, mission)

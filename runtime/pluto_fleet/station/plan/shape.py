@@ -1,4 +1,4 @@
-"""The shape of a plan as pages send it: whatever has this shape is kept, finished or not.
+"""The shape of a plan as pages send it: what has this shape is kept, finished or not.
 
 What it means is another question, which `problems` asks: a plan is drawn bit by bit, and a
 name is typed letter by letter.

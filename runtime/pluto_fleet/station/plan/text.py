@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
 NAME = "missions.toml"
-"""What a file is called in messages, if whoever sends it does not say."""
+"""What a file is called in messages, where its sender does not say."""
 
 _BASIC = ("name", "action", "item", "parameters", "source", "target")
 

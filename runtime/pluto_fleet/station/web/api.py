@@ -1,34 +1,215 @@
-"""Everything that may be asked of a station goes through here: who may, how often, and what for."""
+"""Everything that may be asked of a station: who may, how often, and what each address answers."""
 
 from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from dataclasses import replace
+from pathlib import Path
+from typing import Protocol
 
-from ..commands import Malformed
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import cut_off, printable
+
+from ..commands import NEEDS, Malformed
+from ..plan.errors import Stale
 from . import refusals
-from .answers import ADDRESSES, change, read
 from .audit import Audit
-from .behind import Station
-from .dressing import dressed
-from .guard import Asking, Guard, refusal
-from .http import MISTAKES, Line, Reply, Request
-from .live import LIVE, Live
-from .rates import Rate
+from .guard import Access, Guard, Rate, refusal, with_safe_headers
+from .http import MISTAKES, PageSocket, Reply, Request, json_reply, text_reply
+from .http import said as in_words
+from .live import LIVE, LiveUpdates, UpdateSource
 from .refusals import Refusal, Refused
-from .static import handed_out, pages, picture
+from .static import file_reply, pages, picture
+from .strict_json import asked_number, parsed_object
+
+ADDRESSES: Mapping[str, tuple[str, ...]] = {
+    "/api/app": ("GET",),
+    "/api/live": ("GET",),
+    "/api/plan": ("GET", "PUT"),
+    "/api/plan.toml": ("GET",),
+    "/api/plan/import": ("POST",),
+    "/api/plan/example": ("POST",),
+    "/api/console.txt": ("GET",),
+    "/api/results.json": ("GET",),
+    **{f"/api/{command}": ("POST",) for command in NEEDS},
+}
+_LONGEST_ID = 64
+_LONGEST_NAME = 80
+_NAME = "missions.toml"
+_JSON, _TOML = "application/json", "application/toml"
+
+
+class ServedPlan(Protocol):
+    """The plan; each change names the revision that it was made on, and another is `Stale`."""
+
+    def data(self) -> Mapping[str, object]:
+        """Return all of it, and what is known to be wrong with it."""
+
+    async def examined(self) -> None:
+        """Wait until all is known that is wrong with it."""
+
+    def replace(self, revision: int, missions: object) -> None:
+        """Put missions in its place."""
+
+    async def import_file(self, text: str, revision: int, file: str) -> None:
+        """Put those of a missions file in its place; what is wrong with it says its name."""
+
+    def example(self, revision: int) -> None:
+        """Put an example in its place."""
+
+    def export_toml(self) -> str:
+        """Return it as a missions file."""
+
+
+class ServedStation(UpdateSource, Protocol):
+    """What flies, what pages show, and what may be commanded."""
+
+    @property
+    def plan(self) -> ServedPlan:
+        """The plan that people draw."""
+
+    @property
+    def image(self) -> Path | None:
+        """The floor plan."""
+
+    @property
+    def described(self) -> Mapping[str, object]:
+        """What never changes while the server lives."""
+
+    async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
+        """Do it, unless it was done by this id before; `BadInput` says why not."""
+
+    def console(self) -> str:
+        """Return all that was said."""
+
+    def results(self) -> list[object]:
+        """Return all that came of actions."""
+
+
+async def read(station: ServedStation, path: str) -> Reply:
+    """Answer a request that changes nothing."""
+    match path:
+        case "/api/app":
+            return json_reply(200, station.described)
+        case "/api/plan":
+            await station.plan.examined()
+            return json_reply(200, station.plan.data())
+        case "/api/plan.toml":
+            try:
+                return text_reply(station.plan.export_toml(), _NAME, _TOML)
+            except BadInput as error:
+                return in_words(409, str(error))
+        case "/api/console.txt":
+            return text_reply(station.console(), "console.txt")
+        case _:
+            results = json_reply(200, station.results())
+            named = ("Content-Disposition", 'attachment; filename="results.json"')
+            return Reply(status=200, body=results.body, headers=(named,))
+
+
+async def change(station: ServedStation, audit: Audit, request: Request) -> Reply:
+    """Do what is commanded, and note it with what came of it."""
+    wanted = _TOML if request.path == "/api/plan/import" else _JSON
+    if request.headers.get("content-type", "").partition(";")[0].strip().lower() != wanted:
+        raise Refused(refusals.wrong_type(wanted))
+    body = await request.read()
+    plan = station.plan
+    match request.path:
+        case "/api/plan":
+            given = parsed_object(body)
+            revision, missions = _whole(given, "revision"), given.pop("missions", None)
+            _nothing_else(given)
+            edit = _at_once(lambda: plan.replace(revision, missions))
+            return await _edited(plan, audit, request, edit)
+        case "/api/plan/import":
+            revision, text = asked_number(request.query, "revision"), _text(body)
+            edit = plan.import_file(text, revision, _file(request.query))
+            return await _edited(plan, audit, request, edit)
+        case "/api/plan/example":
+            given = parsed_object(body)
+            revision = _whole(given, "revision")
+            _nothing_else(given)
+            edit = _at_once(lambda: plan.example(revision))
+            return await _edited(plan, audit, request, edit)
+        case path:
+            given = parsed_object(body)
+            return await _commanded(station, audit, request, path.removeprefix("/api/"), given)
+
+
+async def _commanded(
+    station: ServedStation, audit: Audit, request: Request, name: str, given: dict[str, object]
+) -> Reply:
+    id = given.pop("id", None)
+    if not isinstance(id, str) or not 0 < len(id) <= _LONGEST_ID:
+        raise Malformed(f"a command needs an id: a text of at most {_LONGEST_ID} characters")
+    try:
+        status, said = 200, await station.command(name, id, given)
+    except Malformed:
+        raise
+    except BadInput as error:
+        status, said = 409, str(error)
+    audit.done(request, {"id": id, **given}, status, said)
+    return in_words(status, said)
+
+
+async def _at_once(edit: Callable[[], None]) -> None:
+    edit()
+
+
+async def _edited(
+    plan: ServedPlan, audit: Audit, request: Request, edit: Coroutine[None, None, None]
+) -> Reply:
+    """Change the plan; who has seen an older one is given the newest."""
+    try:
+        await edit
+        status = 200
+    except Stale:
+        status = 409
+    except BadInput as error:
+        status = 409 if request.path == "/api/plan/example" else 400
+        audit.done(request, {}, status, str(error))
+        return in_words(status, str(error))
+    await plan.examined()
+    data = plan.data()
+    audit.done(request, {"revision": data.get("revision")}, status, "")
+    return json_reply(status, data)
+
+
+def _whole(given: dict[str, object], name: str) -> int:
+    value = given.pop(name, None)
+    if not isinstance(value, int) or isinstance(value, bool):
+        raise Malformed(f"{name} must be a whole number")
+    return value
+
+
+def _file(query: Mapping[str, str]) -> str:
+    """Return the name of a file as it can be told: a stranger may have chosen it."""
+    return cut_off(printable(query.get("file", "").strip()), _LONGEST_NAME) or _NAME
+
+
+def _text(body: bytes) -> str:
+    try:
+        return body.decode("utf-8")
+    except UnicodeDecodeError:
+        raise Malformed("the file is not UTF-8") from None
+
+
+def _nothing_else(given: Mapping[str, object]) -> None:
+    if given:
+        raise Malformed("what was sent has more in it than is known here")
+
 
 ALWAYS = ("/api/stop", "/api/cut-motors")
-"""They bring drones down: whoever may command may always command these."""
+"""They bring drones down: no limit of rates or load holds for them."""
 
 _COMMANDS, _EDITS, _READS = 20.0, 20.0, 100.0
-"""A second, for each client; whoever draws the plan has all commands left."""
+"""A second, for each client; edits of the plan use up no commands."""
 _AT_ONCE = 64
 """Requests that are under way, Stops not counted."""
 _WRONG_TOKEN = 0.5
-"""Seconds that whoever lacks the token waits to be told so."""
+"""Seconds after which a wrong token is refused."""
 _WAITING = 32
 """So many wait; more are told at once."""
 
@@ -40,7 +221,7 @@ class Api:
 
     def __init__(
         self,
-        station: Station,
+        station: ServedStation,
         guard: Guard,
         audit: Audit,
         *,
@@ -53,11 +234,11 @@ class Api:
         self._picture = picture(station.image) if station.image is not None else None
         self._commands, self._edits = Rate(_COMMANDS, clock), Rate(_EDITS, clock)
         self._reads = Rate(_READS, clock)
-        self._live = Live(station, guard, audit, clock)
+        self._live = LiveUpdates(station, guard, audit, clock)
         self._under_way = self._waiting = 0
 
     async def answer(self, request: Request) -> Reply:
-        """Answer whatever is asked: no request breaks anything, and none is told how we are made."""
+        """Answer any request: none breaks anything, and none is told how we are made."""
         if request.method == "HEAD":  # like GET; the server leaves the body out
             request = replace(request, method="GET")
         try:
@@ -68,15 +249,15 @@ class Api:
             reply = self._refused(request, refusals.malformed(str(error)))
         except MISTAKES as error:
             self._audit.trouble(request, error)
-            reply = refusals.ours().reply
-        return dressed(request, reply)
+            reply = refusals.OURS.reply
+        return with_safe_headers(request, reply)
 
-    async def live(self, line: Line, request: Request) -> None:
+    async def live(self, page: PageSocket, request: Request) -> None:
         """Keep a page up to date for as long as it asks."""
-        await self._live.talk(line, request)
+        await self._live.talk(page, request)
 
     def end(self) -> None:
-        """Hang up on everybody who is connected."""
+        """Hang up on all pages."""
         self._live.end()
 
     def _refused(self, request: Request, why: Refusal) -> Reply:
@@ -84,16 +265,16 @@ class Api:
         return why.reply
 
     async def _answer(self, request: Request) -> Reply:
-        asking = _asking(request)
-        why = refusal(self.guard, request, asking)
+        access = _asking(request)
+        why = refusal(self.guard, request, access)
         if why is not None:
             if why.status == 401:
                 await self._slow_down()
             raise Refused(why)
-        if asking is Asking.PAGE and request.path in self._pages:
-            return handed_out(self._pages[request.path], request)
+        if access is Access.PAGE and request.path in self._pages:
+            return file_reply(self._pages[request.path], request)
         if request.path == "/map" and self._picture is not None:
-            return handed_out(self._picture, request)
+            return file_reply(self._picture, request)
         _route(request)
         if request.path == LIVE:
             return await self._live.poll(request)
@@ -104,9 +285,9 @@ class Api:
         if request.path in ALWAYS:
             return await change(self._station, self._audit, request)
         if not self._rate(request).allows(request.client):
-            raise Refused(refusals.too_many())
+            raise Refused(refusals.TOO_MANY)
         if self._under_way >= _AT_ONCE:
-            raise Refused(refusals.too_busy())
+            raise Refused(refusals.TOO_BUSY)
         self._under_way += 1
         try:
             if request.method == "GET":
@@ -121,7 +302,7 @@ class Api:
         return self._edits if request.path.startswith("/api/plan") else self._commands
 
     async def _slow_down(self) -> None:
-        """Let those who guess wait, and nobody else."""
+        """Let only those wait that guess."""
         if self._waiting >= _WAITING:
             return
         self._waiting += 1
@@ -131,17 +312,17 @@ class Api:
             self._waiting -= 1
 
 
-def _asking(request: Request) -> Asking:
+def _asking(request: Request) -> Access:
     if request.method != "GET":
-        return Asking.COMMAND
+        return Access.COMMAND
     reads = request.path.startswith("/api/") or request.path == "/map"
-    return Asking.READ if reads else Asking.PAGE
+    return Access.READ if reads else Access.PAGE
 
 
 def _route(request: Request) -> None:
     """Refuse what leads nowhere."""
     allowed = ADDRESSES.get(request.path)
     if allowed is None:
-        raise Refused(refusals.no_such_page())
+        raise Refused(refusals.NO_SUCH_PAGE)
     if request.method not in allowed:
         raise Refused(refusals.wrong_method(", ".join(allowed)))

@@ -13,8 +13,8 @@ from contextlib import suppress
 from pathlib import Path
 from traceback import format_exception
 
+from .guard import Rate
 from .http import Request
-from .rates import Rate
 
 _LARGEST = 4 * 1024 * 1024
 """Bytes of a file; then it becomes `audit.log.1`, and what was there before is gone."""
@@ -22,7 +22,7 @@ _LONGEST = 200
 _MOST = 20
 """Characters of a text, and entries of a list, that are written down."""
 _REFUSED, _AT_ONCE = 1.0, 20.0
-"""Lines a second about what was refused, and at once: nobody is to push out what was done."""
+"""Lines a second about what was refused, and at once: refusals must not push out what was done."""
 
 
 class Audit:
@@ -45,7 +45,7 @@ class Audit:
         self._write({**entry, "status": status, "said": said})
 
     def refused(self, request: Request, status: int, said: str) -> None:
-        """Note what somebody may not, or what nobody can make sense of."""
+        """Note a request that may not be made, or makes no sense."""
         if not self._refusals.allows(""):
             self._left_out += 1
             return

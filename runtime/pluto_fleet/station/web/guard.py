@@ -1,15 +1,10 @@
-"""Who may ask what: a page on another site may press nothing, a stranger sees nothing.
-
-A browser sends requests for any page that asks it to. What such a page cannot do is to bear the
-name of ours (`Origin`), to send a header of its own without being asked first (`X-Pluto`), or to
-know the token. A name that was bent to this machine (DNS rebinding) shows in `Host`.
-"""
+"""Who may ask what, and how often; and what a browser must not do with the answer."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from hmac import compare_digest
 from ipaddress import IPv4Address, IPv6Address, ip_address
@@ -18,8 +13,34 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import quoted
 
 from . import refusals
-from .http import Request
+from .http import Reply, Request
 from .refusals import Refusal
+
+_KNOWN = 1024
+"""Clients that are remembered; who is forgotten begins anew."""
+
+
+class Rate:
+    """What each client has left."""
+
+    def __init__(
+        self, a_second: float, clock: Callable[[], float], at_once: float | None = None
+    ) -> None:
+        self._a_second, self._clock = a_second, clock
+        self._at_once = a_second if at_once is None else at_once
+        self._left: dict[str, tuple[float, float]] = {}
+
+    def allows(self, client: str) -> bool:
+        """Whether this client may ask once more; if so, it has."""
+        now = self._clock()
+        left, since = self._left.pop(client, (self._at_once, now))
+        left = min(self._at_once, left + (now - since) * self._a_second)
+        allowed = left >= 1
+        self._left[client] = (left - 1 if allowed else left, now)
+        if len(self._left) > _KNOWN:
+            del self._left[next(iter(self._left))]
+        return allowed
+
 
 _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9_.-]+)(?::([0-9]{1,5}))?")
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
@@ -52,10 +73,10 @@ def proper_name(text: str) -> str:
     return name
 
 
-class Asking(Enum):
+class Access(Enum):
     """What a request is, as far as it matters who may ask it."""
 
-    PAGE = "a page"  # the same for everybody, and says nothing of what flies
+    PAGE = "a page"  # the same for all, and says nothing of what flies
     READ = "reading"
     COMMAND = "a command"
     LIVE = "staying connected"
@@ -72,7 +93,7 @@ def needs_token(host: str, names: tuple[str, ...]) -> bool:
     return bool(names) or not is_loopback(host)
 
 
-def refusal(guard: Guard, request: Request, asking: Asking) -> Refusal | None:
+def refusal(guard: Guard, request: Request, access: Access) -> Refusal | None:
     """Return why this may not be asked; None: it may.
 
     On a WebSocket the token is not looked for here: it comes with the first message.
@@ -80,18 +101,18 @@ def refusal(guard: Guard, request: Request, asking: Asking) -> Refusal | None:
     headers = request.headers
     host = headers.get("host", "").lower()
     if not _is_ours(guard, host, request.local):
-        return refusals.unknown_host()
-    if asking is Asking.PAGE:
+        return refusals.UNKNOWN_HOST
+    if access is Access.PAGE:
         return None
-    if not _is_same_site(headers, host, asking):
-        return refusals.another_site()
+    if not _is_same_site(headers, host, access):
+        return refusals.ANOTHER_SITE
     marked = headers.get("x-pluto") == "1"
-    if asking is Asking.COMMAND and not marked:
-        return refusals.no_mark()
-    if asking is Asking.LIVE:
+    if access is Access.COMMAND and not marked:
+        return refusals.NO_MARK
+    if access is Access.LIVE:
         stranger = "origin" not in headers and guard.token is None and not marked
-        return refusals.no_mark() if stranger else None
-    return None if knows(guard, _bearer(headers)) else refusals.no_token()
+        return refusals.NO_MARK if stranger else None
+    return None if knows(guard, _bearer(headers)) else refusals.NO_TOKEN
 
 
 def knows(guard: Guard, token: str) -> bool:
@@ -106,13 +127,13 @@ def _bearer(headers: Mapping[str, str]) -> str:
     return token.strip() if kind.lower() == "bearer" else ""
 
 
-def _is_same_site(headers: Mapping[str, str], host: str, asking: Asking) -> bool:
+def _is_same_site(headers: Mapping[str, str], host: str, access: Access) -> bool:
     """Whether a page of ours asks, or no page at all."""
     site = headers.get("sec-fetch-site", "same-origin")
-    match asking:
-        case Asking.LIVE:  # browsers differ in how near a ws: address is to its page's
+    match access:
+        case Access.LIVE:  # browsers differ in how near a ws: address is to its page's
             near = site != "cross-site"
-        case Asking.READ:  # "none": somebody typed the address
+        case Access.READ:  # "none": the address was typed
             near = site in ("same-origin", "none")
         case _:
             near = site == "same-origin"
@@ -151,3 +172,39 @@ def _address(text: str) -> IPv4Address | IPv6Address | None:
         return None
     mapped = address.ipv4_mapped if isinstance(address, IPv6Address) else None
     return mapped or address
+
+
+_PAGE = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:;"
+    " connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+_PICTURE = (
+    "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'; sandbox"
+)
+_DATA = "default-src 'none'; frame-ancestors 'none'; sandbox"
+
+_ALONE = (("Cross-Origin-Opener-Policy", "same-origin"),)
+"""Browsers heed it only on this machine or over TLS, and else log that they do not."""
+
+_ALWAYS = (
+    ("X-Content-Type-Options", "nosniff"),
+    ("X-Frame-Options", "DENY"),
+    ("Referrer-Policy", "no-referrer"),
+    ("Cross-Origin-Resource-Policy", "same-origin"),
+    ("Permissions-Policy", "camera=(), geolocation=(), microphone=(), payment=(), usb=()"),
+)
+
+
+def with_safe_headers(request: Request, reply: Reply) -> Reply:
+    """Return an answer with all the headers that keep it safe."""
+    own = {name.lower() for name, _ in reply.headers}
+    kept = () if "cache-control" in own else (("Cache-Control", "no-store"),)
+    policy = (("Content-Security-Policy", _policy(request, reply)),)
+    alone = _ALONE if is_loopback(request.headers.get("host", "").rpartition(":")[0]) else ()
+    return replace(reply, headers=(*reply.headers, *kept, *policy, *alone, *_ALWAYS))
+
+
+def _policy(request: Request, reply: Reply) -> str:
+    if request.path == "/map":
+        return _PICTURE
+    return _PAGE if reply.type.startswith("text/html") else _DATA

@@ -22,7 +22,7 @@ async def nothing() -> bytes:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Request:
-    """What somebody asks; the body is read only for those who may ask at all."""
+    """A request; its body is read only once it is known that it may be made."""
 
     method: str
     path: str
@@ -44,14 +44,14 @@ class Reply:
 
 
 MISTAKES: tuple[type[Exception], ...] = (Exception,)
-"""What the station's own mistakes are, whatever they are: nobody else suffers from them."""
+"""What is caught of the station's own mistakes: one request fails, and no other."""
 
 
 class Closed(Exception):
-    """Whoever was connected is no longer."""
+    """The connection has ended."""
 
 
-class Line(Protocol):
+class PageSocket(Protocol):
     """A WebSocket: first opened or refused, then talked on. All but `close` may raise `Closed`."""
 
     async def open(self) -> None:
@@ -64,14 +64,14 @@ class Line(Protocol):
         """Return what is said next."""
 
     async def send(self, text: str) -> None:
-        """Say this; whoever does not read is waited for."""
+        """Send this, and wait while it is not read."""
 
     async def close(self, code: int, why: str) -> None:
         """Hang up."""
 
 
 def json_reply(status: int, data: object) -> Reply:
-    """Answer with data; whatever hooks and drones have put into it, it is JSON."""
+    """Answer with data as JSON, also where a hook has put a number into it that JSON lacks."""
     try:
         text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     except ValueError:  # a hook measured what is not a number

@@ -15,7 +15,7 @@ from .guard import Guard
 _BACKLOG = 128
 _PORTS = 65536
 _ELSEWHERE = ("192.0.2.1", 9)
-"""An address that nobody has: asked for the way there, the system tells which of ours it takes."""
+"""An address that no machine has: asked for the way there, the system tells which of ours it takes."""
 
 
 def listening(host: str, port: int) -> socket.socket:
@@ -46,7 +46,7 @@ def port_of(listener: socket.socket) -> int:
 
 
 def address(guard: Guard) -> str:
-    """Return what somebody types to see the station; it holds the token, where there is one."""
+    """Return what a person opens to see the station; it holds the token, where there is one."""
     secret = f"#token={guard.token}" if guard.token is not None else ""
     return f"http://{_name(guard)}/{secret}"
 
@@ -81,7 +81,7 @@ def _why(error: OSError, host: str, port: int) -> str:
                 " end that, or choose another port with --port (0 takes any that is free)"
             )
         case code if code == EACCES:
-            return f"port {port} is not for everybody: choose one above 1023 with --port"
+            return f"port {port} needs special rights: choose one above 1023 with --port"
         case code if code == EADDRNOTAVAIL:
             return f"--host {quoted(host)}: this machine has no such address"
         case _:

@@ -8,17 +8,15 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from contextlib import suppress
+from typing import Protocol
 
 from ..commands import Malformed
 from . import refusals
-from .answers import asked_number
 from .audit import Audit
-from .behind import Newest
-from .guard import Asking, Guard, knows, refusal
-from .http import MISTAKES, Closed, Line, Reply, Request
-from .rates import Rate
+from .guard import Access, Guard, Rate, knows, refusal
+from .http import MISTAKES, Closed, PageSocket, Reply, Request
 from .refusals import Refused
-from .strict_json import parsed_object
+from .strict_json import asked_number, parsed_object
 
 LIVE = "/api/live"
 """Where pages connect."""
@@ -34,14 +32,21 @@ _FIRST, _NEXT = 10.0, 120.0
 _LONGEST_FLIGHT = 100
 
 NO_TOKEN, MALFORMED, TOO_MANY, TROUBLE, SILENT, OVER = 4401, 4400, 4429, 1011, 4408, 1012
-"""Why a line is closed. From 4400 on they are HTTP's, and 4000 more."""
+"""Why a page is closed. From 4400 on they are HTTP's, and 4000 more."""
 
 
-class Live:
+class UpdateSource(Protocol):
+    """What pages are kept up to date with."""
+
+    async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
+        """Return what is newer than what was seen, as JSON; wait for it, but not for long."""
+
+
+class LiveUpdates:
     """All pages that are kept up to date."""
 
     def __init__(
-        self, station: Newest, guard: Guard, audit: Audit, clock: Callable[[], float]
+        self, station: UpdateSource, guard: Guard, audit: Audit, clock: Callable[[], float]
     ) -> None:
         self._station, self._guard, self._audit, self._clock = station, guard, audit, clock
         self._on = self._waiting = 0
@@ -53,7 +58,7 @@ class Live:
         query = request.query
         counts = [asked_number(query, name) for name in ("seen", "log", "results")]
         if self._on >= _AT_ONCE:
-            raise Refused(refusals.too_busy())
+            raise Refused(refusals.TOO_BUSY)
         self._on += 1
         try:
             text = await self._station.newer(query.get("flight", ""), *counts)
@@ -61,88 +66,88 @@ class Live:
             self._on -= 1
         return Reply(status=200, body=text.encode("utf-8", "replace"))
 
-    async def talk(self, line: Line, request: Request) -> None:
+    async def talk(self, page: PageSocket, request: Request) -> None:
         """Tell a page for as long as it asks."""
         task = asyncio.current_task()
         assert task is not None
         self._talks.add(task)
         try:
-            await self._admit(line, request)
+            await self._admit(page, request)
         except Closed:
             pass
         except asyncio.CancelledError:
             if not self._over:
                 raise
-            await _hang_up(line, OVER, "the station ends")
+            await _hang_up(page, OVER, "the station ends")
         except MISTAKES as error:
             self._audit.trouble(request, error)
-            await _hang_up(line, TROUBLE, "something went wrong inside the station")
+            await _hang_up(page, TROUBLE, "something went wrong inside the station")
         finally:
             self._talks.discard(task)
 
     def end(self) -> None:
-        """Hang up on everybody: nobody is waited for."""
+        """Hang up on all pages at once."""
         self._over = True
         for task in self._talks:
             task.cancel()
 
-    async def _admit(self, line: Line, request: Request) -> None:
-        """Let somebody in who may be, and hang up with a reason on whoever talks nonsense."""
-        why = refusal(self._guard, request, Asking.LIVE)
+    async def _admit(self, page: PageSocket, request: Request) -> None:
+        """Let a page in that may be, and hang up with a reason on one that sends nonsense."""
+        why = refusal(self._guard, request, Access.LIVE)
         if why is None and request.path != LIVE:
-            why = refusals.no_such_page()
+            why = refusals.NO_SUCH_PAGE
         if why is None and (self._over or self._waiting >= _WAITING):
-            why = refusals.too_busy()
+            why = refusals.TOO_BUSY
         if why is not None:
             self._audit.refused(request, why.status, why.said)
-            await line.refuse()
+            await page.refuse()
             return
         try:
-            await self._converse(line)
+            await self._converse(page)
         except _Improper as error:
             self._audit.refused(request, error.code - 4000, str(error))
-            await _hang_up(line, error.code, str(error))
+            await _hang_up(page, error.code, str(error))
 
-    async def _converse(self, line: Line) -> None:
+    async def _converse(self, page: PageSocket) -> None:
         self._waiting += 1
         try:
-            await line.open()
-            first = await _heard(line, _FIRST)
+            await page.open()
+            first = await _heard(page, _FIRST)
         finally:
             self._waiting -= 1
         token = first.get("token", "")
         if not isinstance(token, str) or not knows(self._guard, token):
-            raise _Improper(NO_TOKEN, refusals.no_token().said)
+            raise _Improper(NO_TOKEN, refusals.NO_TOKEN.said)
         if self._on >= _AT_ONCE:
-            raise _Improper(TOO_MANY, refusals.too_busy().said)
+            raise _Improper(TOO_MANY, refusals.TOO_BUSY.said)
         self._on += 1
         try:
-            await self._tell(line, first)
+            await self._tell(page, first)
         finally:
             self._on -= 1
 
-    async def _tell(self, line: Line, asked: dict[str, object]) -> None:
+    async def _tell(self, page: PageSocket, asked: dict[str, object]) -> None:
         rate = Rate(_MESSAGES, self._clock)
         while True:
             if not rate.allows(""):
-                raise _Improper(TOO_MANY, refusals.too_many().said)
-            await line.send(await self._station.newer(*_seen(asked)))
-            asked = await _heard(line, _NEXT)
+                raise _Improper(TOO_MANY, refusals.TOO_MANY.said)
+            await page.send(await self._station.newer(*_seen(asked)))
+            asked = await _heard(page, _NEXT)
 
 
 class _Improper(Exception):
-    """Somebody is hung up on, and told why."""
+    """Why a page is hung up on."""
 
     def __init__(self, code: int, why: str) -> None:
         super().__init__(why)
         self.code = code
 
 
-async def _heard(line: Line, within: float) -> dict[str, object]:
+async def _heard(page: PageSocket, within: float) -> dict[str, object]:
     """Return what is said next, if it comes in time and makes sense."""
     try:
         async with asyncio.timeout(within):
-            text = await line.receive()
+            text = await page.receive()
     except TimeoutError:
         raise _Improper(SILENT, f"nothing was said for {within:g} seconds") from None
     try:
@@ -152,7 +157,7 @@ async def _heard(line: Line, within: float) -> dict[str, object]:
 
 
 def _seen(asked: dict[str, object]) -> tuple[str, int, int, int]:
-    """Return what somebody says to have seen."""
+    """Return what a page says it has seen."""
     match asked:
         case {"flight": str(flight), "seen": int(seen), "log": int(log), "results": int(results)}:
             return flight[:_LONGEST_FLIGHT], seen, log, results
@@ -160,6 +165,6 @@ def _seen(asked: dict[str, object]) -> tuple[str, int, int, int]:
             raise _Improper(MALFORMED, "a message says flight, seen, log and results")
 
 
-async def _hang_up(line: Line, code: int, why: str) -> None:
+async def _hang_up(page: PageSocket, code: int, why: str) -> None:
     with suppress(Closed):
-        await line.close(code, why)
+        await page.close(code, why)

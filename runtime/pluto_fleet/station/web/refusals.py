@@ -1,4 +1,4 @@
-"""Why somebody is refused, in sentences for a person; each says what to do about it."""
+"""Why a request is refused, in sentences for a person; each says what to do about it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .http import Reply, said
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """What is answered to somebody who may not, or not so."""
+    """What is answered to a request that may not be, or not so."""
 
     status: int
     said: str
@@ -31,46 +31,44 @@ class Refused(Exception):
 
 
 HANG_UP = (("Connection", "close"),)
-"""For whoever is refused before all that was sent has been read."""
+"""For a request that is refused before all of it has been read."""
+_SOON = (("Retry-After", "1"),)
 
-
-def unknown_host() -> Refusal:
-    """The request was meant for another address: somebody may have bent a name to ours."""
-    return Refusal(
-        403,
-        "this station does not go by that name: open the address that it has printed,"
-        " or name the others that it has with --name",
-    )
-
-
-def another_site() -> Refusal:
-    """A page that is not of this station asks."""
-    return Refusal(403, "only the station's own pages may ask this")
-
-
-def no_mark() -> Refusal:
-    """A command without the header that no page elsewhere can send unasked."""
-    return Refusal(403, "a command needs the header X-Pluto: 1")
-
-
-def no_token() -> Refusal:
-    """No token, or not the right one."""
-    return Refusal(
-        401,
-        "this needs the token: it stands in the address that the station printed when it began,"
-        " behind #token=",
-        (("WWW-Authenticate", "Bearer"),),
-    )
+UNKNOWN_HOST = Refusal(
+    403,
+    "this station does not go by that name: open the address that it has printed,"
+    " or name the others that it has with --name",
+)
+"""The request was meant for another address: a name elsewhere may have been pointed at this one."""
+ANOTHER_SITE = Refusal(403, "only the station's own pages may ask this")
+NO_MARK = Refusal(403, "a command needs the header X-Pluto: 1")
+"""A header that no page elsewhere can send unasked."""
+NO_TOKEN = Refusal(
+    401,
+    "this needs the token: it stands in the address that the station printed when it began,"
+    " behind #token=",
+    (("WWW-Authenticate", "Bearer"),),
+)
+NO_SUCH_PAGE = Refusal(404, "there is nothing at this address")
+TOO_SLOW = Refusal(408, "the rest of that took too long to come: nothing was changed", HANG_UP)
+CUT_OFF = Refusal(400, "the connection ended before the request did: nothing was changed", HANG_UP)
+TOO_MANY = Refusal(
+    429, "that is too much at once: nothing was changed; try again in a second", _SOON
+)
+"""From one client."""
+TOO_BUSY = Refusal(
+    503,
+    "too many are access at once: nothing was changed; try again in a second."
+    " A Stop is always taken",
+    _SOON,
+)
+"""From all of them."""
+OURS = Refusal(500, "something went wrong inside the station; what exactly stands in its audit.log")
 
 
 def wrong_type(wanted: str) -> Refusal:
     """A body of another kind."""
     return Refusal(415, f"the content must be of the type {wanted}")
-
-
-def no_such_page() -> Refusal:
-    """Nothing is there."""
-    return Refusal(404, "there is nothing at this address")
 
 
 def wrong_method(allowed: str) -> Refusal:
@@ -79,47 +77,10 @@ def wrong_method(allowed: str) -> Refusal:
 
 
 def too_long(limit: int) -> Refusal:
-    """More was sent than anybody needs."""
+    """A body longer than anything that is asked for."""
     return Refusal(413, f"that is more than {limit:,} bytes: nothing was changed", HANG_UP)
-
-
-def too_slow() -> Refusal:
-    """The body did not come to an end."""
-    return Refusal(408, "the rest of that took too long to come: nothing was changed", HANG_UP)
-
-
-def cut_off() -> Refusal:
-    """Whoever sent it has hung up before its end; nobody will hear this."""
-    return Refusal(400, "the connection ended before the request did: nothing was changed", HANG_UP)
 
 
 def malformed(what: str) -> Refusal:
     """What was sent is not what is asked for."""
     return Refusal(400, f"{what}: nothing was changed")
-
-
-def too_many() -> Refusal:
-    """Too much at once from one place."""
-    return Refusal(
-        429,
-        "that is too much at once: nothing was changed; try again in a second",
-        (("Retry-After", "1"),),
-    )
-
-
-def too_busy() -> Refusal:
-    """Too much at once from everybody."""
-    return Refusal(
-        503,
-        "too many are asking at once: nothing was changed; try again in a second."
-        " A Stop is always taken",
-        (("Retry-After", "1"),),
-    )
-
-
-def ours() -> Refusal:
-    """A mistake in the station itself."""
-    return Refusal(
-        500,
-        "something went wrong inside the station; what exactly stands in its audit.log",
-    )

@@ -1,44 +1,70 @@
-"""Between the web server and the station's own requests and answers. Nothing is decided here."""
+"""Serves an `Api` by uvicorn, in the station's own loop. Nothing is decided here but who is let go.
+
+A connection on which nothing happens makes room for others: else a stranger who opens many and says
+nothing could keep out the one who wants to press Stop.
+"""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
-from contextlib import aclosing, suppress
-from typing import TYPE_CHECKING, cast
+from collections.abc import Callable, Mapping
+from contextlib import aclosing, nullcontext, suppress
+from typing import TYPE_CHECKING
 from urllib.parse import parse_qsl
 
+import uvicorn
+from starlette.requests import ClientDisconnect
+from starlette.requests import Request as StarletteRequest
+from starlette.responses import Response
+from starlette.websockets import WebSocket, WebSocketDisconnect
+from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+
 from . import refusals
-from .borrowed import Borrowed, borrowed
-from .http import Request
+from .http import Closed, Request
 from .refusals import Refused
-from .socket_line import SocketLine
 
 if TYPE_CHECKING:
     import socket
 
+    from starlette.types import ASGIApp, Receive, Scope, Send
+    from uvicorn.protocols.http.h11_impl import RequestResponseCycle
+
     from .api import Api
-    from .borrowed import Receive, Scope, Send
 
 _LARGEST_BODY = 1024 * 1024
+_LARGEST_MESSAGE = 64 * 1024
+_LARGEST_HEAD = 16 * 1024
+"""Bytes of a request's body, of a message on a WebSocket, and of a request without its body."""
 _BODY_WITHIN = 10.0
 _FIELDS = 16
+_LONGEST_REASON = 120
+"""Bytes: what fits into the frame that closes a connection."""
+_CONNECTIONS = 256
+"""Those that wait for a request or an answer; WebSockets have limits of their own."""
+_LOOK_EVERY = 10.0
+"""Seconds between two looks at a connection, and so how long the head of a request may take."""
+_LOOKS = 6
+"""After so many looks at one and the same request it is given up: the answer is not read."""
+
+_GONE = (ClientDisconnect, WebSocketDisconnect, RuntimeError, OSError)
+"""What is raised where the other side is no longer there."""
 
 
-async def serve(api: Api, listener: socket.socket, app: str, ready: Callable[[], object]) -> None:
+async def serve(api: Api, listener: socket.socket, ready: Callable[[], object]) -> None:
     """Serve on a socket that listens until cancelled; be told when pages can be asked for."""
-    parts = borrowed(app)
 
     async def application(scope: Scope, receive: Receive, send: Send) -> None:
+        request = _request(scope, receive)
         if scope["type"] == "websocket":
-            line = SocketLine(parts, scope, receive, send)
-            await api.live(line, _request(parts, scope, receive))
+            await api.live(StarletteSocket(WebSocket(scope, receive, send)), request)
             return
-        reply = await api.answer(_request(parts, scope, receive))
-        with suppress(*parts.gone):  # nobody waits for it any more
-            await parts.answer(reply)(scope, receive, send)
+        reply = await api.answer(request)
+        headers = {"Content-Type": reply.type, **dict(reply.headers)}
+        with suppress(*_GONE):  # the answer is not waited for any more
+            await Response(reply.body, reply.status, headers)(scope, receive, send)
 
-    server = parts.serving(application)
+    server = _server(application)
     serving = asyncio.create_task(server.serve([listener]))
     try:
         while not server.started and not serving.done():
@@ -52,15 +78,127 @@ async def serve(api: Api, listener: socket.socket, app: str, ready: Callable[[],
         await serving
 
 
-def _request(parts: Borrowed, scope: Scope, receive: Receive) -> Request:
+def _server(application: ASGIApp) -> uvicorn.Server:
+    """Return a server that leaves signals, logs and proxies alone."""
+    config = uvicorn.Config(
+        application,
+        http=LimitedConnection,
+        ws=WebSocketsSansIOProtocol,
+        lifespan="off",
+        workers=1,
+        log_config=None,
+        log_level="critical",
+        access_log=False,
+        proxy_headers=False,
+        server_header=False,
+        ws_max_size=_LARGEST_MESSAGE,
+        ws_per_message_deflate=False,
+        h11_max_incomplete_event_size=_LARGEST_HEAD,
+        timeout_graceful_shutdown=1,
+    )
+    server = uvicorn.Server(config)
+    vars(server)["capture_signals"] = nullcontext  # Ctrl-C is for those who fly
+    return server
+
+
+class LimitedConnection(H11Protocol):
+    """An HTTP connection that is let go if nothing happens on it, or if others need its place."""
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """Begin, and make room."""
+        self._began = asyncio.get_running_loop().time()
+        others = [each for each in self.connections if isinstance(each, LimitedConnection)]
+        super().connection_made(transport)
+        if len(others) >= _CONNECTIONS:
+            idle = min((each for each in others if each.is_idle), key=_began, default=None)
+            if idle is not None:
+                idle.let_go()
+        self._look_later(None, True, 0)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is being answered."""
+        cycle: RequestResponseCycle | None = self.cycle
+        return cycle is None or cycle.response_complete
+
+    def let_go(self) -> None:
+        """End it at once."""
+        self.connections.discard(self)
+        self.transport.abort()
+
+    def _look_later(self, cycle: object, idle: bool, looks: int) -> None:
+        loop = asyncio.get_running_loop()
+        loop.call_later(_LOOK_EVERY, self._look, cycle, idle, looks)
+
+    def _look(self, cycle: object, idle: bool, looks: int) -> None:
+        """See whether anything has happened since the last look."""
+        if self not in self.connections:  # it is closed, or a WebSocket by now
+            return
+        unchanged = self.cycle is cycle and self.is_idle is idle
+        looks = looks + 1 if unchanged else 0
+        if looks >= (1 if self.is_idle else _LOOKS):
+            self.let_go()
+        else:
+            self._look_later(self.cycle, self.is_idle, looks)
+
+
+def _began(connection: LimitedConnection) -> float:
+    return connection._began
+
+
+class StarletteSocket:
+    """A page that stays connected by a WebSocket."""
+
+    def __init__(self, socket: WebSocket) -> None:
+        self._socket = socket
+
+    async def open(self) -> None:
+        """Take the connection."""
+        try:
+            await self._socket.accept()
+        except _GONE:
+            raise Closed from None
+
+    async def refuse(self) -> None:
+        """Take it not: the server says 403, and a browser tells its page no more than that."""
+        await self.close(1008, "")
+
+    async def receive(self) -> str:
+        """Return what is said next; what is no text is as good as nothing."""
+        try:
+            message = await self._socket.receive()
+        except _GONE:
+            raise Closed from None
+        if message["type"] == "websocket.disconnect":
+            raise Closed
+        text = message.get("text")
+        return text if isinstance(text, str) else ""
+
+    async def send(self, text: str) -> None:
+        """Send this, and wait while it is not read."""
+        try:
+            await self._socket.send_text(text)
+        except _GONE:
+            raise Closed from None
+
+    async def close(self, code: int, why: str) -> None:
+        """Hang up."""
+        reason = why.encode()[:_LONGEST_REASON].decode(errors="ignore")
+        try:
+            await self._socket.close(code, reason)
+        except _GONE:
+            raise Closed from None
+
+
+def _request(scope: Scope, receive: Receive) -> Request:
     """Return what is asked, with a body that is yet to be read."""
     headers = _headers(scope)
     return Request(
-        method=str(scope.get("method", "GET")),
-        path=str(scope["path"]),
+        method=scope.get("method", "GET"),
+        path=scope["path"],
         query=_query(scope),
         headers=headers,
-        read=lambda: _body(parts, headers, scope, receive),
+        read=lambda: _body(headers, scope, receive),
         client=_host(scope.get("client")),
         local=_host(scope.get("server")),
     )
@@ -69,14 +207,14 @@ def _request(parts: Borrowed, scope: Scope, receive: Receive) -> Request:
 def _headers(scope: Scope) -> dict[str, str]:
     """Return the headers; one that comes twice says both, and so nothing that is wanted."""
     found: dict[str, str] = {}
-    for name, value in cast("list[tuple[bytes, bytes]]", scope["headers"]):
+    for name, value in scope["headers"]:
         key, text = name.decode("latin-1").lower(), value.decode("latin-1")
         found[key] = f"{found[key]}, {text}" if key in found else text
     return found
 
 
 def _query(scope: Scope) -> dict[str, str]:
-    text = cast("bytes", scope["query_string"]).decode("latin-1")
+    text = scope["query_string"].decode("latin-1")
     try:
         return dict(parse_qsl(text, keep_blank_values=True, max_num_fields=_FIELDS))
     except ValueError:
@@ -87,8 +225,8 @@ def _host(end: object) -> str:
     return str(end[0]) if isinstance(end, (tuple, list)) and end else ""
 
 
-async def _body(parts: Borrowed, headers: dict[str, str], scope: Scope, receive: Receive) -> bytes:
-    """Read a body to its end, or no further than anybody needs."""
+async def _body(headers: Mapping[str, str], scope: Scope, receive: Receive) -> bytes:
+    """Read a body to its end, or as far as a request may be long."""
     length = headers.get("content-length", "0")
     if not length.isdecimal() or len(length) > 12 or int(length) > _LARGEST_BODY:
         raise Refused(refusals.too_long(_LARGEST_BODY))
@@ -96,14 +234,14 @@ async def _body(parts: Borrowed, headers: dict[str, str], scope: Scope, receive:
     try:
         async with (
             asyncio.timeout(_BODY_WITHIN),
-            aclosing(parts.request(scope, receive).stream()) as stream,
+            aclosing(StarletteRequest(scope, receive).stream()) as stream,
         ):
             async for chunk in stream:
                 body += chunk
                 if len(body) > _LARGEST_BODY:
                     raise Refused(refusals.too_long(_LARGEST_BODY))
     except TimeoutError:
-        raise Refused(refusals.too_slow()) from None
-    except parts.gone:
-        raise Refused(refusals.cut_off()) from None
+        raise Refused(refusals.TOO_SLOW) from None
+    except _GONE:
+        raise Refused(refusals.CUT_OFF) from None
     return bytes(body)

@@ -1,6 +1,6 @@
 """The pages, and the floor plan: bytes that were read once, each by the one name that it has.
 
-No path is ever made of what somebody asks for. What is not in the table is not there.
+No path is ever made of a request. What is not in the table is not there.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _LARGEST = 20 * 1024 * 1024
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Held:
+class StaticFile:
     """What is handed out, and its mark, by which a browser knows whether it has it already."""
 
     type: str
@@ -50,7 +50,7 @@ class Held:
 
 
 @cache
-def pages(folder: Path = FOLDER) -> Mapping[str, Held]:
+def pages(folder: Path = FOLDER) -> Mapping[str, StaticFile]:
     """Return what there is at which address; it is read once."""
     table = {}
     for file in sorted(folder.iterdir()):
@@ -82,7 +82,7 @@ def floor_plan(folder: Path, name: str) -> Path:
     return found
 
 
-def picture(place: Path) -> Held | None:
+def picture(place: Path) -> StaticFile | None:
     """Return the floor plan; None: it cannot be read any more."""
     kind = _PICTURES.get(place.suffix.lower())
     try:
@@ -91,7 +91,7 @@ def picture(place: Path) -> Held | None:
         return None
 
 
-def handed_out(held: Held, request: Request) -> Reply:
+def file_reply(held: StaticFile, request: Request) -> Reply:
     """Hand it out, unless the browser has it already."""
     headers = (("ETag", held.mark), ("Cache-Control", "no-cache"), ("Vary", "Accept-Encoding"))
     if held.mark in request.headers.get("if-none-match", ""):
@@ -102,8 +102,8 @@ def handed_out(held: Held, request: Request) -> Reply:
     return Reply(status=200, body=held.plain, type=held.type, headers=headers)
 
 
-def _held(kind: str, content: bytes, *, packs: bool) -> Held:
-    return Held(
+def _held(kind: str, content: bytes, *, packs: bool) -> StaticFile:
+    return StaticFile(
         type=kind,
         plain=content,
         packed=compress(content, mtime=0) if packs else None,

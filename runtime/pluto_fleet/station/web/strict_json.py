@@ -1,9 +1,10 @@
-"""JSON from strangers: not too deep, no name twice, only numbers that are numbers."""
+"""JSON and numbers from strangers: not too deep, no name twice, only numbers that are numbers."""
 
 from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
 from math import isfinite
 from typing import NoReturn
 
@@ -12,6 +13,9 @@ from ..commands import Malformed
 DEEPEST = 32
 _LARGEST = 2**53
 """Beyond it a browser's numbers are no longer whole."""
+
+_DIGITS = 15
+"""Of a number in an address."""
 
 _TOKEN = re.compile(r'"(?:[^"\\]+|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
 """A text, or a bracket outside of any. A text that does not end is one, too: it is passed over once."""
@@ -49,6 +53,14 @@ def parsed_object(body: bytes | str) -> dict[str, object]:
     if not isinstance(data, dict):
         raise Malformed("what was sent is not an object in braces")
     return data
+
+
+def asked_number(query: Mapping[str, str], name: str) -> int:
+    """Return a whole number of an address: 0 where there is none."""
+    text = query.get(name, "0")
+    if not (text.isascii() and text.isdecimal() and len(text) <= _DIGITS):
+        raise Malformed(f"{name} must be a whole number")
+    return int(text)
 
 
 def _bound_depth(text: str) -> None:

@@ -1,0 +1,243 @@
+"""Asks real drones how they are, all at once: none is armed, none moves, and a silent one delays no other.
+
+A drone that is in the air is not let go of either: for some, that would switch the motors off.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import inspect
+from collections.abc import Coroutine, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol, TypeVar, cast
+
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import number, of, printable, quoted
+
+from ..drones.loading import load_navigation, make_localization
+from ..drones.localization import LocalizationFeed
+from ..drones.protocol import Identifiable, Locatable, Scannable
+from ..drones.real_fleet import RealDrone
+from ..drones.team import make_one
+from ..files.fleet import OWN
+from ..gateway.drone_lock import DroneInUse, lock_drones
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Point
+
+    from ..drones.protocol import DroneNavigation, DroneTelemetry
+    from ..files.options import Options
+
+CONNECT, ANSWER, CLOSE, SCAN = 15.0, 12.0, 10.0, 90.0
+"""Seconds that each may take."""
+
+LOST = "it does not tell where it is"
+IN_THE_AIR = "it is in the air: nothing more was asked of it"
+
+T = TypeVar("T")
+
+
+class Tells(Protocol):
+    """A navigation that knows more of its drone than the protocol asks."""
+
+    async def facts(self) -> Mapping[str, str]:
+        """Return what else there is to know, such as its firmware."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DroneQuery:
+    """A drone that is asked."""
+
+    id: str
+    """Its name in the fleet file; where it has none, its uri."""
+    uri: str | None
+    navigation: str
+    home: Point = (0.0, 0.0, 0.0)
+    speed: float = 0.5
+    options: Mapping[str, object] = field(default_factory=dict)
+    known: bool = True
+    """Whether the fleet file has it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DroneAnswer:
+    """What came of it."""
+
+    asked: DroneQuery
+    problems: tuple[str, ...] = ()
+    """Why it may not fly now; nothing: it is ready."""
+    telemetry: DroneTelemetry | None = None
+    """None: it has not told anything."""
+    facts: Mapping[str, str] = field(default_factory=dict)
+
+
+class _Silent(Exception):
+    """Something has not come in time."""
+
+
+async def found(navigation: str, options: Mapping[str, object]) -> list[str]:
+    """Return where drones answer; raise `BadInput` if they cannot be looked for."""
+    by = load_navigation(navigation)
+    if not isinstance(by, Scannable):
+        raise BadInput(
+            f"the navigation {quoted(navigation)} cannot look for drones: name them, or their fleet"
+            " file with --fleet"
+        )
+    try:
+        return list(dict.fromkeys(await _within(SCAN, by.scan(options))))
+    except BadInput:
+        raise
+    except _Silent:
+        raise BadInput(f"looking for drones took longer than {number(SCAN)} s") from None
+    except Exception as error:
+        raise BadInput(f"cannot look for drones: {_why(error)}") from error
+
+
+async def answers(
+    asked: Sequence[DroneQuery],
+    folder: Path,
+    localization: str = OWN,
+    options: Options | None = None,
+) -> list[DroneAnswer]:
+    """Return what each drone answers, told meanwhile where it is if the fleet has a localization."""
+    navigations = {one.id: _made(one, folder) for one in asked}
+    feeding: LocalizationFeed | None = None
+    if localization != OWN:
+        source = make_localization(localization, options or {})
+        told = {id: one for id, one in navigations.items() if isinstance(one, Locatable)}
+        feeding = LocalizationFeed(localization, source, told, lambda _: None)
+        feeding.start()
+    try:
+        return await asyncio.gather(*(_answer(one, navigations[one.id], feeding) for one in asked))
+    finally:
+        if feeding is not None:
+            await feeding.close()
+
+
+async def identified(asked: DroneQuery, folder: Path) -> None:
+    """Let a drone show which one it is; raise `BadInput` if it cannot."""
+    navigation = _made(asked, folder)
+    if not isinstance(navigation, Identifiable):
+        raise BadInput(f"{asked.id} has nothing by which it could show itself")
+    with lock_drones({asked.id: asked.uri or asked.id}):
+        try:
+            await _within(CONNECT, navigation.connect())
+            await _within(CONNECT, navigation.identify())
+        except _Silent:
+            raise BadInput(of(asked.id, no_answer(CONNECT))) from None
+        except Exception as error:
+            raise BadInput(of(asked.id, _why(error))) from error
+        finally:
+            await _let_go(navigation)
+
+
+def _made(asked: DroneQuery, folder: Path) -> DroneNavigation:
+    how = RealDrone(
+        id=asked.id if asked.known else "it",  # so that sentences about it can be read
+        navigation=asked.navigation,
+        uri=asked.uri,
+        options=asked.options,
+    )
+    return make_one(how, asked.home, asked.speed, folder)
+
+
+def no_answer(seconds: float) -> str:
+    """Return what is said of a drone that has not been there in time."""
+    return f"no answer in {number(seconds)} s"
+
+
+@dataclass(slots=True)
+class _Heard:
+    """What a drone has told so far."""
+
+    telemetry: DroneTelemetry | None = None
+    problems: tuple[str, ...] = ()
+    facts: Mapping[str, str] = field(default_factory=dict)
+
+
+async def _answer(
+    asked: DroneQuery, navigation: DroneNavigation, feeding: LocalizationFeed | None
+) -> DroneAnswer:
+    so_far = _Heard()
+    try:
+        with lock_drones({asked.id: asked.uri or asked.id}):
+            try:
+                (end,) = await asyncio.gather(_ask(navigation, so_far), return_exceptions=True)
+            finally:
+                await _let_go(navigation)
+    except DroneInUse as held:  # an app flies it, and alone may speak with it
+        return DroneAnswer(asked=asked, problems=(str(held),))
+    match end:
+        case None:
+            problems = so_far.problems
+            if not isfinite(sum(so_far.telemetry.position if so_far.telemetry else ())):
+                problems = (*problems, LOST)
+            lost = None if feeding is None else feeding.silent(asked.id)
+            if lost is not None:
+                problems = (*problems, lost)
+        case _Silent():
+            problems = (no_answer(CONNECT if so_far.telemetry is None else ANSWER),)
+        case Exception() if not isinstance(end, BadInput):
+            problems = (_why(end),)
+        case _:  # something is missing that all of them need
+            raise end
+    return DroneAnswer(
+        asked=asked, problems=problems, telemetry=so_far.telemetry, facts=so_far.facts
+    )
+
+
+async def _ask(navigation: DroneNavigation, so_far: _Heard) -> None:
+    await _within(CONNECT, navigation.connect())
+    so_far.telemetry = navigation.telemetry
+    if so_far.telemetry.flying:
+        so_far.problems = (IN_THE_AIR,)
+        return
+    so_far.problems = tuple(map(str, await _within(ANSWER, navigation.preflight())))
+    if inspect.iscoroutinefunction(getattr(navigation, "facts", None)):
+        facts = await _within(ANSWER, cast(Tells, navigation).facts())
+        so_far.facts = {str(name): str(fact) for name, fact in facts.items()}
+    so_far.telemetry = navigation.telemetry
+
+
+async def _let_go(navigation: DroneNavigation) -> None:
+    """Close the link to a drone that stands on the ground, or that has never answered."""
+    flying = False
+    with suppress(Exception):  # a drone that fails now has been asked all there was
+        flying = navigation.telemetry.flying
+    if not flying:
+        with suppress(Exception):
+            await _within(CLOSE, navigation.close())
+
+
+async def _within(seconds: float, coroutine: Coroutine[object, object, T]) -> T:
+    """Return what comes of it, or raise `_Silent`; a call that does not end is left behind."""
+    task = asyncio.ensure_future(coroutine)
+    try:
+        done, _ = await asyncio.wait({task}, timeout=seconds)
+    except asyncio.CancelledError:
+        task.cancel()
+        raise
+    if not done:
+        task.cancel()
+        raise _Silent
+    return task.result()
+
+
+def _why(error: Exception) -> str:
+    """Return what went wrong: in the world, or in the navigation itself."""
+    said = printable(str(error))
+    if hasattr(error, "failure"):
+        return said
+    return f"its navigation made a mistake: {type(error).__name__}: {said}"
+
+
+def heard(answer: DroneAnswer) -> DroneTelemetry | None:
+    """Return what a drone has told of itself, if it has told anything."""
+    telemetry = answer.telemetry
+    if telemetry is None or not all(map(isfinite, (telemetry.time, *telemetry.position))):
+        return None
+    return telemetry

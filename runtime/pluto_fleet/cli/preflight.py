@@ -1,0 +1,64 @@
+"""What can be known to be wrong with real drones before any is reached."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.domain.errors import BadInput
+
+from ..crazyflie.driver import require
+from ..drones import plugins
+from ..drones.loading import hears, load_localization, load_navigation
+from ..drones.real_fleet import real_fleet
+from ..drones.team import make_one, top_speed
+from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real
+from ..files.reading import shortened
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
+
+    from ..drones.protocol import DroneNavigation
+    from ..files.drones import DroneEntry
+    from ..files.fleet import FleetFile
+
+
+def check_real(app: App, fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
+    """Raise `BadInput` if this fleet cannot be flown from here; nothing has started.
+
+    `where` names its file, in messages. Navigations are made, and reach for nothing.
+    """
+    problems = [] if stand_ins else not_real(fleet)
+    if problems:
+        raise BadInput(shortened([f"{where}: {sentence}" for sentence in problems]))
+    names = dict.fromkeys(navigation_of(fleet, drone) for drone in fleet.drones)
+    if CRAZYFLIE in names:
+        require()
+    for name in names:
+        load_navigation(name)
+    if fleet.localization != OWN:
+        load_localization(fleet.localization)
+        deaf = [one.id for one in fleet.drones if not hears(navigation_of(fleet, one))]
+        if deaf:
+            raise plugins.deaf(fleet.localization, deaf)
+    _check_options(app, fleet, where)
+
+
+def _check_options(app: App, fleet: FleetFile, where: str) -> None:
+    problems: list[str] = []
+    with TemporaryDirectory() as folder:
+        for drone in fleet.drones:
+            try:
+                made(app, fleet, drone, Path(folder))
+            except BadInput as error:
+                problems.append(f"{where}:{drone.line}: {error}" if drone.line else str(error))
+    if problems:
+        raise BadInput(shortened(problems))
+
+
+def made(app: App, fleet: FleetFile, drone: DroneEntry, folder: Path) -> DroneNavigation:
+    """Return what flies one drone; nothing is reached yet. `BadInput`: its options are wrong."""
+    (category,) = (one for one in app.categories if one.name == drone.category)
+    (how,) = (one for one in real_fleet(fleet, ()).drones if one.id == drone.id)
+    return make_one(how, drone.home, top_speed(category), folder)

@@ -1,0 +1,299 @@
+"""`simulate --runs N`: the same missions with many seeds, what the runs have in common, and a plot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from io import BytesIO
+from math import ceil, floor
+from pathlib import Path
+from statistics import mean, median
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime import output
+from plutoc_runtime.alone.simulate import outcome_data, trips_data
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.status import COMPLETED
+from plutoc_runtime.domain.text import (
+    counted,
+    duration,
+    in_shell,
+    number,
+    percent,
+    printable,
+)
+from plutoc_runtime.domain.trace import dumped
+
+from ..report.report import exit_code, last_line, table
+from ..trials.invariants import ENDS, Invariants, items_of
+
+if TYPE_CHECKING:
+    from plutoc_runtime.alone.simulate import Outcome
+    from plutoc_runtime.domain.app import App
+
+    from ..report.progress import Progress
+    from ..trials.invariants import Items
+    from .options import Options
+    from .plans import LoadedPlan
+
+    # was an import of itself
+
+BROKEN = 70
+"""The exit code of a run that did what no run may do: that is a mistake of ours."""
+
+_MOST_VIOLATIONS = 10
+
+
+def often(
+    app: App, options: Options, count: int, plan: LoadedPlan, progress: Progress, fly: Fly
+) -> int:
+    """Fly with one seed after the other; say what came of each, and of all."""
+    if options.plot is not None:
+        kind_of(options.plot)
+        drawing()  # said before anything flies
+    runs: list[RunFigures] = []
+    data: list[dict[str, object]] = []
+    worst, items = 0, items_of(plan.missions)
+    for place in range(count):
+        seed = options.seed + place
+        progress.update(place / count, f"run {place + 1} of {count}")
+        outcome = fly(seed)
+        run = run_of(seed, outcome, items)
+        runs.append(run)
+        worst = max(worst, BROKEN if run.violations else exit_code(outcome))
+        if options.json:
+            data.append(outcome_data(app.name, seed, outcome))
+        else:
+            progress.clear()
+            why = f"; given up: {printable(outcome.given_up)}" if outcome.given_up else ""
+            output.line(f"seed {seed}: {last_line(outcome)}{why}")
+    progress.clear()
+    if options.plot is not None:
+        plot(options.plot, app.name, runs)
+    if options.json:
+        whole = {"app": app.name, "seed": options.seed, "runs": data, "summary": summary(runs)}
+        output.line(dumped(whole))
+    else:
+        for line in _said(app, options, runs):
+            output.line(line)
+    return worst
+
+
+def _said(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[str]:
+    yield ""
+    yield from _figures(runs)
+    yield ""
+    broken = [run for run in runs if run.violations]
+    if broken:
+        yield from _broken(app, options, broken)
+        yield ""
+    yield _in_words(runs)
+
+
+def _figures(runs: Sequence[RunFigures]) -> Iterator[str]:
+    """Yield a table of what the runs took; one run has no percentiles."""
+    if len(runs) == 1:
+        return
+    lines = (
+        ("completed missions", [float(run.completed) for run in runs], _whole),
+        ("makespan", [run.makespan for run in runs if run.success], duration),
+        ("flights", [float(run.attempts) for run in runs], _whole),
+        ("failed flights", [float(run.failed) for run in runs], _whole),
+        ("lowest battery", [run.battery for run in runs if run.battery is not None], percent),
+    )
+    rows = [
+        (what, *(say(found[key]) for key in ("p5", "median", "p95")))
+        for what, values, say in lines
+        if (found := spread(values)) is not None
+    ]
+    yield from table(("", "p5", "median", "p95"), rows, right=(1, 2, 3))
+    if len(runs) < ENOUGH:
+        yield f"Of {counted(len(runs), 'run')}, p5 and p95 say little: fly {ENOUGH} or more."
+
+
+def _whole(value: float) -> str:
+    return number(round(value, 1))
+
+
+def _broken(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[str]:
+    """Yield what must never be, and how to see it again."""
+    found = [(run.seed, sentence) for run in runs for sentence in run.violations]
+    for seed, sentence in found[:_MOST_VIOLATIONS]:
+        yield f"seed {seed} did what no run may do: {printable(sentence)}"
+    if len(found) > _MOST_VIOLATIONS:
+        yield f"and {len(found) - _MOST_VIOLATIONS} more"
+    fleet = f" --fleet {in_shell(options.fleet)}" if options.fleet else ""
+    shares = ",".join(f"{what}={share:.12g}" for what, share in options.fail.items())
+    fail = f" --fail {shares}" if shares else ""
+    until = f" --until {options.until:.12g}" if options.until else ""
+    yield (
+        f"See it again: {app.name} simulate {in_shell(options.missions)}{fleet} --seed {runs[0].seed}"
+        f"{fail}{until} --trace trace.jsonl"
+    )
+    yield "This is a mistake of ours, or of a block's author: please report it, with that file."
+
+
+def _in_words(runs: Sequence[RunFigures]) -> str:
+    good = [run.makespan for run in runs if run.success]
+    text = (
+        f"{len(good)} of {counted(len(runs), 'run')} succeeded ({percent(len(good) / len(runs))})"
+    )
+    if good:
+        least, most = duration(min(good)), duration(max(good))
+        who = "it" if len(good) == 1 else "each" if least == most else "they"
+        text += f"; {who} took {least}" + (f" to {most}" if least != most else "")
+    return text
+
+
+Fly = Callable[[int], "Outcome"]
+"""Flies the missions with a seed."""
+
+
+MOST_SEEDS = 20
+ENOUGH = 20
+"""Of fewer runs, the fifth and the ninety-fifth percentile are next to the least and the most."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RunFigures:
+    """What the summary needs to know of one run."""
+
+    seed: int
+    success: bool
+    makespan: float
+    attempts: int
+    failed: int
+    """Flights that failed."""
+    completed: int = 0
+    """Missions that were completed."""
+    battery: float | None = None
+    """The lowest level that any drone came down with; None: none flew."""
+    violations: tuple[str, ...] = ()
+    """What no run may ever do, and this one did."""
+
+
+def run_of(seed: int, outcome: Outcome, items: Items) -> RunFigures:
+    """Return what the summary needs to know of an outcome."""
+    trips = trips_data(outcome)
+    invariants = Invariants(items)
+    levels: list[float] = []
+    for event in outcome.events:
+        invariants.take(event)
+        level = event.get("battery")
+        if isinstance(level, float):
+            levels.append(level)
+    whole = all(mission.status.value in ENDS for mission in outcome.missions)
+    return RunFigures(
+        seed=seed,
+        success=exit_code(outcome) == 0,
+        makespan=outcome.duration,
+        attempts=trips["attempts"],
+        failed=trips["failed"],
+        completed=sum(mission.status is COMPLETED for mission in outcome.missions),
+        battery=min(levels, default=None),
+        violations=tuple(invariants.over() if whole else invariants.found),
+    )
+
+
+def summary(runs: Sequence[RunFigures]) -> dict[str, object]:
+    """Return the figures of all runs; there is at least one.
+
+    The makespan is that of the runs that succeeded: a mission that failed early is not a fast one.
+    """
+    good = [run for run in runs if run.success]
+    bad = [run.seed for run in runs if not run.success]
+    return {
+        "runs": len(runs),
+        "succeeded": len(good),
+        "success_rate": len(good) / len(runs),
+        "completed_missions": spread([float(run.completed) for run in runs]),
+        "makespan_s": spread([run.makespan for run in good]),
+        "attempts": spread([float(run.attempts) for run in runs]),
+        "failed_trips": spread([float(run.failed) for run in runs]),
+        "battery_level": spread([run.battery for run in runs if run.battery is not None]),
+        "failed_seeds": bad[:MOST_SEEDS],
+        "violations": [
+            {"seed": run.seed, "what": sentence} for run in runs for sentence in run.violations
+        ],
+    }
+
+
+def spread(values: Sequence[float]) -> dict[str, float] | None:
+    """Return how some numbers lie; None where there is none."""
+    if not values:
+        return None
+    ordered = sorted(values)
+    return {
+        "min": ordered[0],
+        "p5": percentile(ordered, 0.05),
+        "median": median(ordered),
+        "mean": mean(ordered),
+        "p90": percentile(ordered, 0.90),
+        "p95": percentile(ordered, 0.95),
+        "max": ordered[-1],
+    }
+
+
+def percentile(ordered: Sequence[float], share: float) -> float:
+    """Return the number below which this share of some numbers lies, between two neighbours."""
+    place = share * (len(ordered) - 1)
+    below, above = ordered[floor(place)], ordered[ceil(place)]
+    return min(below + (above - below) * (place - floor(place)), above)
+
+
+KINDS = (".svg", ".png")
+
+_BINS = 20
+_INK = "#4c72b0"
+
+
+def kind_of(path: Path) -> str:
+    """Return which kind of picture a file's name asks for."""
+    kind = path.suffix.lower()
+    if kind not in KINDS:
+        raise BadInput(f"{path}: a plot is an SVG or a PNG: give it a name that ends so")
+    return kind
+
+
+def drawing() -> Any:
+    """Return matplotlib, or say how to come by it: before anything flies."""
+    try:
+        return import_module("matplotlib")
+    except ImportError:
+        raise BadInput(
+            "a plot needs matplotlib, the extra `plot` of this package: "
+            'pip install "matplotlib>=3.8"'
+        ) from None
+
+
+def plot(path: Path, title: str, runs: Sequence[RunFigures]) -> None:
+    """Write the picture: the same runs give the same bytes."""
+    kind = kind_of(path)
+    matplotlib = drawing()
+    shape = import_module("matplotlib.figure").Figure(figsize=(10, 3.2), layout="constrained")
+    good = [run.makespan for run in runs if run.success]
+    panels = (
+        ("makespan of what succeeded, s", good),
+        ("flights", [float(run.attempts) for run in runs]),
+        ("lowest battery, %", [100 * run.battery for run in runs if run.battery is not None]),
+    )
+    for axes, (what, values) in zip(shape.subplots(1, len(panels)), panels, strict=True):
+        axes.set_xlabel(what)
+        if values:
+            axes.hist(values, bins=min(_BINS, max(1, len(set(values)))), color=_INK)
+            axes.locator_params(axis="y", integer=True)
+        else:
+            axes.set(xticks=[], yticks=[])
+    shape.axes[0].set_ylabel("runs")
+    rate = percent(len(good) / len(runs))
+    shape.suptitle(f"{title}: {len(good)} of {len(runs)} succeeded ({rate})".replace("$", r"\$"))
+    picture = BytesIO()
+    metadata = {"Date": None} if kind == ".svg" else {"Software": None}
+    with matplotlib.rc_context({"svg.hashsalt": "pluto"}):
+        shape.savefig(picture, format=kind[1:], metadata=metadata)
+    try:
+        path.write_bytes(picture.getvalue())
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise BadInput(f"{path}: the plot cannot be written: {why}") from None

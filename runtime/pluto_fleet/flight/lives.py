@@ -1,0 +1,226 @@
+"""A flight and its journal: begun or gone on with, and one life after another until it is over."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import closing
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import in_shell, place
+
+from ..drones.real_fleet import real_fleet
+from ..files.crtp_fleet import fleet_from
+from ..files.fleet import as_flown
+from ..files.missions import missions_of
+from ..files.reading import parsed
+from ..gateway.process import NOTE
+from ..gateway.settings import settings_for
+from ..gateway.starting import connect, speed_in
+from ..journal.header import Header, check
+from ..journal.place import commands_note, gateway_folder
+from ..journal.store import Store
+from .config import End, FlightConfig, FlightResult, Stops
+from .fly import Recovered, live, recovered
+from .live_flight import LiveFlight
+from .offline import pending_stop
+from .standing import all_over, finished
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Drone, Mission
+    from plutoc_runtime.domain.trace import Event
+
+    from ..drones.real_fleet import RealFleet
+    from ..files.fleet import FleetFile
+
+GATEWAY_DEATHS = 5
+"""How many gateways may die in a row with nothing finished in between."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlightSetup:
+    """A journal, and all that is needed to go on with it."""
+
+    app: App
+    journal: Path
+    missions: Sequence[Mission[Any]]
+    fleet: FleetFile
+    speed: float
+    seed: int
+    faults: Faults
+    sim: bool = True
+    """Whether the drones are simulated ones; real ones are moved by this."""
+    crtp: bool = False
+    """Whether simulated Crazyflies stand in for real ones, down to their radio."""
+
+    @property
+    def how_to_go_on(self) -> str:
+        """A sentence for a person who has stopped it."""
+        return how_to_go_on(self.app, self.journal)
+
+
+def how_to_go_on(app: App, journal: Path) -> str:
+    """Return a sentence for a person who has stopped an app, with what can be typed."""
+    return f"to go on: {app.name} resume {in_shell(journal)}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Resumable:
+    """A journal that is opened to go on with it, and what it says."""
+
+    app: App
+    store: Store
+    header: Header
+    fleet: FleetFile
+    known: Recovered
+    planned: Sequence[Mission[Any]]
+    """What is to be flown if nothing has begun yet."""
+
+    @property
+    def is_over(self) -> bool:
+        """Whether every mission has ended, and no drone is on its way home any more."""
+        note = gateway_folder(self.store.path) / NOTE
+        return all_over(self.known.records) and not note.exists()
+
+    def flight(self, speed: float | None) -> FlightSetup:
+        """Return the flight that goes on; without a speed it goes on at the one it had."""
+        folder = gateway_folder(self.store.path)
+        return FlightSetup(
+            app=self.app,
+            journal=self.store.path,
+            missions=self.planned,
+            fleet=self.fleet,
+            speed=speed or speed_in(folder) or 1.0,
+            seed=self.header["seed"],
+            faults=Faults(**self.header["faults"]),
+            sim=self.header["sim"],
+            crtp=self.header.get("crtp_sim") is not None,
+        )
+
+
+def reopen(app: App, journal: Path) -> Resumable:
+    """Open a journal to go on with it; raise `BadInput` where that cannot be."""
+    store = Store.open(journal)
+    try:
+        header: Header = store.header
+        check(journal, header, app)
+        fleet = fleet_in(app, journal, header)
+        if not header["sim"]:
+            app = as_flown(app, fleet)
+        known = recovered(store)
+        planned: Sequence[Mission[Any]] = ()
+        if not known.records.missions:
+            document = parsed(f"{journal} (its missions)", header["missions"])
+            planned = missions_of(document, app, fleet.airspace)
+    except BaseException:  # even an interrupt: the store holds the journal's lock
+        store.close()
+        raise
+    return Resumable(app=app, store=store, header=header, fleet=fleet, known=known, planned=planned)
+
+
+def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
+    """Return the fleet of a journal; raise `BadInput` if the app does not know it any more."""
+    return fleet_from(app, f"{journal} (its fleet)", header["fleet"], header.get("crtp_sim"))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlightObserver:
+    """What is told of a flight while it goes on."""
+
+    tell: Callable[[Event], object]
+    """Told of each event, once it is on record."""
+    say: Callable[[str], object]
+    """Told what is no event of the flight: a gateway has died."""
+    born: Callable[[LiveFlight], object] | None = None
+    """Told of each life when it begins."""
+    patient: bool = False
+    """Whether the flight waits for as long as a mission asks for a person's decision."""
+
+
+async def run_flight(
+    flight: FlightSetup,
+    store: Store,
+    stops: Stops,
+    known: Recovered | None,
+    observer: FlightObserver,
+) -> FlightResult:
+    """Live once more each time that the gateway dies; `known` is what the journal says."""
+    folder = gateway_folder(flight.journal)
+    settings = settings_for(
+        flight.app,
+        flight.fleet,
+        seed=flight.seed,
+        faults=flight.faults,
+        real=None if flight.sim else await _real(flight, folder, known),
+        speed=flight.speed,
+    )
+    setting = FlightConfig(
+        app=flight.app,
+        missions=flight.missions,
+        fleet=flight.fleet,
+        connect=lambda kernel, epoch, lost: connect(folder, settings, kernel, epoch, lost),
+        note=commands_note(flight.journal),
+        tell=observer.tell,
+        speed=flight.speed,
+        sim=flight.sim,
+        patient=observer.patient,
+    )
+    deaths, done = 0, -1
+    while True:
+        stops.asked = stops.asked or pending_stop(flight.journal)
+        with closing(store):
+            lived = await live(setting, store, stops, known, observer.born)
+        known = None
+        if lived.end is not End.LOST:
+            if unheard := aloft(flight, lived.drones):
+                observer.say(may_hover(unheard))
+            return lived
+        before, done = done, finished(lived.records)
+        deaths = 1 if done > before else deaths + 1
+        if deaths > GATEWAY_DEATHS:
+            raise BadInput(
+                f"{flight.journal}: the gateway ended {deaths} times in a row with nothing finished"
+                f" in between; what it said is in {folder / 'log'}; {flight.how_to_go_on}"
+            )
+        observer.say(
+            "the gateway has ended, or cut this app off: it is reached anew, and all drones are asked"
+        )
+        store = Store.open(flight.journal)
+
+
+def aloft(flight: FlightSetup, drones: Iterable[Drone]) -> list[Drone]:
+    """Return the real drones that were last heard of in the air, though all were to be down."""
+    return [] if flight.sim else [drone for drone in drones if not drone.telemetry.landed]
+
+
+def may_hover(drones: Iterable[Drone]) -> str:
+    """Return what to tell people of those."""
+    places = ", ".join(f"{drone.id} (last heard of at {place(drone.location)})" for drone in drones)
+    return (
+        f"no word of a landing from {places}: do not stand where a drone may still hover;"
+        " the gateway lands each that answers within two minutes"
+    )
+
+
+async def _real(flight: FlightSetup, folder: Path, known: Recovered | None) -> RealFleet:
+    """Return how the drones are flown; simulated Crazyflies are there when this returns."""
+    records = () if known is None else known.records.missions.values()
+    real = real_fleet(flight.fleet, flight.missions, records=records)
+    if not flight.crtp:
+        return real
+    from ..crtp.equipment import fitted
+    from ..crtp.process import start, told  # few want them
+
+    homes = {drone.id: drone.home for drone in flight.fleet.drones}
+    uris = await asyncio.to_thread(start, folder, homes)
+    camera = await asyncio.to_thread(told, folder, "camera")
+    drones = (
+        replace(drone, uri=uris[drone.id], options=fitted(drone.options, camera))
+        for drone in real.drones
+    )
+    return replace(real, drones=tuple(drones))

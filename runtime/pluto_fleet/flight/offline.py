@@ -1,0 +1,89 @@
+"""What is left for an app that does not run, or does not hear: events in its journal, a Stop beside it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import closing, suppress
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.domain.text import printable
+
+from ..jobs.reports import Down
+from ..journal.header import check
+from ..journal.place import gateway_folder
+from ..journal.store import Store
+from .fly import recovered
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Point
+
+    from ..journal.fold import Records
+
+Event = Mapping[str, object]
+
+
+def record_return(app: App, journal: Path, drone: str, also: Sequence[Event] = ()) -> str:
+    """Write into an idle journal that a person has looked after a drone; return what to say.
+
+    `also` are events that go with it. Raise `BadInput` if that cannot be.
+    """
+    with closing(Store.open(journal)) as store:
+        check(journal, store.header, app)
+        event, said = returned(recovered(store).records, drone)
+        if event is not None:
+            store.append([json.dumps([event, *also])])
+    return said
+
+
+def returned(records: Records, drone: str) -> tuple[Event | None, str]:
+    """Return the event of a drone that is brought back, if it was away, and what to say."""
+    lost = drone in records.lost
+    if not lost and drone not in records.retired:
+        return None, f"{printable(drone)} is neither retired nor lost"
+    event = {"t": records.time, "event": "drone.brought_back", "drone": drone, "lost": lost}
+    when = "it is asked how it is as soon as missions fly"
+    return event, f"{drone} is brought back: {when}"
+
+
+def record_loss(app: App, journal: Path, drone: str, reason: str, at: Point | None) -> None:
+    """Write into an idle journal that a drone was lost while no app was there to be told."""
+    with closing(Store.open(journal)) as store:
+        check(journal, store.header, app)
+        event = {"t": recovered(store).records.time, "event": "drone.lost", "drone": drone}
+        store.append([json.dumps([{**event, "at": at, "reason": reason}])])
+
+
+def record_decision(journal: Path, mission: str, answer: str, now: float) -> None:
+    """Write a person's answer into an idle journal."""
+    event = {"t": now, "event": "mission.decided", "mission": mission, "answer": answer}
+    with closing(Store.open(journal)) as store:
+        store.append([json.dumps([event])])
+
+
+def leave_stop(journal: Path, how: Down) -> None:
+    """Say that everything was stopped, for an app that looks again; `journal` is its real path."""
+    file = _stop_file(journal)
+    with suppress(OSError):
+        file.parent.mkdir(mode=0o700, exist_ok=True)
+        file.write_text(how.value, encoding="utf-8")
+
+
+def pending_stop(journal: Path) -> Down | None:
+    """Return how everything was stopped past the app; None: it was not."""
+    with suppress(OSError, ValueError):
+        return Down(_stop_file(journal).read_text(encoding="utf-8"))
+    return None
+
+
+def clear_stop(journal: Path) -> None:
+    """Forget such a Stop: a person wants the flight to go on."""
+    with suppress(OSError):
+        _stop_file(journal).unlink(missing_ok=True)
+
+
+def _stop_file(journal: Path) -> Path:
+    return gateway_folder(journal) / "stopped"

@@ -1,0 +1,105 @@
+"""How the missions of a flight stand, as its journal has it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.domain.status import Status
+
+from ..journal.errors import Damaged
+from ..journal.fold import Record, Records
+from ..journal.header import check
+from ..journal.reader import Reader
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
+
+ANSWERS = {"question": ("done", "not-done", "cancel"), "held": ("go-on", "cancel")}
+"""What can be said to a mission that waits for this."""
+
+_ASIDE = {"question": Status.UNCERTAIN, "held": Status.HELD, "paused": Status.PAUSED}
+
+
+def records_in(app: App, journal: Path) -> Records:
+    """Return what a journal says, while an app may be writing it.
+
+    One of another app is refused, and so is a damaged one: what is missing cannot be known.
+    """
+    records = Records()
+    with closing(Reader(journal)) as reader:
+        for row in reader.more():
+            for event in json.loads(row.text):
+                if row.seq == 0:
+                    check(journal, event, app)
+                records.take(event)
+        if reader.damaged is not None:
+            raise Damaged(reader.damaged)
+    return records
+
+
+def in_order(records: Records) -> list[tuple[str, Record]]:
+    """Return the missions with their names, in the order of the plan."""
+    return sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
+
+
+def finished(records: Records) -> int:
+    """Return how many trips and missions have come to an end."""
+    ended = sum(record["ended"] for record in records.missions.values())
+    failed = sum(
+        trip.get("status") == "FAILED"
+        for record in records.missions.values()
+        for trip in record["todo"]
+    )
+    return int(ended + failed + len(records.results))
+
+
+def all_over(records: Records) -> bool:
+    """Whether every mission has ended."""
+    missions = records.missions.values()
+    return bool(missions) and all(record["ended"] for record in missions)
+
+
+def has_ended(records: Records) -> bool:
+    """Whether nothing flies any more: each mission has ended, or waits for a person's answer."""
+    missions = records.missions.values()
+    asides = [record["ended"] or aside(record) is not None for record in missions]
+    return bool(asides) and all(asides)
+
+
+def waiting(records: Records, *, answered: bool = False) -> Iterator[tuple[str, str, str]]:
+    """Yield the missions that wait for a person: name, for what, and the question.
+
+    `answered`: those, too, that a person has decided already, with nothing come of it yet.
+    """
+    for name, record in in_order(records):
+        for what in ANSWERS:
+            asks = record[what] is not None and not record["ended"]
+            if asks and (answered or record["answer"] is None):
+                yield name, what, record[what]
+                break
+
+
+def aside(record: Record) -> tuple[Status, str] | None:
+    """Return how a mission stands that waits for a person, and what for; None: it does not."""
+    for what, status in _ASIDE.items():
+        if record[what] is not None and not record["ended"]:
+            return status, record[what] if what in ANSWERS else ""
+    return None
+
+
+def count_flights(journal: Path) -> tuple[int, int, float]:
+    """Count the flights and those that failed; say when the last mission ended, too."""
+    launched = failed = 0
+    last = "[]"
+    with closing(Reader(journal)) as reader:
+        for row in reader.rows():  # a quotation mark within a text is written otherwise
+            launched += row.text.count('"event": "trip.launched"')
+            failed += row.text.count('"event": "trip.failed"')
+            if '"event": "mission.ended"' in row.text:
+                last = row.text
+    ends = [event["t"] for event in json.loads(last) if event["event"] == "mission.ended"]
+    return launched, failed, max(ends, default=0.0)

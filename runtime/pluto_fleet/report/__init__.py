@@ -1,0 +1,1 @@
+"""What is said of a flight: what happened, what came of it, and how far it is."""

@@ -1,0 +1,212 @@
+"""What came of a flight: two tables and a last line, and the exit code."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from plutoc_runtime.alone.simulate import trips_data
+from plutoc_runtime.domain.fields import FieldType
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.domain.text import (
+    counted,
+    duration,
+    in_shell,
+    number,
+    percent,
+    printable,
+)
+
+from ..flight.standing import ANSWERS, aside, count_flights, in_order, waiting
+
+if TYPE_CHECKING:
+    from plutoc_runtime.alone.simulate import Outcome
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Drone, Mission
+
+    from ..journal.fold import Record, Records
+
+
+class MissionRow(NamedTuple):
+    """What the report says of a mission."""
+
+    name: str
+    status: Status
+    done: int
+    """Trips of this round."""
+    todo: int
+    round: int
+    """From 0."""
+    attempts: int
+    reason: str
+
+
+def report(app: App, outcome: Outcome, apart: float) -> Iterator[str]:
+    """Yield the lines of the report; the last one says in which world it was flown."""
+    yield from mission_table(app, map(row_of, outcome.missions))
+    yield ""
+    yield from drone_table(outcome.drones, outcome.flown)
+    yield ""
+    if outcome.given_up:
+        yield f"given up: {printable(outcome.given_up)}"
+    yield last_line(outcome)
+    yield (
+        f"flown with traffic: drones keep {number(apart)} m apart from each other"
+        if apart
+        else "flown without traffic: with apart = 0 drones pass through each other"
+    )
+
+
+def row_of(mission: Mission[Any]) -> MissionRow:
+    """Return what the report says of a mission that is at hand."""
+    done, todo = len(mission.completed_trips), len(mission.trips)
+    return MissionRow(
+        mission.name, mission.status, done, todo, mission.round, mission.attempts, mission.reason
+    )
+
+
+def mission_table(app: App, missions: Iterable[MissionRow]) -> Iterator[str]:
+    """Yield the lines of the first table."""
+    rounds = any(field.type is FieldType.ROUNDS for field in app.fields)
+    yield from table(
+        ("mission", "status", "trips", *(["rounds"] if rounds else []), "attempts", "reason"),
+        [
+            (
+                mission.name,
+                mission.status.value,
+                f"{mission.done}/{mission.done + mission.todo}",
+                *([str(mission.round + 1)] if rounds else []),
+                str(mission.attempts),
+                mission.reason,
+            )
+            for mission in missions
+        ],
+        right=(2, 3, 4) if rounds else (2, 3),
+    )
+
+
+def drone_table(drones: Sequence[Drone], flown: Mapping[str, float]) -> Iterator[str]:
+    """Yield the lines of the second table; not everywhere is it known how far each has flown."""
+    yield from table(
+        ("drone", "category", "trips", *(["flown"] if flown else []), "battery", "status"),
+        [
+            (
+                drone.id,
+                drone.category.name,
+                str(drone.trips),
+                *([f"{number(round(flown[drone.id], 1))} m"] if flown else []),
+                percent(drone.battery_level),
+                drone.status.value,
+            )
+            for drone in drones
+        ],
+        right=(2, 3, 4) if flown else (2, 3),
+    )
+
+
+def last_line(outcome: Outcome) -> str:
+    """Return the whole outcome in one line."""
+    trips = trips_data(outcome)
+    statuses = [mission.status for mission in outcome.missions]
+    return in_one_line(
+        statuses, outcome.duration, trips["attempts"], trips["failed"], outcome.crashed
+    )
+
+
+def in_one_line(
+    statuses: Sequence[Status], seconds: float, flights: int, failed: int, crashed: int = 0
+) -> str:
+    """Return how missions have ended, after how long and how many flights."""
+    parts = [f"{statuses.count(Status.COMPLETED)} of {counted(len(statuses), 'mission')} completed"]
+    rest = len(statuses) - statuses.count(Status.COMPLETED)
+    for what, of_these in _OTHER_ENDS.items():
+        count = sum(status in of_these for status in statuses)
+        rest -= count
+        if count:
+            parts.append(f"{count} {what if count > 1 else what.replace('wait ', 'waits ')}")
+    if rest:
+        parts.append(f"{rest} not finished")
+    bad = f", {failed} failed" if failed else ""
+    bad += f", {counted(crashed, 'drone')} crashed" if crashed else ""
+    return f"{', '.join(parts)} in {duration(seconds)} ({counted(flights, 'flight')}{bad})"
+
+
+_OTHER_ENDS = {
+    "failed": (Status.FAILED,),
+    "cancelled": (Status.CANCELLED,),
+    "wait for a person": (Status.UNCERTAIN, Status.HELD),
+}
+
+
+def table(
+    header: Sequence[str], rows: Sequence[Sequence[str]], *, right: Sequence[int]
+) -> Iterator[str]:
+    """Yield the lines of a table; the columns named by `right` hold numbers."""
+    cells = [[printable(cell) for cell in row] for row in (header, *rows)]
+    widths = [max(len(row[column]) for row in cells) for column in range(len(header))]
+    for row in cells:
+        aligned = [
+            cell.rjust(width) if column in right else cell.ljust(width)
+            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ]
+        yield "  ".join(aligned).rstrip()
+
+
+_NEEDS_A_PERSON = (Status.UNCERTAIN, Status.HELD)
+_BAD = (Status.FAILED, Status.CANCELLED)
+
+
+def exit_code(outcome: Outcome) -> int:
+    """Return 0, 1 if a mission failed or the simulation was given up, or 4 if one waits for a person.
+
+    A mission that `--until` cut short has not failed.
+    """
+    code = code_of([mission.status for mission in outcome.missions])
+    return 1 if outcome.given_up and not code else code
+
+
+def code_of(statuses: Sequence[Status]) -> int:
+    """Return the exit code for missions that stand so."""
+    if any(status in _NEEDS_A_PERSON for status in statuses):
+        return 4
+    return 1 if any(status in _BAD for status in statuses) else 0
+
+
+_HARMLESS = re.compile(r"[\w ,.:;/()+-]+")
+"""Names of which a shell leaves everything as it is, in quotation marks."""
+
+
+def report_of(
+    app: App, journal: Path, records: Records, drones: Sequence[Drone] = ()
+) -> tuple[int, list[str]]:
+    """Return the exit code of a flight that has a journal, and the lines of its report."""
+    rows = [_recorded_row(name, record) for name, record in in_order(records)]
+    statuses = [row.status for row in rows]
+    flights, failed, ended = count_flights(journal)
+    lines = [*mission_table(app, rows), ""]
+    if drones:
+        lines += [*drone_table(drones, {}), ""]
+    lines.append(in_one_line(statuses, ended or records.time, flights, failed))
+    return code_of(statuses), lines
+
+
+def waiting_lines(app: App, journal: Path, records: Records) -> Iterator[str]:
+    """Yield what is asked of a person, and the commands that answer it."""
+    for name, what, question in waiting(records):
+        yield f"{printable(name)}: {printable(question)}"
+        for answer in ANSWERS[what]:
+            yield f"  {app.name} decide {in_shell(journal)} {_typed(name)} {answer}"
+
+
+def _typed(name: str) -> str:
+    """Write a mission's name, which may come from a stranger, as it can be typed safely."""
+    word = f'"{name}"' if _HARMLESS.fullmatch(name) else in_shell(name)
+    return f"-- {word}" if name.startswith("-") else word
+
+
+def _recorded_row(name: str, record: Record) -> MissionRow:
+    status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
+    done, todo = len(record["done"]), len(record["todo"])
+    return MissionRow(name, status, done, todo, record["round"], record["attempts"], reason)

@@ -1,0 +1,308 @@
+"""What is known while nothing flies: the unfinished flight, where each drone was last heard of, who is lost."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import closing, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime import output
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import quoted
+
+from ..flight.fly import recovered
+from ..flight.lives import Resumable, fleet_in, how_to_go_on, reopen
+from ..flight.offline import record_loss, record_return, returned
+from ..gateway.sightings import SEEN, Sighting, at_home, sightings_in
+from ..journal import lock, place
+from ..journal.fold import Records
+from ..journal.header import Header, check
+from ..journal.place import gateway_folder
+from ..journal.reader import Reader
+from ..journal.store import Store
+from ..simulation.world_store import DRONES
+from . import rows
+
+if TYPE_CHECKING:
+
+    from plutoc_runtime.domain.app import App
+
+    from ..files.drones import DroneEntry
+    from ..files.fleet import FleetFile
+    from .config import StationConfig
+
+FRESH = 4.0
+"""Seconds for which what was heard of a drone is how it is."""
+
+HOVERED = "it was in the air when it was last heard of: go and look"
+COMES_DOWN = "it is in the air, and the gateway brings it down"
+NEVER = "it has not been heard of yet"
+BACK = "it was brought back: it is asked how it is as soon as missions fly"
+
+
+class IdleDrones:
+    """The drones of a fleet, as the last gateway that flew them has left them."""
+
+    def __init__(self, fleet: Sequence[DroneEntry], journal: Path | None) -> None:
+        self._fleet, self._journal = fleet, journal
+        self._folder = None if journal is None else gateway_folder(journal)
+        self._read_at: object = None
+        self._sightings: dict[str, Sighting] = {}
+
+    def rows(self, known: Records | None) -> Iterator[rows.Row]:
+        """Yield what there is to see of each; `known` is what the journal says of them."""
+        sightings, now = self._newest(), time.time()
+        for entry in self._fleet:
+            yield _row(entry.id, sightings.get(entry.id), known, now)
+
+    def write_down(self, app: App, known: Records | None) -> bool:
+        """Put on record who has crashed with no app there to be told; say whether anybody has.
+
+        Each news of the drones is looked at once.
+        """
+        before, sightings = self._read_at, self._newest()
+        if known is None or self._journal is None or self._read_at == before:
+            return False
+        told = {*known.lost, *known.mended}
+        new = [one for one in sightings if sightings[one].has_fallen and one not in told]
+        for drone in new:
+            with suppress(BadInput, OSError):  # an app that flies them now hears it from them
+                seen = sightings[drone]
+                record_loss(app, self._journal, drone, seen.why, seen.at)
+        return bool(new)
+
+    def _newest(self) -> dict[str, Sighting]:
+        """Read the gateway's file, if it is another than before."""
+        if self._folder is not None:
+            with suppress(OSError):
+                found = (self._folder / SEEN).stat()
+                at = found.st_mtime_ns, found.st_ino
+                if at != self._read_at:
+                    self._read_at, self._sightings = at, sightings_in(self._folder)
+        return self._sightings
+
+
+def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> rows.Row:
+    lost = known.lost.get(id) if known is not None else None
+    trips = known.flown.get(id, 0) if known is not None else 0
+    retired = known is not None and id in known.retired
+    if known is not None and id in known.mended:  # a person has taken it in their hands since
+        return rows.drone_at(id, "UNKNOWN", None, trips, retired, BACK)
+    fresh = seen is not None and now - seen.when < FRESH
+    if lost is not None:
+        status, why = "LOST", str(lost["reason"])
+        if seen is None and lost["at"] is not None:
+            seen = Sighting(at=tuple(lost["at"]), battery=0.0, landed=True, when=0.0)
+    elif seen is None:
+        status, why = "UNKNOWN", NEVER
+    elif seen.why:
+        status, why = "LOST" if seen.has_fallen else "UNKNOWN", seen.why
+    elif seen.landed:
+        status, why = "LANDED", ""
+    else:
+        status, why = ("ALOFT", COMES_DOWN) if fresh else ("UNKNOWN", HOVERED)
+    return rows.drone_at(id, status, seen, trips, retired, why)
+
+
+AWAY = "put_away"
+"""The file that names the last journal that was put away."""
+
+
+def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable | None:
+    """Return the newest journal of the station's folder, opened, to be shown and gone on with.
+
+    A flight over another map would be drawn over this one, and misread: it is left alone, unless
+    this station was started to go on with it.
+    """
+    journal = place.newest_in(config.folder)
+    if journal is None or journal.name == _put_away(config):
+        return None
+    try:
+        taken = reopen(app, journal)
+    except BadInput as why:  # another process flies it, it is damaged, or it is another app's
+        output.tell(f"the last flight cannot be shown: {why}")
+        return None
+    same = taken.header["sim"], taken.header.get("crtp_sim") is not None
+    if same != (config.sim, config.crtp_sim is not None):
+        taken.store.close()
+        return None
+    if not going_on and drawn(taken.fleet) != drawn(config.fleet):
+        taken.store.close()
+        if taken.is_over:
+            return None
+        output.tell(
+            "the last flight is not shown: it has another map, or other drones, than this station;"
+            f" serve with the fleet file with which it began. Without it, {how_to_go_on(app, journal)}"
+        )
+        return None
+    return taken
+
+
+def drawn(fleet: FleetFile) -> object:
+    """Return what people see of a fleet file."""
+    return fleet.airspace, [(one.id, one.category, one.home) for one in fleet.drones]
+
+
+def put_away(config: StationConfig, journal: Path) -> None:
+    """Remember that a journal is not to be gone on with; it stays where it is."""
+    (config.own_folder / AWAY).write_text(journal.name, encoding="utf-8")
+
+
+def _put_away(config: StationConfig) -> str:
+    with suppress(OSError, ValueError):
+        return (config.own_folder / AWAY).read_text(encoding="utf-8")
+    return ""
+
+
+FILE = "drones.json"
+
+
+class FleetHistory:
+    """What is known of the drones before a flight begins."""
+
+    def __init__(self, app: App, config: StationConfig) -> None:
+        self._app, self._config = app, config
+        self._kind = [config.sim, config.crtp_sim is not None]
+        self._file = config.own_folder / FILE
+        self._fleet = [entry.id for entry in config.fleet.drones]
+        self.records = Records()
+        self._journal: Path | None = None
+        """The newest one, if its drones are these."""
+        self._idle = IdleDrones(config.fleet.drones, None)
+
+    def read(self) -> None:
+        """Read it anew: another process may have brought a drone back, or flown meanwhile."""
+        self.records, self._journal = self._kept(), None
+        journal = place.newest_in(self._config.folder)
+        if journal is not None:
+            with suppress(BadInput):  # what shows the last flight says what is wrong with it
+                self._take(journal)
+        self._idle = IdleDrones(self._config.fleet.drones, self._journal)
+
+    def _take(self, journal: Path) -> None:
+        with closing(Store.open(journal)) as store:
+            header: Header = store.header
+            check(journal, header, self._app)
+            if [header["sim"], header.get("crtp_sim") is not None] != self._kind:
+                return
+            same = drawn(fleet_in(self._app, journal, header)) == drawn(self._config.fleet)
+            records = recovered(store).records
+        if "lost" not in header:  # it was not begun by a station
+            for drone, why in self.records.lost.items():
+                records.lost.setdefault(drone, why)
+        self.records = records
+        if same:
+            self._journal = journal
+        else:  # what was a place on that map is none on this one
+            for why in records.lost.values():
+                why["at"] = None
+
+    def _kept(self) -> Records:
+        records = Records()
+        with suppress(OSError, ValueError, TypeError, AttributeError):
+            kept = json.loads(self._file.read_text(encoding="utf-8"))
+            if kept["kind"] == self._kind:
+                records.take({"t": 0.0, "event": "journal.begun", **kept["drones"]})
+        return records
+
+    def leave(self, journal: Path, records: Records) -> None:
+        """Keep what a flight has left behind."""
+        self.records, self._journal = records, journal
+        self._idle = IdleDrones(self._config.fleet.drones, journal)
+        self._keep()
+
+    def _keep(self) -> None:
+        text = json.dumps({"kind": self._kind, "drones": self.facts})
+        with suppress(OSError):  # the journal says it, too
+            part = self._file.with_name(f"{self._file.name}.part")
+            part.write_text(text, encoding="utf-8")
+            part.replace(self._file)
+
+    @property
+    def facts(self) -> dict[str, object]:
+        """What the next journal begins with."""
+        known = self.records
+        return {"lost": known.lost, "mended": known.mended, "retired": known.retired}
+
+    @property
+    def lost(self) -> Sequence[str]:
+        """The drones of the fleet that may not fly."""
+        return [drone for drone in self._fleet if drone in self.records.lost]
+
+    def bring_back(self, id: str, drone: str) -> str:
+        """A person has looked after a drone, while nothing flies."""
+        if drone not in self._fleet:
+            names = ", ".join(map(quoted, self._fleet))
+            raise BadInput(f"no drone {quoted(drone)} is in the fleet; there are: {names}")
+        commanded = {
+            "t": self.records.time,
+            "event": "commanded",
+            "id": id,
+            "command": "bring-back",
+        }
+        if self._journal is not None and self._journal.exists():
+            said = record_return(self._app, self._journal, drone, [commanded])
+            self.read()
+        else:
+            event, said = returned(self.records, drone)
+            for one in [event, commanded] if event is not None else []:
+                self.records.take(one)
+        self._keep()
+        return said
+
+    def flown_elsewhere(self) -> int | None:
+        """Return the process that commands the drones of the newest journal, if any does."""
+        journal = place.newest_in(self._config.folder)
+        process = None if journal is None else lock.holder(journal)
+        if journal is None or process is None:
+            return None
+        with closing(Reader(journal)) as reader:  # its writer has it open
+            header: dict[str, object] = next((json.loads(row.text)[0] for row in reader.rows()), {})
+        same = [header.get("sim"), header.get("crtp_sim") is not None] == self._kind
+        return process if same else None
+
+    def check_free(self) -> None:
+        """Raise `BadInput` where another process commands the drones of the newest journal."""
+        if (process := self.flown_elsewhere()) is not None:
+            raise BadInput(
+                f"the last flight was gone on with elsewhere (process {process}): end it"
+                " there first"
+            )
+
+    def hand_on_the_world(self, journal: Path) -> None:
+        """Let simulated drones be in the next flight where the last one has left them.
+
+        Those that no flight has left anywhere stand at home, and that is known.
+        """
+        new = place.gateway_folder(journal)
+        new.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if self._journal is not None:
+            old = place.gateway_folder(self._journal)
+            for name in (*self._world(old), SEEN):
+                with suppress(FileNotFoundError):
+                    shutil.copyfile(old / name, new / name)
+        if self._config.sim:
+            at_home(new, {entry.id: entry.home for entry in self._config.fleet.drones})
+
+    def _world(self, folder: Path) -> Sequence[str]:
+        """Return the files of the simulated world of a gateway, which has ended."""
+        if self._config.crtp_sim is not None:
+            from ..crtp.process import DRONES as CRAZYFLIES  # few want them
+            from ..crtp.process import end
+
+            end(folder)
+            return [CRAZYFLIES]
+        return [DRONES] if self._config.sim else []
+
+    def rows(self) -> Iterator[rows.Row]:
+        """Yield what there is to see of the drones while there is no flight at all."""
+        if self._idle.write_down(self._app, self.records):
+            self.read()
+            self._keep()
+        known = self.records
+        if self._journal is not None or known.lost or known.mended or known.retired:
+            yield from self._idle.rows(known)

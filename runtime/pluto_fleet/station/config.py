@@ -1,0 +1,129 @@
+"""What does not change while a station serves: its configuration, and what pages know of app and fleet."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.domain.actions import PICK, RELEASE
+from plutoc_runtime.domain.fields import Entity, FieldType
+from plutoc_runtime.domain.quantities import QUANTITIES, units_of
+
+from .graph.picture import app_graph, laid_out
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.actions import Action, Parameter
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.fields import Field
+    from plutoc_runtime.domain.model import Category
+
+    from ..files.fleet import FleetFile
+    from .graph.picture import Graph
+
+    # was an import of itself
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StationConfig:
+    """What does not change while a station is there."""
+
+    folder: Path
+    """Where journals are; what only the station needs is in its folder `station`."""
+    fleet: FleetFile
+    fleet_text: str | None = None
+    image: Path | None = None
+    """The floor plan."""
+    sim: bool = True
+    crtp_sim: int | None = None
+    """How many simulated Crazyflies are flown as real ones; None: none."""
+    seed: int = 0
+    faults: Mapping[str, float]
+    speed: float | None = None
+    """How many times as fast time passes; None: as it does, or as it did."""
+
+    @property
+    def own_folder(self) -> Path:
+        """Where only the station keeps anything."""
+        return self.folder / "station"
+
+
+Shape = dict[str, object]
+
+
+def described(app: App, config: StationConfig) -> Shape:
+    """Return it as plain data; of fields and actions only those that this app has."""
+    graph, space = app_graph(app), config.fleet.airspace
+    return {
+        "name": app.name,
+        "title": app.title or app.name,
+        "sim": config.sim or config.crtp_sim is not None,
+        "speed": config.speed or 1.0,
+        "fields": {
+            entity.value: [_field(field) for field in app.fields if field.on is entity]
+            for entity in Entity
+        },
+        "evaluators": list(app.evaluators),
+        "actions": [_action(action) for action in app.actions.values() if _can(app, action)],
+        "categories": [_category(category) for category in app.categories],
+        "drones": [
+            {"id": entry.id, "category": entry.category, "home": list(entry.home)}
+            for entry in config.fleet.drones
+        ],
+        "map": {
+            "size": list(space.size),
+            "cruise_height": space.cruise_height,
+            "ceiling": space.ceiling,
+            "no_fly": [[list(corner) for corner in area] for area in space.no_fly],
+            "image": "/map" if config.image is not None else None,
+        },
+        "retries": _retries(graph),
+        "rounds": any(field.type is FieldType.ROUNDS for field in app.fields),
+        "graph": laid_out(graph) if graph is not None else None,
+    }
+
+
+def _field(field: Field) -> Shape:
+    kind = field.type.value
+    return {"name": field.name, "type": kind, "label": field.label, "default": field.default}
+
+
+def _can(app: App, action: Action) -> bool:
+    return any(category.can(action.name) for category in app.categories)
+
+
+def _action(action: Action) -> Shape:
+    return {
+        "name": action.name,
+        "item": action.name in (PICK, RELEASE),
+        "parameters": [_parameter(parameter) for parameter in action.parameters],
+    }
+
+
+def _parameter(parameter: Parameter) -> Shape:
+    kind = parameter.type
+    return {
+        "name": parameter.name,
+        "type": kind.value,
+        "units": list(units_of(kind)) if kind in QUANTITIES else [],
+        "default": parameter.default,
+    }
+
+
+def _category(category: Category) -> Shape:
+    return {
+        "name": category.name,
+        "payload": category.payload,
+        "speed": category.speed,
+        "flight_time": category.flight_time,
+        "actions": None if category.actions is None else sorted(category.actions),
+    }
+
+
+def _retries(graph: Graph | None) -> bool:
+    """Whether a failed trip is ever tried again: some way that FAILED takes does not end there."""
+    if graph is None:
+        return True
+    onward = {box.name for box in graph.boxes if box.shape == "block"}
+    return any("FAILED" in way.statuses and way.target in onward for way in graph.arrows)

@@ -1,0 +1,118 @@
+"""Why a mission waits for a drone, and which free drone is ready: what allocation knows, in words.
+
+Nothing is worked out here that the queue has not worked out already: routes take long, and what
+flies waits meanwhile.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from math import ceil, floor
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.domain.status import DroneStatus
+from plutoc_runtime.domain.text import percent
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Drone, Trip
+    from plutoc_runtime.fleet.queue import Request
+
+    from ..flight.live_fleet import LiveFleet
+
+EACH = 3.0
+"""Seconds after which it is looked at anew."""
+AT_ONCE = 10
+"""Missions of which it is found out in one look: there may be hundreds."""
+
+_DOES = {
+    DroneStatus.BUSY: "flying",
+    DroneStatus.RETURNING: "coming home",
+    DroneStatus.CHARGING: "charging",
+    DroneStatus.RECOVERING: "recovering",
+    DroneStatus.OFFLINE: "not asked yet",
+}
+
+
+class WaitReasons:
+    """What is said of those who wait; asked for at each look, and found out now and then."""
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock = clock
+        self._looked = -EACH
+        self._requests: dict[int, Request] = {}
+        self._low: set[Drone] = set()
+        self._known: dict[int, tuple[float, str]] = {}
+        self._left = AT_ONCE
+
+    def look(self, fleet: LiveFleet) -> None:
+        """Begin a look at all missions and drones."""
+        now, self._left = self._clock(), AT_ONCE
+        if now - self._looked >= EACH:
+            self._looked = now
+            self._requests = {id(request.trip): request for request in fleet.queue.waiters()}
+            self._low = set(fleet.queue.too_low())
+            self._known = {
+                trip: said for trip, said in self._known.items() if trip in self._requests
+            }
+
+    def why(self, fleet: LiveFleet, trip: Trip) -> str:
+        """Say why no drone flies a trip yet; empty: that is found out at one of the next looks."""
+        now = self._clock()
+        since, said = self._known.get(id(trip), (-EACH, ""))
+        request = self._requests.get(id(trip))
+        if request is not None and self._left and now - since >= EACH:
+            self._left -= 1
+            said = why_no_drone(fleet, request)
+            self._known[id(trip)] = now, said
+        return said
+
+    def why_low(self, fleet: LiveFleet, drone: Drone) -> str:
+        """Return why a free drone is not ready for all that; empty: it is."""
+        if drone.status is not DroneStatus.FREE:
+            return ""
+        if drone in self._low:
+            return "its battery is too low for every trip that waits"
+        return "its battery has little more than its reserve" if fleet.is_low(drone) else ""
+
+
+def why_no_drone(fleet: LiveFleet, request: Request) -> str:
+    """Say what keeps each drone of the fleet from flying what a mission waits for."""
+    queue, able = fleet.queue, 0
+    low: list[tuple[float, float, float]] = []
+    does: Counter[str] = Counter()
+    cannot: Counter[str] = Counter()
+    for drone in fleet.drones:
+        if drone.status is DroneStatus.LOST:
+            does["lost"] += 1
+        elif drone in fleet.retired:
+            does["retired"] += 1
+        elif (reason := _never(request, drone, drone in queue.low)) is not None:
+            cannot[reason] += 1
+        elif drone in queue.low:
+            level = request.level(drone)
+            low.append((level - drone.battery_level, drone.battery_level, level))
+        elif drone.status is DroneStatus.FREE:
+            able += 1
+        else:
+            does[_DOES[drone.status]] += 1
+    parts = [f"{number} {what}" for what, number in does.items()]
+    if low:
+        _, has, takes = min(low)
+        enough = f"it takes {percent(ceil(takes * 100) / 100)}"
+        nearest = f"the nearest has {percent(floor(has * 100) / 100)}"
+        needs = f": {enough}, {nearest}" if takes <= 1 else ""
+        parts.insert(0, f"{len(low)} free, but too low{needs}")
+    if able:
+        parts.insert(0, f"{able} free" + ("" if queue.room else ", but no more may fly at once"))
+    parts += [f"{number} cannot: {reason}" for reason, number in cannot.items()]
+    return "; ".join(parts)
+
+
+def _never(request: Request, drone: Drone, is_known: bool) -> str | None:
+    """Return why a drone can never fly it, as far as that is known or plain to see."""
+    category, trip = drone.category, request.trip
+    if is_known or not category.can(trip.action):
+        return request.never(drone)
+    heavy = trip.item is not None and trip.item.mass > category.payload
+    return request.never(drone) if heavy else None

@@ -1,0 +1,470 @@
+"""One life of an app in a trial: what it writes down, what strikes it, and how it ends."""
+
+from __future__ import annotations
+
+import gc
+import json
+from collections import deque
+from functools import partial
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
+
+from ..flight.recorded_flight import RecordedFlight
+from ..jobs.reports import Down
+from ..process.signal_guard import by_a_person
+from .case import BY_HAND, DEATHS, STOPS, Strike, StrikeKind, fresh
+from .invariants import ENDS
+from .record import MissionMemory, TrialResult, forgotten, memory_of
+from .unreliable import UnreliableLink, UnreliableTime
+from .world import TrialWorld
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.trace import Event
+
+    from ..journal.fold import Records
+    from .case import Case
+
+PATIENCE = 3.0
+"""Seconds without a brain after which the gateway lands everything."""
+PULSES = 20
+"""Seconds for which a brain goes on after another has taken over."""
+MOST_LIVES = 40
+LONGEST = 7 * 86_400.0
+"""Seconds, delays apart. A mission that has not ended by then never will."""
+THINKS = 20.0
+"""Seconds after which a person looks, and decides."""
+STOPPED = 45.0
+"""Seconds for which an app that was stopped stays so."""
+
+_read = json.JSONDecoder().raw_decode
+"""A row begins and ends with its list: there is nothing around it to look for."""
+
+_NONE: frozenset[StrikeKind] = frozenset()
+
+
+class TrialLife:
+    """One life, in the run."""
+
+    def __init__(self, run: TrialRun, records: Records) -> None:
+        self.run, case = run, run.case
+        now = max(run.world.now + run.skew, records.time)
+        self.skew = run.skew = now - run.world.now
+        self.kernel = UnreliableTime(now, case.weather, run.chance, run.fired, self.hook_returned)
+        link = run.gateway.link(run.lives, self.lost)
+        self.wire = UnreliableLink(
+            link, run.gateway, self.kernel, case.weather.slow, run.fired, self.sent
+        )
+        self.added = self.committed = 0
+        self.unwritten: deque[tuple[int, str, list[Event]]] = deque()
+        self.unknown: dict[str, None] = {}
+        """The missions of which something is not on record."""
+        self.full = False
+        planned = () if records.missions else tuple(map(fresh, case.missions))
+        self.before: dict[str, MissionMemory] = {} if planned else dict(run.record.known)
+        self.life = RecordedFlight(
+            run.app,
+            case.fleet,
+            self.kernel,
+            self.wire,
+            self,
+            records,
+            epoch=run.lives,
+        )
+        self.life.control.stopped.watch(self.stopped)
+        self.task = self.life.go_on(planned)
+        self.due: list[Callable[[], object]] = []
+        run.later(THINKS, self.person)
+
+    def take_turn(self) -> None:
+        """Let it do what is due."""
+        kernel, run = self.kernel, self.run
+        kernel.drain()
+        if kernel.settled is not None:
+            kernel.settled()
+        if kernel.crashed is not None:
+            run.raise_from(kernel)
+        if self.due:
+            due, self.due = self.due, []
+            for call in due:
+                call()
+        if not self.task.is_set:
+            return
+        error = self.task.error
+        if run.brain is not self or isinstance(error, Cancelled):
+            return
+        if error is not None:
+            run.blame(error)
+        elif self.committed == self.added:  # else what happened last is not durable yet
+            run.ended(self)
+
+    def hook_returned(self, hook: Callable[..., object], args: tuple[object, ...]) -> None:
+        """What an action of the app's own does is done to the world, if its drone is still there."""
+        if self.run.brain is self:
+            self.run.record.hook_did(hook, args, self.run.world.now)
+
+    def go_on_unaware(self) -> None:
+        """Go on although another brain has taken over."""
+        self.kernel.now = max(self.kernel.now, self.run.world.now + self.skew)
+        self.kernel.drain()
+        if self.kernel.settled is not None:
+            self.kernel.settled()
+
+    def sent(self, job: str) -> None:
+        """A drone is sent on its way."""
+        if self.run.brain is self and not self.run.record.once.knows(job):
+            self.run.found.append(f"{self.kernel.now:g} s: {job} set out before that was on record")
+
+    # The journal
+
+    def add(self, row: str) -> int:
+        """Take the row of an instant."""
+        run = self.run
+        self.added += 1
+        if run.brain is not self:  # another life has the journal by now
+            return self.added
+        run.record.times.append(run.world.now)
+        events: list[Event] = _read(row)[0]
+        if self.before:
+            self.look_back(events)
+        struck = run.strikes.get(len(run.record.times))
+        kinds = {strike.kind for strike in struck if not strike.after} if struck else _NONE
+        if StrikeKind.DISK in kinds:
+            self.full = True
+            run.fired[StrikeKind.DISK.value] += 1
+            run.later(0.5, self.give_up)
+        if self.full or StrikeKind.LOST in kinds:
+            self.forget(events)
+        else:
+            self.unwritten.append((self.added, row, events))
+            commit = partial(self.commit, self.added, StrikeKind.KEPT not in kinds)
+            if kinds & {StrikeKind.KEPT, StrikeKind.CRASH} or not run.case.weather.disk:
+                self.due.append(commit)
+            else:
+                run.fired["slow disk"] += 1
+                run.later(run.case.weather.disk, commit)
+        for strike in struck or ():
+            if strike.kind is not StrikeKind.DISK:
+                self.due.append(partial(self.plan, strike, events))
+        return self.added
+
+    def commit(self, number: int, told: bool) -> None:
+        """All rows up to this one are durable, if the disk was as fast as the brain's death."""
+        if self.run.brain is not self or self.full or number <= self.committed:
+            return
+        while self.unwritten and self.unwritten[0][0] <= number:
+            self.committed, row, events = self.unwritten.popleft()
+            self.run.record.commit(row, events)
+        if told:
+            self.life.recorder.durable(number)
+
+    def forget(self, events: list[Event]) -> None:
+        """What is not on record need not be known again."""
+        self.unknown.update((str(event["mission"]), None) for event in events if "mission" in event)
+
+    def remember(self) -> None:
+        """This life is over: what is on record of it must be known in the next."""
+        for _, _, events in self.unwritten:
+            self.forget(events)
+        for name, mission in self.life.recorder.missions.items():
+            if name in self.unknown:
+                self.run.record.known.pop(name, None)
+            else:
+                self.run.record.known[name] = memory_of(self.run.app, mission)
+
+    def look_back(self, events: list[Event]) -> None:
+        """See, once it is known again, what has been forgotten since the last life."""
+        now = {mission.name: mission for mission in self.life.missions}
+        if not now:
+            return
+        before, self.before = self.before, {}
+        since: dict[str, list[Event]] = {}
+        for event in events:
+            since.setdefault(str(event.get("mission")), []).append(event)
+        found = self.run.found
+        for name, known in before.items():
+            if name not in now:
+                found.append(f"{name} was forgotten")
+            elif self.run.record.ends.get(name) not in ENDS:
+                after = memory_of(self.run.app, now[name])
+                said = forgotten(name, known, after, since.get(name, ()))
+                found += [f"{self.kernel.now:g} s: {sentence}" for sentence in said]
+        results = len(self.life.session.core.results.so_far())
+        if results < self.run.record.once.done:
+            found.append(f"{self.run.record.once.done} results were there, {results} are left")
+
+    # What strikes
+
+    def plan(self, strike: Strike, events: list[Event]) -> None:
+        if strike.after:
+            self.run.later(strike.after, partial(self.strike, strike, events))
+        else:
+            self.strike(strike, events)
+
+    def strike(self, strike: Strike, events: list[Event]) -> None:
+        """Something strikes: the brain that wrote the row, or the one that lives by now."""
+        if self.struck(strike.kind, events):
+            self.run.fired[strike.kind.value] += 1
+
+    def struck(self, kind: StrikeKind, events: list[Event]) -> bool:
+        """Let this happen; False: there was nothing that it could happen to."""
+        run, brain = self.run, self.run.brain
+        if kind is StrikeKind.GATEWAY:
+            run.gateway.crash()
+            run.gateway = run.new_gateway()
+        elif kind in (StrikeKind.REBOOT, StrikeKind.FALL):
+            named = [str(event["drone"]) for event in events if event.get("drone")]
+            drone = (named or [run.drones[0].id])[-1]
+            if kind is StrikeKind.FALL:
+                flies = not run.navigation.telemetry[drone].landed
+                return flies and run.navigation.strike(drone, Failure.CRASH)
+            run.navigation.reboot(drone)
+        elif kind is StrikeKind.REPORT:
+            run.loses_report = True
+        elif brain is None:
+            return False
+        elif kind in DEATHS:
+            run.lose_brain(run.case.weather.down)
+        elif kind is StrikeKind.FREEZE:
+            run.freeze()
+        elif kind is StrikeKind.CUT:
+            run.gateway.cut()
+        elif kind in STOPS:
+            brain.kernel.post(
+                brain.life.control.stop, Down.HOME if kind is StrikeKind.RTL else Down.LAND
+            )
+        elif kind in BY_HAND:
+            return brain.by_hand(kind, events)
+        return True
+
+    def by_hand(self, kind: StrikeKind, events: list[Event]) -> bool:
+        """A person commands something; say whether the app could hear it."""
+        named = [str(event["mission"]) for event in events if event.get("mission")]
+        mission = (named or [mission.name for mission in self.run.case.missions])[-1]
+        control = self.life.control
+        tell: dict[StrikeKind, Callable[[str], str]] = {
+            StrikeKind.PAUSE: control.pause,
+            StrikeKind.SKIP: control.skip,
+            StrikeKind.CANCEL: control.cancel,
+        }
+        told = self.told(partial(tell[kind], mission))
+        if told and kind is StrikeKind.PAUSE:
+            self.run.later(THINKS, self.person)
+        return told
+
+    def told(self, command: Callable[[], object]) -> bool:
+        """Tell the app something; say whether it could."""
+        if self.task.is_set:  # it is about to end, and hears nothing any more
+            return False
+        try:
+            command()
+        except BadInput:
+            return False
+        return True
+
+    def person(self) -> None:
+        """A person looks, lets go on what is paused, and decides what waits."""
+        run = self.run
+        if run.brain is not self:
+            return
+        if self.told(self.life.control.go_on):
+            run.fired["go on"] += 1
+        for name, record in list(self.life.recorder.records.missions.items()):
+            if not record["ended"] and (record["question"] or record["held"]):
+                decide = partial(
+                    self.life.control.decide,
+                    name,
+                    run.record.answer(name, self.life.recorder.records),
+                )
+                if self.told(decide):
+                    run.fired["decision"] += 1
+        if any(record["paused"] for record in self.life.recorder.records.missions.values()):
+            run.later(THINKS, self.person)
+
+    def lost(self) -> None:
+        """Brain and gateway have lost one another: the brain begins anew from its own journal."""
+        if self.run.brain is self:
+            self.run.lose_brain(0.5)
+
+    def give_up(self) -> None:
+        """It has noticed that nothing can be written."""
+        if self.run.brain is self:
+            self.run.lose_brain(self.run.case.weather.down)
+
+    def stopped(self, _: object) -> None:
+        """Everything is down: it goes on later."""
+        self.due.append(self.rest)
+
+    def rest(self) -> None:
+        if self.run.brain is self:
+            self.run.brain = None
+            self.remember()
+            self.wire.alive = False
+            self.run.gateway.cut()
+            self.die()
+            self.run.later(STOPPED, self.run.start_life)
+
+    def die(self) -> None:
+        """Nothing of it goes on."""
+        if self.kernel.dead:
+            return
+        self.kernel.over = self.kernel.dead = True
+        self.kernel.close()
+
+
+class TrialRun(TrialWorld):
+    """A trial: brains come and go in its world.
+
+    World and brain have a virtual clock each, and take turns: what is due first is taken first, and at
+    one instant the world goes first. So a brain can die at any moment, and the drones fly on.
+    """
+
+    def __init__(self, app: App, case: Case) -> None:
+        super().__init__(app, case)
+        self.brain: TrialLife | None = None
+        self.brains: list[TrialLife] = []
+        """All there ever were: some go on that do not know yet that they are dead."""
+
+    def run(self) -> TrialResult:
+        """Go on until everything has ended, or never will."""
+        try:
+            self.run_lives()
+            return self.record.closed(self.lives)
+        finally:
+            for brain in self.brains:
+                brain.die()
+            self.world.close()
+
+    def run_lives(self) -> None:
+        """Let lives come and go; an error that is not caught is a finding."""
+        try:
+            self.start_life()
+            while not self.over:
+                if not self.turn():
+                    break
+        except ANY_ERROR as error:  # in what no task has called, such as the end of a flight
+            if by_a_person(error):
+                raise
+            self.blame(error)
+
+    def turn(self) -> bool:
+        """Take what is due next; False: nothing ever will be."""
+        world, brain = self.world, self.brain
+        at = world.next_time()
+        if brain is not None:
+            due = brain.kernel.next_time()
+            if due is not None and (at is None or due - brain.skew < at):
+                brain.kernel.now, world.now = due, max(world.now, due - brain.skew)
+                brain.take_turn()
+                return self.has_time()
+            if at is not None:
+                brain.kernel.now = max(brain.kernel.now, at + brain.skew)
+        if at is None:
+            self.found.append(f"nothing will ever happen again; waiting: {self.waiting()}")
+            return False
+        world.now = at
+        world.drain()
+        if world.crashed is not None:
+            self.raise_from(world)
+        if brain is not None and brain is self.brain:
+            brain.take_turn()
+        return self.has_time()
+
+    def has_time(self) -> bool:
+        """Whether a mission that has not ended may still do so."""
+        if self.record.endless and not self.over:
+            why = f"{self.record.endless} sets out again and again, and nothing ends that"
+            self.found.append(f"{self.world.now:g} s: {why}")
+            return False
+        if self.world.now > LONGEST + self.record.delays and not self.over:
+            self.found.append(f"it goes on for ever; waiting: {self.waiting()}")
+            return False
+        return True
+
+    def waiting(self) -> str:
+        """Name who waits, for a sentence."""
+        brain = self.brain
+        tasks = [] if brain is None else [task.name for task in brain.kernel.tasks]
+        return ", ".join(sorted(tasks)) or "nothing"
+
+    def start_life(self) -> None:
+        """A brain begins, or goes on."""
+        if self.brain is not None or self.over:
+            return
+        self.lives += 1
+        if self.lives > MOST_LIVES:
+            self.found.append(f"it was started {MOST_LIVES} times, and is not done")
+            self.over = True
+            return
+        if self.lives > 1 and self.case.weather.jump:
+            self.fired["clock jump"] += 1
+            self.skew += self.case.weather.jump
+        records = self.record.records(self.case.weather.snapshot, self.chance)
+        self.brain = TrialLife(self, records)
+        self.brains.append(self.brain)
+
+    def lose_brain(self, down: float) -> None:
+        """The brain is dead; the gateway notices at once, or when the heartbeat is missing."""
+        brain, self.brain = self.brain, None
+        if brain is None:
+            return
+        brain.remember()
+        if self.lives > 1 and brain.added <= 1:
+            self.fired["death in recovery"] += 1
+        brain.wire.alive = False
+        if self.chance.random() < 0.5:
+            self.gateway.cut()
+            brain.die()
+        self.be_missed(down)
+
+    def be_missed(self, down: float) -> None:
+        """No heartbeat comes: after a while the gateway lands everything, unless a brain comes."""
+        gateway = self.gateway
+
+        def land() -> None:
+            if self.brain is None and self.gateway is gateway and gateway.flies:
+                self.fired["failsafe"] += 1
+                gateway.fail_safe(Down.LAND)
+
+        if down > PATIENCE:
+            self.later(PATIENCE, land)
+        self.later(down, self.start_life)
+
+    def freeze(self) -> None:
+        """The brain stands still; another takes over; then the first goes on, none the wiser."""
+        brain, self.brain = self.brain, None
+        if brain is not None:
+            brain.remember()
+            self.be_missed(self.case.weather.down)
+            for pulse in range(PULSES):
+                self.later(self.case.weather.down + 1.0 + pulse, brain.go_on_unaware)
+            self.later(self.case.weather.down + 1.0 + PULSES, brain.die)
+
+    def ended(self, brain: TrialLife) -> None:
+        """A life came to its end by itself: everything has ended, or waits for a person."""
+        self.brain = None
+        brain.remember()
+        brain.wire.alive = False
+        self.gateway.cut()
+        brain.die()
+        waits = self.record.waits
+        if waits and self.record.decide(brain.life.recorder.records):
+            self.later(THINKS, self.start_life)
+            return
+        self.over = True
+        if waits:
+            self.found.append(f"{self.world.now:g} s: it ended, and {', '.join(waits)} had not")
+
+
+def tried(app: App, case: Case) -> TrialResult:
+    """Fly a case to its end, and say what no run may do and this one did."""
+    collects = gc.isenabled()
+    gc.disable()  # it would look again and again at what lives until the end
+    try:
+        return TrialRun(app, case).run()
+    finally:
+        if collects:
+            gc.enable()

@@ -1,0 +1,340 @@
+"""What is known of a trial: what is on record, what the world has seen, and what of it may not be."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.alone.simulate import Bound
+from plutoc_runtime.domain.fields import Entity
+
+from ..journal.fold import Records
+from .invariants import ENDS, Invariants, items_of
+from .rules import at
+from .unreliable import BrokenHook
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from random import Random
+
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Mission, Trip
+    from plutoc_runtime.domain.trace import Event
+
+    from .case import Case
+
+    # was an import of itself
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Act:
+    """One action, done."""
+
+    job: str
+    """`mission/trip/round/attempt`."""
+    action: str
+    time: float
+
+
+class ExactlyOnce:
+    """Nothing that may be done only once is done twice, and the journal says what was done.
+
+    It is told the journal's events, and at the end what the world saw.
+    """
+
+    def __init__(self, repeat: Mapping[str, str]) -> None:
+        self._repeat = repeat
+        """By action: `safe`, `once` or `ask`."""
+        self._launched: dict[str, Place] = {}
+        """By job, which trip it flies."""
+        self._recorded: dict[str, None] = {}
+        self._wanted: Counter[Place] = Counter()
+        """How often an evaluator wanted a trip again."""
+        self._round: dict[object, object] = {}
+        self._completed: dict[object, None] = {}
+        """The missions that were."""
+
+    @property
+    def done(self) -> int:
+        """How many actions were done, as far as that is on record."""
+        return len(self._recorded)
+
+    def knows(self, job: str) -> bool:
+        """Whether it is on record that a drone was sent to do this."""
+        return job in self._launched
+
+    def take(self, event: Event) -> None:
+        """Something is on record."""
+        match event["event"]:
+            case "trip.launched":
+                place = (event["mission"], event["trip"], event["round"])
+                self._launched["/".join(map(str, (*place, event["attempt"])))] = place
+            case "trip.completed":
+                place = (event["mission"], event["trip"], event["round"])
+                self._recorded["/".join(map(str, (*place, event["attempt"])))] = None
+            case "mission.repeated":
+                self._round[event["mission"]] = event["round"]
+            case "mission.extended":
+                mission, redo = event["mission"], event["redo"]
+                assert isinstance(redo, list)
+                for trip in redo:
+                    self._wanted[mission, trip, self._round.get(mission, 0)] += 1
+            case "mission.ended" if event["status"] == "COMPLETED":
+                self._completed[event["mission"]] = None
+
+    def violations(self, acts: list[Act]) -> list[str]:
+        """Return what was done too often, and what is not on record as it was."""
+        found = []
+        jobs: Counter[str] = Counter()
+        places: Counter[Place] = Counter()
+        safe = {act.job for act in acts if self._repeat.get(act.action, "once") == "safe"}
+        for act in acts:
+            place = self._launched.get(act.job)
+            if place is None:
+                found.append(f"{act.time:g} s: {act.job} was flown before that was on record")
+            elif act.job not in safe:
+                jobs[act.job] += 1
+                places[place] += 1
+        for job, times in jobs.items():
+            if times > 1:
+                found.append(f"the action of {job} was done {times} times")
+            if job not in self._recorded and self._launched[job][0] in self._completed:
+                found.append(f"the action of {job} was done, and the journal does not say so")
+        for place, times in places.items():
+            if times > 1 + self._wanted[place]:
+                mission, trip, round_ = place
+                found.append(f"{trip} of {mission} was done {times} times in round {round_}")
+        done = {act.job for act in acts}
+        for job in self._recorded:
+            if job not in done:
+                found.append(f"the journal says that the action of {job} was done: it was not")
+        return found
+
+
+Place = tuple[object, object, object]
+"""Mission, trip, round."""
+
+
+@dataclass(frozen=True, slots=True)
+class MissionMemory:
+    """What was on record of one mission."""
+
+    round: int
+    attempts: int
+    completed: tuple[str, ...]
+    fields: tuple[object, ...]
+    trips: dict[str, tuple[object, ...]]
+    """By name: the attempt, and the fields that the graph gives a trip."""
+
+
+def memory_of(app: App, mission: Mission[Any]) -> MissionMemory:
+    """Return what there is to know of a mission."""
+    return MissionMemory(
+        mission.round,
+        mission.attempts,
+        tuple(trip.name for trip in mission.completed_trips),
+        _fields(app, Entity.MISSION, mission),
+        {
+            trip.name: (trip.attempt, *_fields(app, Entity.TRIP, trip))
+            for trip in (*mission.trips, *mission.completed_trips)
+        },
+    )
+
+
+def forgotten(
+    name: str, before: MissionMemory, after: MissionMemory, since: Sequence[Event]
+) -> Iterable[str]:
+    """Yield what an app has forgotten of a mission, but for what has happened to it since."""
+    launched = sum(event["event"] == "trip.launched" for event in since)
+    if any(event["event"] in _CHANGES for event in since):
+        return
+    if before.round != after.round:
+        yield f"{name} was in round {before.round}, and went on in round {after.round}"
+    flown = before.attempts + launched
+    interrupted = sum(event["event"] == "trip.interrupted" for event in since)
+    if not flown - interrupted <= after.attempts <= flown:
+        yield f"{name} had had {before.attempts} flights, and went on with {after.attempts - launched}"
+    if before.fields != after.fields:
+        yield f"{name} had {_shown(before.fields)}, and went on with {_shown(after.fields)}"
+    for trip in before.completed:
+        if trip not in after.completed:
+            yield f"{trip} of {name} was completed, and is to be flown again"
+    for trip, facts in before.trips.items():
+        found = after.trips.get(trip)
+        if found is None:
+            yield f"{trip} of {name} was forgotten"
+        elif found != facts:
+            yield f"{trip} of {name} had {_shown(facts)}, and went on with {_shown(found)}"
+
+
+_CHANGES = ("trip.reset", "trip.skipped", "mission.repeated", "mission.extended", "mission.changed")
+
+
+def _fields(app: App, entity: Entity, of: Mission[Any] | Trip) -> tuple[object, ...]:
+    return tuple(getattr(of, field.name) for field in app.fields if field.on is entity)
+
+
+def _shown(facts: Sequence[object]) -> str:
+    return ", ".join(map(repr, facts))
+
+
+_IN_A_HOOK = re.compile(
+    r"(hook|policy|evaluator|modifier) \w+ "
+    r"(raised|must|changed|asks|adds|declares|returned|made|took|left)\b"
+)
+"""How the reason begins for which a mission fails when the app's own code is at fault."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrialResult:
+    """What came of a case."""
+
+    violations: tuple[str, ...]
+    """What no run may do, with any hooks."""
+    faults: tuple[str, ...]
+    """What the app's own code did wrong without being made to."""
+    fired: Counter[str]
+    """How often each thing really struck."""
+    lives: int
+    ends: dict[str, str]
+    """By mission, how it ended."""
+    events: tuple[Event, ...]
+    """All that is on record."""
+    times: tuple[float, ...]
+    """When each row was written, durable or not, by the world's clock."""
+    acts: tuple[Act, ...]
+    """What the world has seen."""
+
+    @property
+    def rows(self) -> int:
+        """How many rows the journal had, over all lives, those that were lost included."""
+        return len(self.times)
+
+    @property
+    def wrong(self) -> tuple[str, ...]:
+        """All that should not be."""
+        return (*self.violations, *self.faults)
+
+
+class TrialRecord:
+    """Everything that outlives a brain, and is no part of the world."""
+
+    def __init__(self, app: App, case: Case) -> None:
+        self._app, self._missions = app, case.missions
+        self.rows: list[str] = []
+        """What is durable."""
+        self.times: list[float] = []
+        """When each row was written, durable or not."""
+        self.acts: list[Act] = []
+        self.events: list[Event] = []
+        self.ends: dict[str, str] = {}
+        """By mission, how it has ended."""
+        self.known: dict[str, MissionMemory] = {}
+        """By mission, what the next life must know."""
+        self.delays = 0.0
+        """Seconds that trips were to wait."""
+        self.once = ExactlyOnce({name: action.repeat for name, action in app.actions.items()})
+        self.fired: Counter[str] = Counter()
+        self.endless = ""
+        """The mission that sets out again and again, if one does."""
+        self._bound = Bound(case.missions)
+        self.found: list[str] = []
+        self.faults: list[str] = []
+        self._invariants = Invariants(items_of(case.missions))
+
+    @property
+    def waits(self) -> list[str]:
+        """The missions that have not ended."""
+        return [m.name for m in self._missions if self.ends.get(m.name) not in ENDS]
+
+    def commit(self, row: str, events: list[Event]) -> None:
+        """A row is durable."""
+        self.rows.append(row)
+        for event in events:
+            self.events.append(event)
+            self._invariants.take(event)
+            self.once.take(event)
+            if self._bound.look(event) is not None:
+                self.endless = str(event["mission"])
+            if event["event"] == "mission.ended":
+                self._end(event)
+            elif event["event"] == "trip.delayed":
+                self.delays += float(str(event["until"])) - float(str(event["t"]))
+
+    def _end(self, event: Event) -> None:
+        mission, reason = str(event["mission"]), str(event["reason"])
+        self.ends[mission] = str(event["status"])
+        if _IN_A_HOOK.match(reason) and BrokenHook.__name__ not in reason:
+            self.faults.append(f"{at(event)}: {mission} failed: {reason}")
+
+    def did(self, job: str, action: str, now: float) -> None:
+        """The world has seen that an action was done."""
+        self.acts.append(Act(job=job, action=action, time=now))
+
+    def hook_did(self, hook: Callable[..., object], args: tuple[object, ...], now: float) -> None:
+        """A hook has returned: if it is an action of the app's own, that was done."""
+        if any(action.hook is hook for action in self._app.actions.values()):
+            context: Any = args[2]
+            flight = context._state.flight
+            self.did(flight.id, flight.trip.action, now)
+
+    def answer(self, name: str, records: Records) -> str:
+        """Say what is true about a mission that asks, as a person would who looks whether it was done."""
+        record = records.missions[name]
+        if record["held"]:
+            return "cancel"
+        flight = record["flight"]
+        job = f"{name}/{flight['trip']}/{flight['round']}/{flight['attempt']}"
+        return "done" if any(act.job == job for act in self.acts) else "not-done"
+
+    def decide(self, records: Records) -> bool:
+        """Decide what waits, on the journal of an app that does not run; say whether any did."""
+        asking = [
+            name
+            for name, record in records.missions.items()
+            if not record["ended"] and (record["question"] or record["held"])
+        ]
+        for name in asking:
+            answer = self.answer(name, records)
+            event = {
+                "t": records.time,
+                "event": "mission.decided",
+                "mission": name,
+                "answer": answer,
+            }
+            self.fired["decision at rest"] += 1
+            self.commit(json.dumps([event]), [event])
+        return bool(asking)
+
+    def records(self, snapshot: float, chance: Random) -> Records:
+        """Read the journal; perhaps from a snapshot of a part of it."""
+        records, rows = Records(), iter(self.rows)
+        if self.rows and chance.random() < snapshot:
+            for _ in range(chance.randrange(len(self.rows)) + 1):
+                for event in json.loads(next(rows)):
+                    records.take(event)
+            self.fired["snapshot"] += 1
+            records = Records(json.loads(json.dumps(records.data)))
+        for row in rows:
+            for event in json.loads(row):
+                records.take(event)
+        return records
+
+    def closed(self, lives: int) -> TrialResult:
+        """Return what came of it all."""
+        whole = not (self.waits and self.found)
+        found = self._invariants.over() if whole else self._invariants.found
+        return TrialResult(
+            violations=(*self.found, *found, *self.once.violations(self.acts)),
+            faults=tuple(self.faults),
+            fired=self.fired,
+            lives=lives,
+            ends=self.ends,
+            events=tuple(self.events),
+            times=tuple(self.times),
+            acts=tuple(self.acts),
+        )

@@ -1,0 +1,213 @@
+"""What a brain has in a trial: a clock that wakes it late, and a link whose messages take their time."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Coroutine
+from functools import partial
+from random import Random
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from plutoc_runtime.domain.errors import Cancelled, FlightFailed
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET, Key, Kind, Task, Timer
+from plutoc_runtime.time.virtual import VirtualTime
+
+from ..gateway.gateway import Link
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Point
+    from plutoc_runtime.time.kernel import Kernel
+
+    from ..gateway.gateway import Gateway
+    from ..jobs.job import Job, Report
+    from ..jobs.reports import Down, DroneReport, FleetReport
+    from .case import Weather
+
+T = TypeVar("T")
+
+_LONG = 30.0
+"""Seconds that a hook takes that blocks."""
+
+
+class BrokenHook(RuntimeError):
+    """What a hook raises unexpectedly."""
+
+
+class UnreliableTime(VirtualTime):
+    """Virtual time for one brain: it wakes up late, and its hooks fail, as the weather has it."""
+
+    def __init__(
+        self,
+        now: float,
+        weather: Weather,
+        chance: Random,
+        fired: Counter[str],
+        done: Callable[[Callable[..., object], tuple[object, ...]], object],
+    ) -> None:
+        super().__init__()
+        self.now = now
+        self.dead = False
+        self._weather, self._chance, self._fired, self._done = weather, chance, fired, done
+
+    def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
+        """Set a coroutine on its way; in a dead brain none sets out."""
+        task = super().spawn(coroutine, key, name)
+        if self.dead:
+            task.drop()
+        return task
+
+    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], object]) -> Timer:
+        """Call this at a time, or a little later."""
+        late = self._weather.late
+        if late and when > self.now and self._chance.random() < late:
+            self._fired["late wake-up"] += 1
+            when += self._chance.random() * 0.5
+        return super().at(when, kind, key, call)
+
+    async def call_hook(
+        self, hook: Callable[..., object], /, *args: object, **named: object
+    ) -> object:
+        """Run a hook, or let it fail."""
+        if self._weather.hook and self._chance.random() < self._weather.hook:
+            self._fired["hook raising"] += 1
+            raise BrokenHook("by chance")
+        if self._weather.block and self._chance.random() < self._weather.block:
+            self._fired["hook blocking"] += 1
+            await self.sleep(_LONG)
+        result = await super().call_hook(hook, *args, **named)
+        self._done(hook, args)
+        return result
+
+
+class UnreliableLink(Link):
+    """A link whose messages travel for a while, each way, and in order."""
+
+    def __init__(
+        self,
+        link: Link,
+        gateway: Gateway,
+        brain: Kernel,
+        slow: float,
+        fired: Counter[str],
+        sent: Callable[[str], object],
+    ) -> None:
+        super().__init__(gateway, None)
+        self._real, self._world, self._brain = link, gateway.kernel, brain
+        self._slow, self._fired, self._sent = slow, fired, sent
+        self.alive = True
+
+    def fly(self, job: Job, report: Report) -> None:
+        """Give a drone its job."""
+        self._sent(job.id)
+        self._send(partial(self._real.fly, job, partial(self._told, report)))
+
+    def break_off(self, drone: str) -> None:
+        """Stop what a drone does."""
+        self._send(partial(self._real.break_off, drone))
+
+    def attach(self, id: str, report: Report) -> None:
+        """Hear of a job that was given before."""
+        self._send(partial(self._real.attach, id, partial(self._told, report)))
+
+    def forget(self, id: str) -> None:
+        """A job will not be asked for any more."""
+        self._send(partial(self._real.forget, id))
+
+    def hold(self, drone: str) -> Coroutine[Any, Any, None]:
+        """Hover."""
+        return self._far(partial(self._real.hold, drone))
+
+    def read(self, drone: str, name: str) -> Coroutine[Any, Any, float]:
+        """Return what a drone measures."""
+        return self._far(partial(self._real.read, drone, name))
+
+    def write(self, drone: str, name: str, value: float) -> Coroutine[Any, Any, None]:
+        """Set what a drone has."""
+        return self._far(partial(self._real.write, drone, name, value))
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone."""
+        self._send(partial(self._real.mended, drone))
+
+    def takeoff(self, drone: str, height: float) -> Coroutine[Any, Any, None]:
+        """Rise to a height."""
+        return self._far(partial(self._real.takeoff, drone, height))
+
+    def go_to(self, drone: str, target: Point) -> Coroutine[Any, Any, None]:
+        """Fly straight to a point."""
+        return self._far(partial(self._real.go_to, drone, target))
+
+    def land(self, drone: str) -> Coroutine[Any, Any, None]:
+        """Land here."""
+        return self._far(partial(self._real.land, drone))
+
+    def recover(self, drone: str) -> Coroutine[Any, Any, bool]:
+        """Bring a drone home after a failed flight."""
+        return self._far(partial(self._real.recover, drone))
+
+    def drone_report(self, drone: str) -> Coroutine[Any, Any, DroneReport]:
+        """Ask a drone where it is and what it has done."""
+        return self._far(partial(self._real.drone_report, drone))
+
+    def fleet_report(self) -> Coroutine[Any, Any, FleetReport]:
+        """Ask all drones and the ledger how everything stands."""
+        return self._far(partial(self._real.fleet_report))
+
+    def bring_down(self, how: Down) -> Coroutine[Any, Any, None]:
+        """Bring all drones down."""
+        return self._far(partial(self._real.bring_down, how))
+
+    async def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
+        """Let the gateway do something, in the world and not in a brain that may die, and hear of it.
+
+        Messages travel; a task that is cancelled here is cancelled there.
+        """
+        over: Future[T] = Future()
+        under_way: list[Task[T]] = []
+
+        def begin() -> None:
+            task = self._world.spawn(command(), FLEET, "a command from afar")
+            under_way.append(task)
+            task.over = end
+
+        def end(task: Task[T]) -> None:
+            self._send(partial(self._brain.post, _settle, over, task))
+
+        def call_off() -> None:
+            for task in under_way:
+                task.cancel()
+
+        self._send(begin)
+        try:
+            return await over
+        except Cancelled:
+            self._send(call_off)
+            raise
+
+    def _send(self, message: Callable[[], object]) -> None:
+        if self._slow:
+            self._fired["slow line"] += 1
+            now = self._world.now
+            self._world.schedule(now + self._slow, Kind.FLIGHT, FLEET, partial(self._go, message))
+        else:
+            self._go(message)
+
+    def _go(self, message: Callable[[], object]) -> None:
+        if self.alive:
+            message()
+
+    def _told(self, report: Report, result: Any) -> None:
+        if isinstance(result, FlightFailed):
+            self._fired[f"flight: {result.failure.value}"] += 1
+        if not self.alive:
+            self._fired["report to nobody"] += 1
+        self._send(partial(self._brain.post, report, result))
+
+
+def _settle(over: Future[T], task: Task[T]) -> None:
+    """Tell what came of a command; one that was called off is not waited for."""
+    if task.error is None:
+        over.set(task.result())
+    elif not isinstance(task.error, Cancelled):
+        over.fail(task.error)

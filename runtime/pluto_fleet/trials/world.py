@@ -1,0 +1,125 @@
+"""The world of a trial: its drones, their gateway and its clock, which outlive every brain."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import TYPE_CHECKING
+
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.alone.world import World
+from plutoc_runtime.time.kernel import FLEET
+from plutoc_runtime.time.kernel import Kind as When
+from plutoc_runtime.time.virtual import VirtualTime
+
+from ..gateway.gateway import Gateway
+from ..gateway.ledger import MemoryLedger
+from ..gateway.lossy_line import LOST, LossyLine
+from ..simulation.body import SimulatedDrone
+from ..simulation.drones import SimulatedNavigation, WorldAction
+from ..simulation.radio import Radio
+from .case import Strike, StrikeKind
+from .record import TrialRecord
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plutoc_runtime.domain.app import App
+
+    from ..jobs.controls import Controls
+    from .case import Case
+
+
+class TrialWorld:
+    """All of a trial but its brains."""
+
+    def __init__(self, app: App, case: Case) -> None:
+        self.app, self.case = app, case
+        self.record = TrialRecord(app, case)
+        self.fired, self.found = self.record.fired, self.record.found
+        self.chance = Random(f"{case.seed}/trial")
+        self.world = world = VirtualTime()
+        categories = {category.name: category for category in app.categories}
+        self.drones = [
+            SimulatedDrone(
+                id=each.id, category=categories[each.category], home=each.home, index=place
+            )
+            for place, each in enumerate(case.fleet.drones)
+        ]
+        airspace = case.fleet.airspace
+        self.navigation = SimulatedNavigation(
+            world,
+            self.drones,
+            World(case.seed, airspace, case.fleet.world),
+            Faults(
+                crash=case.weather.crash,
+                link=case.weather.link,
+                action=case.weather.action,
+                battery=case.weather.battery,
+            ),
+            case.seed,
+            airspace,
+            self.seen,
+        )
+        self.ledger = MemoryLedger()
+        self.loses_report = False
+        """Whether the next report is lost, and the line with it."""
+        self.gateway = self.new_gateway()
+        self.lives = 0
+        self.skew = 0.0
+        """How far the brain's clock is ahead of the world's."""
+        self.strikes: dict[int, list[Strike]] = {}
+        """By row, what strikes there."""
+        for strike in case.strikes:
+            self.strikes.setdefault(strike.row, []).append(strike)
+        self.over = False
+
+    def blame(self, error: BaseException) -> None:
+        """Make a finding of an error that was not caught."""
+        where = "".join(f", {note}" for note in getattr(error, "__notes__", ()))
+        what = f"the app ended with an internal error: {type(error).__name__}: {error}{where}"
+        self.found.append(f"{self.world.now:g} s: {what}")
+        self.over = True
+
+    def raise_from(self, kernel: VirtualTime) -> None:
+        """An error that was not caught is a mistake of ours: the trial ends with it."""
+        if kernel.crashed is not None:
+            error, kernel.crashed = kernel.crashed, None
+            self.blame(error)
+
+    def later(self, seconds: float, call: Callable[[], object]) -> None:
+        """Let this happen after so many seconds of the world's."""
+        self.world.schedule(self.world.now + seconds, When.FLIGHT, FLEET, call)
+
+    def seen(self, done: WorldAction) -> None:
+        """A drone has done something to the world."""
+        if done.job is not None:
+            self.record.did(done.job, done.action, self.world.now)
+
+    def new_gateway(self) -> Gateway:
+        """Return a gateway over the drones and the ledger that are there."""
+        fleet, radio = self.case.fleet, self.case.weather.radio
+        controls: Controls = self.navigation
+        if radio:
+            controls = Radio(self.world, self.navigation, self.radio_delay)
+        gateway = Gateway(
+            self.world,
+            controls,
+            self.drones,
+            fleet.airspace,
+            ledger=self.ledger,
+            apart=fleet.apart,
+            max_airborne=fleet.max_airborne,
+        )
+        if any(strike.kind is StrikeKind.REPORT for strike in self.case.strikes):
+            gateway.line = LossyLine(gateway, self.report_delay)
+        return gateway
+
+    def radio_delay(self, _: str) -> float:
+        """Say how long a message to or from a drone takes."""
+        self.fired["slow radio"] += 1
+        return self.case.weather.radio
+
+    def report_delay(self) -> float:
+        """Say whether a report is heard."""
+        lost, self.loses_report = self.loses_report, False
+        return LOST if lost else 0.0

@@ -1,0 +1,61 @@
+"""What all pages see goes on, though something of it cannot be shown."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from typing import Any
+
+from pluto_fleet.station.plan.plan import MissionPlan
+from pluto_fleet.station.updates import Updates
+from tests.runtime.files.an_app import APP
+from tests.station.plan.drawing import FLEET
+
+
+class Unseen:
+    """A flight that cannot be looked at."""
+
+    id, journal, trouble = "a.journal", "a.journal", ""
+    lives, life, end, records, now = False, None, None, None, 0.0
+
+    def look(self, number: int) -> bool:
+        """Be a mistake of ours."""
+        raise ZeroDivisionError
+
+
+class Nothing:
+    """What is known of the drones where none has flown yet."""
+
+    def rows(self) -> tuple[()]:
+        """Return that there is nothing to see."""
+        return ()
+
+
+class Shown:
+    """A station with such a flight."""
+
+    def __init__(self) -> None:
+        self.described: dict[str, object] = {"server": "x"}
+        self.session: Any = Unseen()
+        self.plan = MissionPlan(APP, FLEET, None)
+        self.history: Any = Nothing()
+
+
+def test_a_mistake_in_what_is_shown_leaves_no_one_waiting_nor_who_heard_of_the_drones() -> None:
+    complaints: list[object] = []
+
+    async def scenario() -> dict[str, Any]:
+        asyncio.get_running_loop().set_exception_handler(lambda _, about: complaints.append(about))
+        shown = Shown()
+        scene = Updates(shown)
+        waiting = asyncio.ensure_future(scene.newer("", 0, 0, 0))
+        await asyncio.sleep(0)
+        scene.hurry()
+        async with asyncio.timeout(5):
+            await asyncio.sleep(0)
+            shown.session = None
+            told: dict[str, Any] = json.loads(await waiting)
+        return told
+
+    assert asyncio.run(scenario())["state"]["phase"] == "idle"
+    assert len(complaints) == 1

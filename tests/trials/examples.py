@@ -1,0 +1,90 @@
+"""The examples in memory, on the runtime in place: as they are, or with a mistake in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
+from importlib import import_module
+from types import ModuleType, SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+from pluto_fleet.files.fleet import FleetFile, load_fleet
+from pluto_fleet.files.missions import load_missions
+from plutoc.check.model import Checked
+from plutoc.compile import analyse, planned
+from plutoc.emit.stubs import EXPORTS
+from plutoc.plan.build import build
+from plutoc.source import Source
+from plutoc_runtime.domain.model import Mission
+from tests.equivalence.flows import Package, in_memory, packaged
+from tests.flying import EXAMPLES
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
+
+Overrides = Mapping[str, Callable[..., object]]
+
+
+@lru_cache
+def checked(name: str) -> Checked:
+    """Return an example's checked graph."""
+    path = EXAMPLES / name / "app.pluto"
+    return analyse(Source(path.name, path.read_text(encoding="utf-8")))[0]
+
+
+def example(name: str, overrides: Overrides | None = None, *, plain: bool = False) -> App:
+    """Return an example's app, optimised or as it was built, with functions in place of others."""
+    plan = build(checked(name)) if plain else planned(checked(name))
+    package = packaged(plan, overrides or {})
+    hooks = SimpleNamespace(**vars(_hooks(name, package)))
+    return package.app(hooks, patient=True)
+
+
+WAITING = """
+    pluto 1
+    app patient {
+      create = MissionCreator
+      wait = Clock
+      allocate = DroneAllocator
+      launch = TripLauncher
+      watch = TripMonitor
+      start -> create -> wait -> allocate -> launch -> watch -> end
+      watch -> wait when STANDBY
+    }
+    """
+"""An app whose trips wait for their delays."""
+
+
+def app_of(text: str, hooks: Overrides | None = None) -> App:
+    """Return the app of a source, with the hooks that it needs."""
+    package = packaged(planned(analyse(Source("app.pluto", text))[0]))
+    return package.app(SimpleNamespace(**(hooks or {})), patient=True)
+
+
+def fleet_of(name: str, app: App) -> FleetFile:
+    """Return an example's fleet file."""
+    return load_fleet(EXAMPLES / name / "fleet.toml", app)
+
+
+def missions_of(name: str, app: App, fleet: FleetFile) -> list[Mission[Any]]:
+    """Return an example's own missions."""
+    return load_missions(EXAMPLES / name / "missions.toml", app, fleet.airspace)
+
+
+def _hooks(name: str, package: Package) -> ModuleType:
+    """Run an example's hooks.py; what it imports from its package is found where it is at home."""
+
+    path = EXAMPLES / name / "hooks.py"
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+
+    def found(_: str, wanted: Sequence[str]) -> object:
+        return SimpleNamespace(**{one: _exported(one, package) for one in wanted})
+
+    return in_memory(f"{name}.hooks", compile(text, str(path), "exec"), found)
+
+
+def _exported(one: str, package: Package) -> object:
+    home = EXPORTS[one]
+    if home.startswith("._runtime"):
+        return getattr(import_module(home.replace("._runtime", "plutoc_runtime")), one)
+    return getattr(package.model, one)

@@ -1,0 +1,227 @@
+"""A runtime with one mistake each, of the kind that would only show when something goes wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import pytest
+
+from pluto_fleet.flight import reconcile as interruption
+from pluto_fleet.flight import recovery
+from pluto_fleet.flight import restore as rebuilding
+from pluto_fleet.flight.live_engine import LiveEngine
+from pluto_fleet.flight.live_fleet import LiveFleet
+from pluto_fleet.flight.reconcile import Outcome
+from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.gateway.jobs import AssignedJob
+from pluto_fleet.jobs.reports import JobState
+from pluto_fleet.journal import values
+from pluto_fleet.journal.durable_link import DurableLink
+from pluto_fleet.journal.fold import Records
+from pluto_fleet.trials.record import TrialRecord
+from plutoc_runtime.domain.status import DroneStatus
+from plutoc_runtime.fleet.fleet import Fleet
+from tests.equivalence import mistakes
+
+Plant = Callable[[pytest.MonkeyPatch], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mutant:
+    """A mistake, and what is said of it."""
+
+    plant: Plant
+    says: str
+    """What the sentence that finds it must match."""
+    example: str = "drugs_distribution_retry"
+    overrides: Mapping[str, Callable[..., object]] = field(default_factory=dict)
+    plain: bool = False
+    """Whether the example is not optimised."""
+
+
+def nothing(patch: pytest.MonkeyPatch) -> None:
+    """The mistake is in the app's own code."""
+
+
+def free_in_flight(patch: pytest.MonkeyPatch) -> None:
+    """A drone is free as soon as its trip is over, and flies home free."""
+    really = Fleet.send_home
+
+    def send_home(self: Fleet, drone: Any) -> None:
+        really(self, drone)
+        self._become(drone, DroneStatus.FREE)
+
+    patch.setattr(Fleet, "send_home", send_home)
+
+
+def done_before_the_action(patch: pytest.MonkeyPatch) -> None:
+    """The ledger says DONE when the action begins."""
+    really = AssignedJob.begins
+
+    def begins(self: AssignedJob) -> None:
+        really(self)
+        self.state = JobState.DONE
+        self._jobs.write(self)
+        self.state = JobState.BEGUN
+
+    patch.setattr(AssignedJob, "begins", begins)
+
+
+def cancel_forgets_the_task(patch: pytest.MonkeyPatch) -> None:
+    """A mission that is cancelled leaves its timers and its coroutine behind."""
+
+    def set_aside(self: LiveEngine, state: Any) -> None:
+        self._aside[state.mission.name] = state
+        if state.task is not None:
+            self._living -= 1
+            state.task.over = lambda _: None
+
+    patch.setattr(LiveEngine, "set_aside", set_aside)
+
+
+def snapshot_forgets_delays(patch: pytest.MonkeyPatch) -> None:
+    """What is read from a snapshot has waited for nothing."""
+    really = Records.__init__
+
+    def begin(self: Records, data: Any = None) -> None:
+        really(self, data)
+        for record in self.missions.values():
+            record["delay"], record["waited"] = None, []
+
+    patch.setattr(Records, "__init__", begin)
+
+
+def priority_is_lost(patch: pytest.MonkeyPatch) -> None:
+    """A trip that is taken up again has the priority of a new one."""
+    really = values.trip_of
+
+    def trip_of(app: Any, data: Any) -> Any:
+        trip: Any = really(app, data)
+        trip.priority = 0
+        return trip
+
+    patch.setattr(rebuilding, "trip_of", trip_of)
+
+
+def old_brains_are_heard(patch: pytest.MonkeyPatch) -> None:
+    """Who was fenced off commands all the same."""
+    patch.setattr(Gateway, "cut", lambda self: setattr(self, "_link", None))
+    patch.setattr(Gateway, "is_commanded_by", lambda self, link: True)
+    patch.setattr(Link, "cut", lambda self: None)
+
+
+def no_drone_is_asked(patch: pytest.MonkeyPatch) -> None:
+    """Every drone is taken for free before it has answered."""
+
+    def take_up(self: LiveFleet, drone: Any, _: object) -> None:
+        drone.status = DroneStatus.FREE
+        self.queue.moved(drone, DroneStatus.OFFLINE)
+
+    patch.setattr(LiveFleet, "take_up", take_up)
+
+
+def doubt_is_flown_again(patch: pytest.MonkeyPatch) -> None:
+    """What may have been done is done once more."""
+    really = interruption.outcome_of
+
+    def outcome_of(*args: Any) -> Outcome:
+        found = really(*args)
+        return Outcome.NOT_DONE if found is Outcome.UNKNOWN else found
+
+    patch.setattr(interruption, "outcome_of", outcome_of)
+
+
+def stops_count(patch: pytest.MonkeyPatch) -> None:
+    """A flight that was interrupted counts as an attempt."""
+    really = interruption.fly_again
+
+    def fly_again(state: Any, flight: Any, link: Any) -> None:
+        really(state, flight, link)
+        flight.trip.attempt += 1
+
+    patch.setattr(recovery, "fly_again", fly_again)
+
+
+def results_are_lost(patch: pytest.MonkeyPatch) -> None:
+    """Who goes on knows nothing of what was found before."""
+    patch.setattr(recovery, "restore_results", lambda *_: None)
+
+
+def carriers_are_given_away(patch: pytest.MonkeyPatch) -> None:
+    """A drone with an item aboard is free for all after a Stop."""
+    patch.setattr(recovery._Revival, "_check_carrier", lambda *_: None)
+
+
+def flies_before_it_is_on_record(patch: pytest.MonkeyPatch) -> None:
+    """A drone leaves before that could be known."""
+    patch.setattr(DurableLink, "fly", lambda self, job, report: self._link.fly(job, report))
+
+
+def delays_go_on_while_stopped(patch: pytest.MonkeyPatch) -> None:
+    """A Stop eats up what is left of a delay."""
+    patch.setattr("pluto_fleet.journal.fold.shift_delays", lambda *_: None)
+
+
+def ends_are_forgotten(patch: pytest.MonkeyPatch) -> None:
+    """A trip that was completed right before the crash is to be flown again."""
+    really = Records.take
+
+    def take(self: Records, event: Any) -> None:
+        if event["event"] != "trip.completed":
+            really(self, event)
+
+    def read(self: TrialRecord, *given: Any) -> Records:
+        patch.setattr(Records, "take", take)
+        try:
+            return really_read(self, *given)
+        finally:
+            patch.setattr(Records, "take", really)
+
+    really_read = TrialRecord.records
+    patch.setattr(TrialRecord, "records", read)
+
+
+MUTANTS: Mapping[str, Mutant] = {
+    "a drone is free in flight": Mutant(plant=free_in_flight, says="is free in the air"),
+    "a gate counts arrivals": Mutant(
+        plant=nothing,
+        says="failed after .* for a safe time of",
+        example="alfalfa",
+        overrides={"pass_first": mistakes.pass_first_and_leave_the_rest},
+        plain=True,
+    ),
+    "DONE is written before the action": Mutant(
+        plant=done_before_the_action, says="says that the action of .* was done: it was not"
+    ),
+    "a cancelled mission's timers go on": Mutant(
+        plant=cancel_forgets_the_task, says="had ended before|ended 2 times|launched"
+    ),
+    "a snapshot forgets delays": Mutant(
+        plant=snapshot_forgets_delays, says="waits until|once more"
+    ),
+    "priority is lost on resume": Mutant(plant=priority_is_lost, says="and went on with"),
+    "an old brain still commands": Mutant(
+        plant=old_brains_are_heard, says="was told to .* while told to"
+    ),
+    "drones count as free before they answer": Mutant(
+        plant=no_drone_is_asked, says="before it was asked"
+    ),
+    "what may have been done is done again": Mutant(
+        plant=doubt_is_flown_again, says="was done 2 times", example="alfalfa"
+    ),
+    "a Stop counts as an attempt": Mutant(plant=stops_count, says="calls itself attempt"),
+    "results are lost on resume": Mutant(
+        plant=results_are_lost, says="results were there", example="alfalfa"
+    ),
+    "a stopped mission's carrier is given away": Mutant(
+        plant=carriers_are_given_away, says="yet serves|item|before it was free again"
+    ),
+    "a drone leaves before that is on record": Mutant(
+        plant=flies_before_it_is_on_record, says="before that was on record"
+    ),
+    "a Stop eats up delays": Mutant(plant=delays_go_on_while_stopped, says="waits until"),
+    "a completed trip is flown again": Mutant(plant=ends_are_forgotten, says="."),
+}
+"""By what is wrong with each."""

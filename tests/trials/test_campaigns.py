@@ -1,0 +1,95 @@
+"""Small shares of the campaigns of `tests.trials`: examples struck everywhere, random apps in all weathers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from invariants import hashes
+from pluto_fleet.simulation.body import Body
+from pluto_fleet.simulation.drones import SimulatedNavigation
+from pluto_fleet.trials.explore import random_case
+from pluto_fleet.trials.lives import tried
+from plutoc_runtime.domain.model import Drone
+from plutoc_runtime.fleet.reach import CLIMB_SPEED
+from plutoc_runtime.hooks.context import Context
+from tests.trials import campaign, strangers
+from tests.trials.examples import example, fleet_of
+
+
+@pytest.mark.long  # thousands of runs
+def test_no_example_does_what_no_run_may_do(capsys: pytest.CaptureFixture[str]) -> None:
+    """Struck at every row of its journal, by everything that can strike."""
+    code = campaign.main(["--seeds", "1"])
+    said = capsys.readouterr().out
+    assert code == 0, said
+    assert " 0 violations" in said
+
+
+def test_an_unknown_example_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    """A typing mistake tries nothing."""
+    with pytest.raises(SystemExit, match="2"):
+        campaign.main(["alfafa"])
+    assert "no such example: alfafa" in capsys.readouterr().err
+
+
+def test_no_random_app_does_what_no_run_may_do(capsys: pytest.CaptureFixture[str]) -> None:
+    """Two categories, actions of their own, links that are lost over a slow radio, and all the rest."""
+    code = strangers.main(["--apps", "40", "--cases", "3", "--drawn"])
+    said = capsys.readouterr().out
+    assert code == 0, said
+    assert "40 apps" in said and "0 apps with violations" in said
+
+
+def test_a_mistake_in_the_world_is_found_by_them_and_shown_as_it_is(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A link that is lost before the take-off, and a drone that rises all the same: free in the air."""
+
+    def lift_off(self: Body, now: float) -> None:
+        self._charge = self._charge.changing(now, -1.0 / self.drone.category.flight_time)
+        self._landed = False
+
+    async def takeoff(self: SimulatedNavigation, drone: str, height: float) -> None:
+        body, now = self.bodies[drone], self._kernel.now
+        body.check(now)
+        if body.landed:
+            x, y, _ = body.location
+            body.lift_off(now)
+            await self._move(body, (x, y, height), CLIMB_SPEED, "to take off")
+
+    monkeypatch.setattr(Body, "lift_off", lift_off)
+    monkeypatch.setattr(SimulatedNavigation, "takeoff", takeoff)
+    assert strangers.main(["--apps", "4", "--cases", "4", "--drawn"]) == 1
+    said = capsys.readouterr().out
+    shown = [part.split("Save that")[0] for part in said.split("--- app")[1:]]
+    assert shown
+    assert {part.count("is free in the air") >= 2 for part in shown} == {True}, said
+
+
+async def pollinate(drone: Drone, trip: Any, context: Context, *, dose: float) -> object:
+    """Set the dose, and shed it bit by bit."""
+    live = context.live(drone)
+    await live.write("pollen.left", dose)
+    while (left := await live.read("pollen.left")) > 0:
+        await context.sleep(0.5)
+        await live.write("pollen.left", max(0.0, left - dose / 3))
+    return await live.read("temperature")
+
+
+APP = example("alfalfa", {"pollinate": pollinate})
+FLEET = fleet_of("alfalfa", APP)
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_no_rule_is_broken_however_late_its_answers_are(seed: int) -> None:
+    """The line to the gateway is slow, or the radio; the app dies while it asks; and so on."""
+    trial = tried(APP, random_case(APP, FLEET, seed))
+    assert trial.wrong == ()
+
+
+def test_a_trial_does_not_depend_on_hashes() -> None:
+    """With a journal, faults, a crash and all that comes of it."""
+    one, two, three = hashes(missions=60, trips=2, drones=20)
+    assert one == two == three
