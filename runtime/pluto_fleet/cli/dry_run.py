@@ -230,7 +230,7 @@ class CommandLog(ForwardingControls):
     ) -> object:
         """Do one of the built-in actions here, and return what came of it."""
         given = [f"{name} = {tomlkit.item(one).as_string()}" for name, one in parameters.items()]
-        what = [*([text(item.name)] if item is not None else []), *given]
+        what = [*([] if item is None else [tomlkit.item(item.name).as_string()]), *given]
         self._note(drone, f"{action}, {', '.join(what)}" if what else action)
         return await self._controls.act(drone, action, parameters, item, job)
 
