@@ -29,8 +29,7 @@ from ..process.forked import deaf, in_children
 from ..process.ipc import listening
 from ..process.realtime import RealTime
 from ..simulation.drones import SimulatedNavigation
-from ..simulation.moments import this_moment
-from ..simulation.world_store import WorldStore
+from ..simulation.world_store import WorldStore, this_moment
 from .drone_lock import LEAVING, lock_drones
 from .gateway import Gateway
 from .ledger import FileLedger
