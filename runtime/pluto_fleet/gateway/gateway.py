@@ -1,7 +1,8 @@
 """Between the brain and its drones: every command passes here, and may outlive the brain that gave it.
 
 A brain commands through a `Link`. When another brain links, or the brain's heartbeat stays away, the
-old link is cut: it commands nothing any more, and hears nothing."""
+old link is cut: it commands nothing any more, and hears nothing.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
 """A journal's file: three tables with a checksum in every row, looked at before a row is taken from it.
 
-The page `docs/journal.md` says the same for other programs."""
+The page `docs/journal.md` says the same for other programs.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """What a journal says, event by event, of every mission: where each stands, and what it has done.
 
 The records are plain data: written down as JSON they are the journal's snapshot. One function an
-event; an event that is not here changes nothing that must survive."""
+event; an event that is not here changes nothing that must survive.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 """Keeps a simulated world on the disk, so that it is still there when its process is not.
 
 What drones do is one line of a file each, written the moment it happens. How they stand is another
-file, written anew at every change. Time passes also while no process runs: when it is read back, it has every
-drone where it has come to meanwhile."""
+file, written anew at every change. Time passes also while no process runs: read back, each drone is
+where it has come to meanwhile.
+"""
 
 from __future__ import annotations
 

@@ -5,7 +5,8 @@ rests on the way, and the last chooses first. Then the last chooses anew, again 
 few that are in its way, among all others.
 
 Times are only planned with, never relied upon: what comes of it is where each rests, and which waits for
-which. Since each waits only for drones that should have been there earlier, none waits for ever."""
+which. Since each waits only for drones that should have been there earlier, none waits for ever.
+"""
 
 from __future__ import annotations
 
