@@ -25,7 +25,6 @@ from plutoc_runtime.fleet.reach import CLIMB_SPEED
 from ..drones.protocol import Acts
 from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
-from ..files.values import text
 from ..flight.simulate import simulate
 from ..jobs.controls import ForwardingControls
 from ..report.report import exit_code, report, table
@@ -230,7 +229,7 @@ class CommandLog(ForwardingControls):
     ) -> object:
         """Do one of the built-in actions here, and return what came of it."""
         given = [f"{name} = {tomlkit.item(one).as_string()}" for name, one in parameters.items()]
-        what = [*([text(item.name)] if item is not None else []), *given]
+        what = [*([] if item is None else [tomlkit.item(item.name).as_string()]), *given]
         self._note(drone, f"{action}, {', '.join(what)}" if what else action)
         return await self._controls.act(drone, action, parameters, item, job)
 

@@ -1,5 +1,6 @@
 """What a fleet file may name, navigations and localizations: their methods as data, and what is
-said of a class that cannot be used."""
+said of a class that cannot be used.
+"""
 
 from __future__ import annotations
 

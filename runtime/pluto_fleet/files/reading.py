@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wording:
-    """What is said differently to whoever writes a file and to whoever never sees one."""
+    """What is said differently to the author of a file and to a user of the station."""
 
     called: Callable[[str], str]
     """What a key is called."""
@@ -78,7 +78,7 @@ class Document:
         return line_of(self._where, place)
 
     def problem(self, text: str, place: Place, who: str, near: Place) -> None:
-        """Something is wrong at this place; whoever reads a file finds it near another."""
+        """Something is wrong at this place; in a file it is found near another."""
         line = self.line(near)
         self.problems.append(Problem(place=place, who=who, text=text, line=line))
 
@@ -93,7 +93,7 @@ class Document:
 
 
 def shortened(lines: Sequence[str]) -> str:
-    """Join lines for a person: nobody reads the thousandth problem."""
+    """Join lines for a person, up to a number that can be read."""
     more = len(lines) - MOST_SHOWN
     if more <= 0:
         return "\n".join(lines)
@@ -136,11 +136,11 @@ def text_of(path: Path) -> str:
 
 
 def _opened(path: str, flags: int) -> int:
-    """Open a file without waiting: a pipe that nobody writes into is empty."""
+    """Open a file without waiting: a pipe without a writer is empty."""
     if not hasattr(os, "O_NONBLOCK"):
         return os.open(path, flags)
     descriptor = os.open(path, flags | os.O_NONBLOCK)
-    os.set_blocking(descriptor, True)  # one that somebody does write into is read to its end
+    os.set_blocking(descriptor, True)  # one with a writer is read to its end
     return descriptor
 
 

@@ -29,7 +29,7 @@ class LossyLine:
         """How many reports were late, and how many got lost."""
 
     def __call__(self, report: Report) -> Report:
-        """Return whoever hears reports over this line for somebody."""
+        """Return a listener that hears over this line, for another."""
         return partial(self._carry, report)
 
     def _carry(self, report: Report, result: object) -> None:

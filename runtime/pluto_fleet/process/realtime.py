@@ -134,7 +134,7 @@ class RealTime(Kernel):
     async def _answer(
         self, hook: Callable[..., object], call: Callable[[], object], result: Future[object]
     ) -> None:
-        """Wait for a hook, and post what it ends with, whatever that is."""
+        """Wait for a hook, and post its result or its error."""
         try:
             returned = call() if iscoroutinefunction(hook) else await self._in_thread(call)
             if issubclass(type(returned), CoroutineType):  # it may be anything

@@ -45,7 +45,7 @@ class Radio(ForwardingControls):
         return seconds
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, or is about to be told."""
+        """Stop what a drone does, or is about to be told."""
         order = self._orders.pop(drone, None)
         self._controls.break_off(drone)
         if order is not None:
