@@ -81,3 +81,12 @@ def _floats(numbers: Sequence[float]) -> list[float]:
 def _given(table: dict[str, Any]) -> dict[str, Any]:
     """Leave out what is not given."""
     return {key: value for key, value in table.items() if value is not None}
+
+
+def toml_value(value: object) -> str:
+    """Write one value on one line."""
+    if isinstance(value, dict):
+        table = tomlkit.inline_table()
+        table.update(value)
+        return table.as_string()
+    return tomlkit.item(value).as_string()
