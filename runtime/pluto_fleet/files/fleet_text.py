@@ -86,7 +86,8 @@ def _given(table: dict[str, Any]) -> dict[str, Any]:
 def toml_value(value: object) -> str:
     """Write one value on one line."""
     if isinstance(value, dict):
-        table = tomlkit.inline_table()
-        table.update(value)
-        return table.as_string()
+        pairs = [
+            f"{tomlkit.key(key).as_string()} = {toml_value(one)}" for key, one in value.items()
+        ]
+        return f"{{ {', '.join(pairs)} }}" if pairs else "{}"
     return tomlkit.item(value).as_string()

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import tomlkit
-
 from plutoc_runtime.domain.fields import Entity, FieldType
 from plutoc_runtime.domain.model import Mission, Trip
 from plutoc_runtime.domain.text import counted, in_shell, printable
