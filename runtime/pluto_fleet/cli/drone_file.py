@@ -14,8 +14,8 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import counted, number, place, printable
 
 from ..files.fleet import APART, CRAZYFLIE, fleet_of
-from ..files.fleet_text import toml_value
 from ..files.reading import parsed
+from ..files.toml import toml_value
 from .drone_status import heard
 
 if TYPE_CHECKING:

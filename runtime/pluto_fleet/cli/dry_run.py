@@ -23,7 +23,7 @@ from plutoc_runtime.fleet.reach import CLIMB_SPEED
 from ..drones.protocol import Acts
 from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
-from ..files.fleet_text import toml_value
+from ..files.toml import toml_value
 from ..flight.simulate import simulate
 from ..jobs.controls import ForwardingControls
 from ..report.report import exit_code, report, table

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-import tomlkit
-
 from .fleet import CRAZYFLIE, OWN
+from .toml import toml_text
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.fleet_data import WorldData
@@ -41,7 +40,7 @@ def fleet_text(fleet: FleetFile) -> str:
         "drone": [_drone(drone) for drone in fleet.drones],
         "world": None if fleet.world is None else _world(fleet.world),
     }
-    return tomlkit.dumps(_given(file))
+    return toml_text(_given(file))
 
 
 def _drone(drone: DroneEntry) -> dict[str, Any]:
@@ -81,13 +80,3 @@ def _floats(numbers: Sequence[float]) -> list[float]:
 def _given(table: dict[str, Any]) -> dict[str, Any]:
     """Leave out what is not given."""
     return {key: value for key, value in table.items() if value is not None}
-
-
-def toml_value(value: object) -> str:
-    """Write one value on one line."""
-    if isinstance(value, dict):
-        pairs = [
-            f"{tomlkit.key(key).as_string()} = {toml_value(one)}" for key, one in value.items()
-        ]
-        return f"{{ {', '.join(pairs)} }}" if pairs else "{}"
-    return tomlkit.item(value).as_string()

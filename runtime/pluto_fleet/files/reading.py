@@ -14,10 +14,10 @@ from plutoc_runtime.alone.toml import line_of_long_key
 from plutoc_runtime.domain.errors import BadInput
 
 from . import errors
-from .toml_places import Place, Places, line_of, places
+from .toml import Place, Places, line_of, places
 
 if TYPE_CHECKING:
-    from .toml_places import Place
+    from .toml import Place
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

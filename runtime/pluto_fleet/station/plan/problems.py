@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission, Trip
 
     from ...files.fleet import FleetFile
-    from ...files.toml_places import Place
+    from ...files.toml import Place
 
 
 _CALLED = {

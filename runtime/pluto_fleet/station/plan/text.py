@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.fields import Entity
 
-from ...files.fleet_text import toml_value
 from ...files.missions import missions_of
 from ...files.reading import parsed
+from ...files.toml import toml_value
 from ...files.values import numbers
 from .problems import as_in_a_file
 from .shape import Shape, fields_of, trips_of

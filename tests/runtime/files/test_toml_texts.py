@@ -7,7 +7,7 @@ import tomllib
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.files.toml_places import Place, line_of, places
+from pluto_fleet.files.toml import Place, line_of, places
 
 TEXT = '''# a comment with [[mission]] in it
 title = """

@@ -1,4 +1,4 @@
-"""Where the tables, keys and elements of a TOML text stand: `tomllib` does not tell.
+"""TOML texts: how values are written, and where tables, keys and elements stand, which `tomllib` does not tell.
 
 A path is made of keys and positions: `("mission", 0, "trip", 1, "action")`. The text is one that
 `tomllib` has accepted, so that this only follows its shape and checks nothing.
@@ -11,6 +11,8 @@ import tomllib
 from bisect import bisect_right
 from collections.abc import Mapping
 from contextlib import suppress
+
+import tomlkit
 
 Place = tuple[str | int, ...]
 Places = Mapping[Place, int]
@@ -140,3 +142,18 @@ class _Scanner:
 
     def _line(self) -> int:
         return bisect_right(self._starts, self._at)
+
+
+def toml_text(table: Mapping[str, object]) -> str:
+    """Write a whole file."""
+    return tomlkit.dumps(table)
+
+
+def toml_value(value: object) -> str:
+    """Write one value on one line."""
+    if isinstance(value, dict):
+        pairs = [
+            f"{tomlkit.key(key).as_string()} = {toml_value(one)}" for key, one in value.items()
+        ]
+        return f"{{ {', '.join(pairs)} }}" if pairs else "{}"
+    return tomlkit.item(value).as_string()
