@@ -14,8 +14,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-import tomlkit
-
 from plutoc_runtime import output
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
@@ -25,6 +23,7 @@ from plutoc_runtime.fleet.reach import CLIMB_SPEED
 from ..drones.protocol import Acts
 from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
+from ..files.fleet_text import value_text
 from ..flight.simulate import simulate
 from ..jobs.controls import ForwardingControls
 from ..report.report import exit_code, report, table
@@ -228,8 +227,8 @@ class CommandLog(ForwardingControls):
         job: str | None,
     ) -> object:
         """Do one of the built-in actions here, and return what came of it."""
-        given = [f"{name} = {tomlkit.item(one).as_string()}" for name, one in parameters.items()]
-        what = [*([] if item is None else [tomlkit.item(item.name).as_string()]), *given]
+        given = [f"{name} = {value_text(one)}" for name, one in parameters.items()]
+        what = [*([] if item is None else [value_text(item.name)]), *given]
         self._note(drone, f"{action}, {', '.join(what)}" if what else action)
         return await self._controls.act(drone, action, parameters, item, job)
 

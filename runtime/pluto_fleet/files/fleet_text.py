@@ -1,8 +1,8 @@
-"""A fleet as the file that a person would write."""
+"""Plan files and values as TOML that a person would write."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import tomlkit
@@ -14,6 +14,16 @@ if TYPE_CHECKING:
 
     from .drones import DroneEntry
     from .fleet import FleetFile
+
+
+def value_text(value: object) -> str:
+    """Return a value as TOML writes it."""
+    return tomlkit.item(value).as_string()
+
+
+def file_text(tables: Mapping[str, object]) -> str:
+    """Return a file with these tables."""
+    return tomlkit.dumps(tables)
 
 
 def fleet_text(fleet: FleetFile) -> str:
@@ -41,7 +51,7 @@ def fleet_text(fleet: FleetFile) -> str:
         "drone": [_drone(drone) for drone in fleet.drones],
         "world": None if fleet.world is None else _world(fleet.world),
     }
-    return tomlkit.dumps(_given(file))
+    return file_text(_given(file))
 
 
 def _drone(drone: DroneEntry) -> dict[str, Any]:

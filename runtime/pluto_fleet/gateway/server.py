@@ -18,7 +18,14 @@ from plutoc_runtime.time.kernel import FLEET, Task
 from ..jobs.reports import Down
 from ..process.ipc import Message, line, message_in
 from .gateway import Busy
-from .wire import MAX_COMMAND, drone_report_data, fleet_report_data, job_of, result_data, seen
+from .wire import (
+    MAX_COMMAND,
+    drone_report_data,
+    fleet_report_data,
+    job_of,
+    result_data,
+    seen,
+)
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
