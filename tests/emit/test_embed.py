@@ -27,11 +27,11 @@ Make = Callable[..., tuple[str, Callable[..., Any]]]
 
 @pytest.fixture
 def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Make:
-    """Return a function that makes a package of somebody else's, and loads its `scan/step.py`."""
+    """Return a function that makes another package of blocks, and loads its `scan/step.py`."""
     monkeypatch.syspath_prepend(tmp_path)
 
     def made(step: str, **others: str) -> tuple[str, Callable[..., Any]]:
-        name = f"somebodys_{next(NUMBERS)}"
+        name = f"others_{next(NUMBERS)}"
         (tmp_path / name / "scan").mkdir(parents=True)
         files = {"__init__": "", "scan/__init__": "", "scan/step": step}
         for path, text in {**files, **others}.items():
@@ -55,7 +55,7 @@ def test_modules_of_the_runtime_are_copied_byte_for_byte() -> None:
 
 
 def test_only_what_is_needed_is_carried() -> None:
-    """A block that nobody uses, and a policy that nobody chose, stay behind."""
+    """A block that is not used, and a policy that was not chosen, stay behind."""
     files = embed([carried(wait_for_time), carried(nearest)], ["plutoc_runtime.command"])
     blocks = [path for path in files if path.startswith("_runtime/blocks/")]
     policies = [path for path in files if path.startswith("_runtime/fleet/policies/")]

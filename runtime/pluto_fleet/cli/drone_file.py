@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 _ORIGIN = 0.05
-"""Metres from (0, 0): that near says who has just been switched on, and knows of no other place."""
+"""Metres from (0, 0): that near says a drone that has just been switched on and knows of no other place."""
 
 
 def write_fleet(app: App, path: Path, told: Sequence[DroneAnswer], navigation: str | None) -> None:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_LONG = 30.0
+_HOOK_BLOCKS_FOR = 30.0
 """Seconds that a hook takes that blocks."""
 
 
@@ -74,7 +74,7 @@ class UnreliableTime(VirtualTime):
             raise BrokenHook("by chance")
         if self._weather.block and self._chance.random() < self._weather.block:
             self._fired["hook blocking"] += 1
-            await self.sleep(_LONG)
+            await self.sleep(_HOOK_BLOCKS_FOR)
         result = await super().call_hook(hook, *args, **named)
         self._done(hook, args)
         return result

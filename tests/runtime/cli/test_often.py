@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.cli import runs as often
+from pluto_fleet.cli import runs
 from pluto_fleet.cli.runs import percentile, run_of
 from pluto_fleet.trials.invariants import Items
 from plutoc_runtime.alone.simulate import Outcome
@@ -81,7 +81,7 @@ def test_a_run_that_does_what_no_run_may_do_is_exit_70(
     missions: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It says what, with which seed, and how to see it again."""
-    monkeypatch.setattr(often, "run_of", twice)
+    monkeypatch.setattr(runs, "run_of", twice)
     code, out, _ = command("simulate", missions, "--runs", 2, "--fail", "crash=5%", "--seed", 3)
     assert code == 70
     assert "seed 3 did what no run may do: North ended 2 times\n" in out

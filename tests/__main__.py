@@ -1,0 +1,74 @@
+"""`python -m tests --help`: every campaign, every measure, and every command that rewrites what must come out."""
+
+from __future__ import annotations
+
+import sys
+
+REWRITES = {
+    "pytest tests/test_cases.py --update": "what must come out of tests/cases",
+    "pytest tests/emit --update": "the generated package that tests compare",
+    "pytest tests/plan --update": "the plans before and after each pass",
+    "pytest tests/cli/test_blocks.py --update": "the pages of the blocks",
+    "pytest tests/explain --update": "the list of diagnostics",
+    "pytest tests/examples/test_typed_pages.py --update": "what the tutorial shows of commands' output",
+    "pytest tests/navigation --update": "the code that the page on navigation shows",
+    "pytest tests/station/browser/test_every_page.py --update": "the pictures of the ground station",
+    "pytest tests/journal --update": "what kept journals come to, after a change of the records",
+    "python docs/tutorial/make_pictures.py": "the pictures and the quoted files in the pages",
+    "python -m tests.journal.keeping": "keep a journal as this version writes it, once a release",
+    "python -m tests.seam.packages": "keep a package of a new seam, once it is settled",
+}
+CAMPAIGNS = {
+    "python -m tests.as_before --seeds 100": "simulations print what they printed before packages became thin",
+    "python -m tests.format --mutants 2000": "format many layouts of every example",
+    "python -m tests.fuzz --minutes 10": "feed the compiler with odd input",
+    "python -m tests.soundness --random 2000": "hold the checks against an oracle; also without arguments: all mutants of the thesis's graphs",
+    "python -m tests.soundness --loops 5000 --fly 50": "the same for apps full of loops, and fly those that are accepted",
+    "python -m tests.mutations": "plant mistakes in the checks and the passes: each must be found",
+    "python -m tests.equivalence --graphs 10000": "hold optimised packages against plain ones, some ten minutes",
+    "python -m tests.trials.campaign --seeds 20": "strike all examples at every row of their journals, some ten minutes",
+    "python -m tests.trials.strangers --apps 200": "try random apps in all weathers, some ten minutes",
+    "python -m tests.kill --brain 500 --gateway 100": "kill the app and its gateway in real flights, some twenty minutes",
+    "python -m tests.kill.misbehaving --times 3": "let hooks misbehave in real flights under a supervisor",
+    "python -m tests.flights_crazyflie.campaign": "let each fault happen to a simulated Crazyflie, some twenty minutes",
+    "python -m tests.flights_crazyflie.examples": "fly every example with such Crazyflies, some ten minutes",
+    "python -m tests.flights_crazyflie.pauses": "land and take off again, after pauses of 0 to 6 s",
+}
+MEASURES = {
+    "python benchmarks/house.py": "how large the rooms are, and which import each other in a ring",
+    "python benchmarks/trip_path.py": "which files one trip enters, and how often it moves between them",
+    "python benchmarks/instructions.py": "a trip's instructions; --update keeps the new counts",
+    "python benchmarks/flow.py": "what a trip costs beside hand-written code; pip install -e '.[benchmarks]' first",
+    "python benchmarks/page.py": "write those figures into docs/benchmarks.md",
+    "python benchmarks/thesis_experiment.py": "the thesis's experiment in real time",
+    "python benchmarks/cold_start.py": "how long a command takes, in starts of an empty Python",
+    "python benchmarks/compile.py": "how long `compile` takes: anew, after an edit, for 10,000 blocks",
+    "python benchmarks/large_apps.py": "how the time of `check` grows from 1,000 blocks to 10,000",
+    "python benchmarks/allocation.py": "what it costs to choose drones, in large fleets and long queues",
+    "python benchmarks/traffic.py": "how near drones come to each other, and what keeping them apart costs",
+    "python benchmarks/station.py": "what it costs to watch a flight; needs Chromium",
+    "python benchmarks/journal.py": "what a journal costs, and how long going on from one takes",
+    "python benchmarks/crazyflie.py": "how long cflib holds up the event loop",
+    "python benchmarks/invariants.py": "how many missions a second are tried",
+}
+SECTIONS = {
+    "Rewrite, then read the diff": REWRITES,
+    "Campaigns: each must find nothing": CAMPAIGNS,
+    "Measures": MEASURES,
+}
+
+
+def listing() -> str:
+    """Return all of them, a line each."""
+    width = max(len(command) for commands in SECTIONS.values() for command in commands)
+    parts = []
+    for title, commands in SECTIONS.items():
+        parts.append(f"{title}:")
+        parts += [f"  {command:{width}}  {what}" for command, what in commands.items()]
+        parts.append("")
+    return "\n".join(["Each takes --help.", "", *parts])
+
+
+if __name__ == "__main__":
+    print(listing(), end="")
+    sys.exit(0 if sys.argv[1:] in ([], ["--help"], ["-h"]) else 2)
