@@ -20,7 +20,7 @@ from ..gateway.starting import cut_directly, stop_directly
 from ..jobs.reports import Down
 from ..journal.errors import missing
 from ..journal.lock import holder
-from ..journal.place import gateway_folder
+from ..journal.place import commands_note, gateway_folder
 from ..process.ipc import AnswerLost, NoAnswer, NotRunning, ask
 from ..report.report import waiting_lines
 
@@ -63,8 +63,8 @@ def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
     """Return what the running app says to a request."""
     journal = options.the_journal
     try:
-        return ask(note_of(journal), request, ANSWER_WITHIN)
-    except Nobody:
+        return ask(commands_note(journal), request, ANSWER_WITHIN)
+    except NotRunning:
         if not journal.exists():
             raise missing(journal) from None
         raise NotRunning(
@@ -137,9 +137,9 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     until = time.monotonic() + ANSWER_WITHIN
     while True:
         try:
-            return ask(note_of(journal), request, STOP_DIRECTLY_AFTER)
-        except (Nobody, Silent) as unheard:
-            with suppress(Nobody):
+            return ask(commands_note(journal), request, STOP_DIRECTLY_AFTER)
+        except (NotRunning, NoAnswer) as unheard:
+            with suppress(NotRunning):
                 said = stop_directly(gateway_folder(journal), how, ANSWER_WITHIN)
                 return f"{unheard}: {said} without it; {again} goes on"
         if holder(journal) is None:
@@ -159,7 +159,7 @@ def cut_motors(app: App, journal: Path, drone: str | None) -> str:
     while True:
         try:
             return cut_directly(gateway_folder(journal), drone, ANSWER_WITHIN)
-        except Nobody:
+        except NotRunning:
             if time.monotonic() > until:
                 break
         except NoAnswer:

@@ -17,8 +17,11 @@ if TYPE_CHECKING:
 
 
 def value_text(value: object) -> str:
-    """Return a value as TOML writes it."""
-    return tomlkit.item(value).as_string()
+    """Return a value as TOML writes it behind a key."""
+    if not isinstance(value, Mapping):
+        return tomlkit.item(value).as_string()
+    pairs = [f"{tomlkit.key(key).as_string()} = {value_text(one)}" for key, one in value.items()]
+    return f"{{ {', '.join(pairs)} }}" if pairs else "{}"
 
 
 def file_text(tables: Mapping[str, object]) -> str:

@@ -25,7 +25,7 @@ from ..journal import lock, place
 from ..journal.fold import Records
 from ..journal.header import header
 from ..journal.store import Store
-from ..process.ipc import NoAnswer
+from ..process.ipc import NoAnswer, NotRunning
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
@@ -321,7 +321,7 @@ class Station:
         folder = place.gateway_folder(self.session.journal)
         try:
             said = await asyncio.to_thread(cut_directly, folder, drone, GATEWAY_ANSWERS_WITHIN)
-        except Nobody:
+        except NotRunning:
             raise BadInput("nothing commands the drones now") from None
         except NoAnswer:
             raise BadInput("what commands the drones does not answer") from None
