@@ -14,7 +14,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import counted, number, place, printable
 
 from ..files.fleet import APART, CRAZYFLIE, fleet_of
-from ..files.fleet_text import value_text
+from ..files.fleet_text import toml_value
 from ..files.reading import parsed
 from .drone_status import heard
 
@@ -54,22 +54,22 @@ def _file(app: App, path: Path, there: Sequence[DroneAnswer], navigation: str) -
     yield "# Say below how large the room is, and see whether each drone has its home and category."
     yield ""
     yield "[map]"
-    yield f"size = {value_text([*airspace.size])}  # metres, from the place where positions are (0, 0)"
+    yield f"size = {toml_value([*airspace.size])}  # metres, from the place where positions are (0, 0)"
     yield f"ceiling = {number(airspace.ceiling)}  # nothing flies higher"
     if navigation != CRAZYFLIE:
         yield ""
         yield "[fleet]"
-        yield f"navigation = {value_text(navigation)}"
+        yield f"navigation = {toml_value(navigation)}"
     categories = cycle(category.name for category in app.categories)
     homes = _Homes(airspace)
     for index, (answer, category) in enumerate(zip(there, categories, strict=False), start=1):
         yield ""
         yield "[[drone]]"
         yield f'id = "cf{index}"'
-        yield f"category = {value_text(category)}{_choice(app)}"
+        yield f"category = {toml_value(category)}{_choice(app)}"
         yield homes.line(answer)
         if answer.asked.uri is not None:
-            yield f"uri = {value_text(answer.asked.uri)}"
+            yield f"uri = {toml_value(answer.asked.uri)}"
 
 
 def _choice(app: App) -> str:
@@ -91,10 +91,10 @@ class _Homes:
         said = round(x, 2) + 0.0, round(y, 2) + 0.0
         if dist(said, (0.0, 0.0)) > _ORIGIN and self._is_free(said):
             self._taken.append(said)
-            return f"home = {value_text([*said])}  # where it stood"
+            return f"home = {toml_value([*said])}  # where it stood"
         free = self._next_of_row()
         self._taken.append(free)
-        return f"home = {value_text([*free])}  # put it there: it said {place((*said, 0.0))}"
+        return f"home = {toml_value([*free])}  # put it there: it said {place((*said, 0.0))}"
 
     def _is_free(self, spot: Corner) -> bool:
         if self._airspace.problem((*spot, 0.0)) is not None:

@@ -23,7 +23,7 @@ from plutoc_runtime.fleet.reach import CLIMB_SPEED
 from ..drones.protocol import Acts
 from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
-from ..files.fleet_text import value_text
+from ..files.fleet_text import toml_value
 from ..flight.simulate import simulate
 from ..jobs.controls import ForwardingControls
 from ..report.report import exit_code, report, table
@@ -227,8 +227,8 @@ class CommandLog(ForwardingControls):
         job: str | None,
     ) -> object:
         """Do one of the built-in actions here, and return what came of it."""
-        given = [f"{name} = {value_text(one)}" for name, one in parameters.items()]
-        what = [*([] if item is None else [value_text(item.name)]), *given]
+        given = [f"{name} = {toml_value(one)}" for name, one in parameters.items()]
+        what = [*([] if item is None else [toml_value(item.name)]), *given]
         self._note(drone, f"{action}, {', '.join(what)}" if what else action)
         return await self._controls.act(drone, action, parameters, item, job)
 

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from .fleet import FleetFile
 
 
-def value_text(value: object) -> str:
+def toml_value(value: object) -> str:
     """Return a value as TOML writes it behind a key."""
     if not isinstance(value, Mapping):
         return tomlkit.item(value).as_string()
-    pairs = [f"{tomlkit.key(key).as_string()} = {value_text(one)}" for key, one in value.items()]
+    pairs = [f"{tomlkit.key(key).as_string()} = {toml_value(one)}" for key, one in value.items()]
     return f"{{ {', '.join(pairs)} }}" if pairs else "{}"
 
 

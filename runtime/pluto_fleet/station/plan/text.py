@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.fields import Entity
 
-from ...files.fleet_text import value_text
+from ...files.fleet_text import toml_value
 from ...files.missions import missions_of
 from ...files.reading import parsed
 from ...files.values import numbers
@@ -52,7 +52,7 @@ def _mission(app: App, mission: Shape) -> Iterator[str]:
 def _pairs(given: Mapping[str, object], keys: Sequence[str], indent: str) -> Iterator[str]:
     for key in keys:
         if key in given:
-            yield f"{indent}{key} = {value_text(given[key])}"
+            yield f"{indent}{key} = {toml_value(given[key])}"
 
 
 def _shape(given: Mapping[str, Any], number: str, app: App) -> Shape:
