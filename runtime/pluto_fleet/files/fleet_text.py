@@ -1,30 +1,18 @@
-"""Plan files and values as TOML that a person would write."""
+"""A fleet as the file that a person would write."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from .fleet import CRAZYFLIE, OWN
+from .toml import toml_text
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.fleet_data import WorldData
 
     from .drones import DroneEntry
     from .fleet import FleetFile
-
-
-def toml_value(value: object) -> str:
-    """Return a value as TOML writes it behind a key."""
-    if not isinstance(value, Mapping):
-        return tomlkit.item(value).as_string()
-    pairs = [f"{tomlkit.key(key).as_string()} = {toml_value(one)}" for key, one in value.items()]
-    return f"{{ {', '.join(pairs)} }}" if pairs else "{}"
-
-
-def file_text(tables: Mapping[str, object]) -> str:
-    """Return a file with these tables."""
-    return tomlkit.dumps(tables)
 
 
 def fleet_text(fleet: FleetFile) -> str:
@@ -52,7 +40,7 @@ def fleet_text(fleet: FleetFile) -> str:
         "drone": [_drone(drone) for drone in fleet.drones],
         "world": None if fleet.world is None else _world(fleet.world),
     }
-    return file_text(_given(file))
+    return toml_text(_given(file))
 
 
 def _drone(drone: DroneEntry) -> dict[str, Any]:

@@ -279,7 +279,7 @@ class TrialRecord:
         """A hook has returned: if it is an action of the app's own, that was done."""
         if any(action.hook is hook for action in self._app.actions.values()):
             context: Any = args[2]
-            flight = context._state.flight
+            flight = context._latest()
             self.did(flight.id, flight.trip.action, now)
 
     def answer(self, name: str, records: Records) -> str:
