@@ -34,7 +34,7 @@ from .preflight import check_real, made
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from plutoc_runtime.alone.simulate import Outcome
+    from plutoc_runtime.alone.simulate import SimulationResult
 
     # was an import of itself
     from plutoc_runtime.domain.actions import Plain
@@ -130,7 +130,9 @@ def _refuse_what_does_not_go_together(options: Options) -> None:
             raise BadInput(f"{flag} is for a flight, and --dry-run is none: leave one out")
 
 
-def _lines(plan: LoadedPlan, outcome: Outcome, commands: Sequence[LoggedCommand]) -> Iterator[str]:
+def _lines(
+    plan: LoadedPlan, outcome: SimulationResult, commands: Sequence[LoggedCommand]
+) -> Iterator[str]:
     yield from table(
         ("time", "drone", "command", "to", "at most"),
         [

@@ -14,10 +14,10 @@ from plutoc_runtime.alone.toml import line_of_long_key
 from plutoc_runtime.domain.errors import BadInput
 
 from . import errors
-from .toml import Place, Places, line_of, places
+from .toml import TomlLines, TomlPath, line_of, places
 
 if TYPE_CHECKING:
-    from .toml import Place
+    from .toml import TomlPath
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,7 +51,7 @@ MOST_SHOWN = 50
 class Problem:
     """Something that is wrong with a plan."""
 
-    place: Place
+    place: TomlPath
     who: str
     """How a message calls what it is about."""
     text: str
@@ -67,17 +67,17 @@ class Document:
     """A parsed plan and what is wrong with it: all of it, told in one go."""
 
     def __init__(
-        self, path: str, data: dict[str, object], where: Places, words: Wording = IN_A_FILE
+        self, path: str, data: dict[str, object], where: TomlLines, words: Wording = IN_A_FILE
     ) -> None:
         self.path, self.data, self.words = path, data, words
         self.problems: list[Problem] = []
         self._where = where
 
-    def line(self, place: Place) -> int | None:
+    def line(self, place: TomlPath) -> int | None:
         """Return the line of what has this path."""
         return line_of(self._where, place)
 
-    def problem(self, text: str, place: Place, who: str, near: Place) -> None:
+    def problem(self, text: str, place: TomlPath, who: str, near: TomlPath) -> None:
         """Something is wrong at this place; in a file it is found near another."""
         line = self.line(near)
         self.problems.append(Problem(place=place, who=who, text=text, line=line))
@@ -161,7 +161,7 @@ class Table:
     """One table of the file, and how a message calls it."""
 
     def __init__(
-        self, document: Document, data: Mapping[str, object], place: Place = (), who: str = ""
+        self, document: Document, data: Mapping[str, object], place: TomlPath = (), who: str = ""
     ) -> None:
         self.document, self.data, self.place, self.who = document, data, place, who
 

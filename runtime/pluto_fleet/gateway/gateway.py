@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Task
+from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel, Task
 
 from ..jobs.controls import FleetDrone
 from ..jobs.reports import Down, DroneReport, FleetReport
@@ -209,7 +209,7 @@ class Link:
             self._navigation.break_off(drone)
         if self._lost is not None:
             kernel = self._gateway.kernel
-            kernel.schedule(kernel.now, Kind.FLIGHT, FLEET, self._lost)
+            kernel.schedule(kernel.now, EventKind.FLIGHT, FLEET, self._lost)
 
 
 async def _for_ever() -> NoReturn:
@@ -326,7 +326,7 @@ class Gateway:
             due = self.kernel.now + patience
             if self.descent is None and self.flies:
                 self.fail_safe(Down.LAND)
-        self.kernel.schedule(due, Kind.CLOCK, FLEET, partial(self._watch, patience))
+        self.kernel.schedule(due, EventKind.CLOCK, FLEET, partial(self._watch, patience))
 
     def fail_safe(self, how: Down) -> Task[None]:
         """Bring all drones down without the brain, which is cut off."""

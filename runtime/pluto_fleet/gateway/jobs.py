@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import Kernel, Key, Kind
+from plutoc_runtime.time.kernel import EventKind, Kernel, Key
 
 from ..jobs.job import Report
 from ..jobs.reports import DroneReport, Entry, JobState, reported_result
@@ -302,7 +302,7 @@ class Jobs:
                 self._ledger.write(job)
 
     def _post(self, drone: str, call: Callable[[], object]) -> None:
-        self._kernel.schedule(self._kernel.now, Kind.FLIGHT, self._keys[drone], call)
+        self._kernel.schedule(self._kernel.now, EventKind.FLIGHT, self._keys[drone], call)
 
 
 def _done(id: str, drone: DroneReport) -> Entry:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import FLEET, EventKind
 
 if TYPE_CHECKING:
     from ..jobs.job import Report
@@ -41,7 +41,7 @@ class LossyLine:
             self.late += 1
             kernel, link = self._gateway.kernel, self._gateway.commander
             arrives = partial(self._arrive, link, report, result)
-            kernel.schedule(kernel.now + seconds, Kind.FLIGHT, FLEET, arrives)
+            kernel.schedule(kernel.now + seconds, EventKind.FLIGHT, FLEET, arrives)
         else:
             report(result)
 

@@ -19,7 +19,7 @@ from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import printable
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import FLEET, EventKind
 
 from ..drones.real_fleet import SLACK
 from ..jobs.reports import Down
@@ -112,7 +112,7 @@ class Ending:
                 self.goodbye()
         if self._alone > (self._idle if self._told is None else 0.0):
             self._over.set(None)
-        kernel.schedule(kernel.now + self._second, Kind.CLOCK, FLEET, self.look)
+        kernel.schedule(kernel.now + self._second, EventKind.CLOCK, FLEET, self.look)
 
 
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"

@@ -21,7 +21,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import place
 from plutoc_runtime.fleet.reach import CLIMB_SPEED, grip_problem
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import Kernel, Kind
+from plutoc_runtime.time.kernel import EventKind, Kernel
 
 from ..jobs.job import motors_cut
 from .body import Body, SimulatedDrone
@@ -281,7 +281,7 @@ class SimulatedNavigation:
             return
         over: Future[None] = Future()
         body.command, body.over = command, over
-        timer = self._kernel.at(until, Kind.FLIGHT, body.key, partial(over.set, None))
+        timer = self._kernel.at(until, EventKind.FLIGHT, body.key, partial(over.set, None))
         try:
             await over
         except BaseException:  # no longer wanted

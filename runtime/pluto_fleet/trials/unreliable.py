@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from plutoc_runtime.domain.errors import Cancelled, FlightFailed
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Key, Kind, Task, Timer
+from plutoc_runtime.time.kernel import FLEET, EventKind, Key, Task, Timer
 from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Link
@@ -57,7 +57,7 @@ class UnreliableTime(VirtualTime):
             task.drop()
         return task
 
-    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], object]) -> Timer:
+    def at(self, when: float, kind: EventKind, key: Key, call: Callable[[], object]) -> Timer:
         """Call this at a time, or a little later."""
         late = self._weather.late
         if late and when > self.now and self._chance.random() < late:
@@ -189,7 +189,9 @@ class UnreliableLink(Link):
         if self._slow:
             self._fired["slow line"] += 1
             now = self._world.now
-            self._world.schedule(now + self._slow, Kind.FLIGHT, FLEET, partial(self._go, message))
+            self._world.schedule(
+                now + self._slow, EventKind.FLIGHT, FLEET, partial(self._go, message)
+            )
         else:
             self._go(message)
 

@@ -15,7 +15,7 @@ import pytest
 from pluto_fleet.cli import runs
 from pluto_fleet.cli.runs import percentile, run_of
 from pluto_fleet.trials.invariants import Items
-from plutoc_runtime.alone.simulate import Outcome
+from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain.trace import Event
 from tests.runtime.cli.conftest import Command
 
@@ -69,7 +69,7 @@ def test_the_same_runs_are_the_same_text(missions: Path, command: Command) -> No
     assert command(*flags) == command(*flags)
 
 
-def twice(seed: int, outcome: Outcome, items: Items) -> Any:
+def twice(seed: int, outcome: SimulationResult, items: Items) -> Any:
     """Let the mission that ended last end once more."""
     end: Event = next(
         event for event in reversed(outcome.events) if event["event"] == "mission.ended"

@@ -7,7 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Timer
+from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel, Timer
 
 from .reservations import Reservation, box_of, meets, nearest
 from .wait_queue import Obstacle, Wait
@@ -173,7 +173,7 @@ class Traffic:
         self._free[drone] = None
 
     def _look_at(self, when: float, look: Callable[[], None]) -> Timer:
-        return self._kernel.at(when, Kind.CLOCK, FLEET, look)
+        return self._kernel.at(when, EventKind.CLOCK, FLEET, look)
 
     def _look_at_some(self) -> None:
         """Give what they can get to those that waited for a drone that has gone."""
