@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import sys
 from collections.abc import Callable
 from importlib import import_module
@@ -13,7 +14,7 @@ import pytest
 
 import plutoc_runtime
 from plutoc.emit.embed import Carried, embed
-from plutoc.emit.modules import EmbedError
+from plutoc.emit.modules import EmbedError, import_statements, imports_from, is_standard, load
 from plutoc.registry import STD
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.gate_fifo.step import pass_first
@@ -178,3 +179,23 @@ def test_a_step_must_be_a_function_that_can_be_imported(make: Make) -> None:
     _, scan = make("def maker():\n    def inner(): ...\n    return inner\n\n\nscan = maker()\n")
     with pytest.raises(EmbedError, match="at the top of its module"):
         embed([carried(scan, "survey")], [])
+
+
+@pytest.mark.parametrize("path", sorted(RUNTIME.rglob("*.py")), ids=lambda path: path.stem)
+def test_every_import_of_the_runtime_is_found(path: Path) -> None:
+    """They are read off the text: Python's own reader finds the same, and no plain import of others."""
+    name = ".".join((RUNTIME.name, *path.relative_to(RUNTIME).with_suffix("").parts))
+    module = load(name.removesuffix(".__init__"))
+    assert module is not None
+    read = {(one.target, one.names, one.line) for one in imports_from(module)}
+    parsed = set()
+    for node in import_statements(module.text):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = module.package.split(".")[: len(module.package.split(".")) - node.level + 1]
+            target = ".".join([*base, node.module] if node.module else base)
+            parsed.add((target, tuple(alias.name for alias in node.names), node.lineno))
+        elif isinstance(node, ast.ImportFrom):
+            assert is_standard(node.module or "")
+        else:
+            assert all(is_standard(alias.name) for alias in node.names)
+    assert read == parsed
