@@ -1,4 +1,4 @@
-"""No two processes command one drone, wherever the folders of their journals are are are."""
+"""No two processes command one drone, wherever the folders of their journals are are are are."""
 
 from __future__ import annotations
 

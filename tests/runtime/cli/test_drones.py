@@ -47,7 +47,7 @@ uri = "fake://4"
 
 @pytest.fixture(autouse=True)
 def _drones(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
-    """Let some drones be there, and nobody wait for those that are not."""
+    """Let some drones be there, and let those that are not there not be waited for."""
     monkeypatch.setattr(drone_status, "CONNECT_WITHIN", 0.2)
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
