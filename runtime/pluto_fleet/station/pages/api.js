@@ -3,7 +3,7 @@
 
 import { bell, freeName, newKey } from "./dom.js";
 
-const NOBODY = "The station does not answer.";
+const SILENT = "The station does not answer.";
 const TOKEN = "pluto-token";
 
 export const wait = (time) => new Promise((done) => setTimeout(done, time));
@@ -36,17 +36,17 @@ async function request(method, path, body, type = "application/json", timeout = 
     const signal = AbortSignal.timeout(timeout);
     answer = await fetch(path, { method, headers, body, signal, cache: "no-store" });
   } catch {
-    throw trouble(NOBODY, 0);
+    throw trouble(SILENT, 0);
   }
   if (answer.ok || answer.status === 409) return answer; // 409 says how things stand
   const { said } = await answer.json().catch(() => ({}));
-  throw trouble(said ?? NOBODY, answer.status);
+  throw trouble(said ?? SILENT, answer.status);
 }
 
 export async function send(method, path, content, type, timeout) {
   const body = typeof content === "string" ? content : JSON.stringify(content);
   const answer = await request(method, path, body, type, timeout);
-  const data = await answer.json().catch(() => { throw trouble(NOBODY, 0); });
+  const data = await answer.json().catch(() => { throw trouble(SILENT, 0); });
   return { status: answer.status, data };
 }
 
@@ -223,8 +223,8 @@ export function liveFeed() {
   return live;
 }
 
-// The plan that everybody draws together. Changes are functions from missions to missions that find
-// what they change by key: seen at once, saved by themselves; where somebody was quicker, on top of
+// The plan that all users draw together. Changes are functions from missions to missions that find
+// what they change by key: seen at once, saved by themselves; where another user was quicker, on top of
 // theirs; without a connection, later.
 const TYPING = 300; // ms
 const BETWEEN = 120; // two savings, also while a pin is dragged
@@ -274,9 +274,9 @@ export function planKept() {
       const other = theirs.get(at);
       if (value === was.get(at)) continue;
       if (now.get(at) !== value) {
-        said.push(`You wrote “${value}”, but somebody else has removed or started that meanwhile.`);
+        said.push(`You wrote “${value}”, but another user has removed or started that meanwhile.`);
       } else if (![was.get(at), value, lost.get(at)].includes(other)) {
-        said.push(`Somebody else wrote “${other ?? ""}” while you wrote “${value}” there. `
+        said.push(`Another user wrote “${other ?? ""}” while you wrote “${value}” there. `
           + "The plan has yours now.");
       }
     }

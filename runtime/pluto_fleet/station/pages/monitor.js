@@ -26,7 +26,7 @@ function droneMark(floor, { id }, choose) {
   const points = [];
   const show = ({ x, y, status, seen, battery: charge }, time) => {
     element.style.display = trail.style.display = x === null ? "none" : "";
-    if (x === null) return; // nobody knows where it is
+    if (x === null) return; // its place is unknown
     const last = points.at(-1);
     if (!last || last[1] !== x || last[2] !== y) floor.move(element, x, y);
     if (!last || Math.hypot(x - last[1], y - last[2]) >= APART) points.push([time, x, y]);
@@ -184,7 +184,7 @@ function droneList(context, chosen) {
 }
 
 const WIDE = matchMedia("(min-width: 1160px)");
-const OFTEN = 250; // ms: what nobody reads ten times a second is written so often
+const OFTEN = 250; // ms: what need not be read ten times a second is written so often
 
 // Which mission is looked at: the table, the map and the graph show the same.
 function choice({ plan, selected }) {
@@ -324,7 +324,7 @@ export function monitor(context) {
 const LIT = 2500; // ms that an edge stays lit after a mission took it
 const SEATS = 6; // tokens at a block; of more, the others are counted
 const SIZE = 20;
-const FOLLOWED = 30; // missions: of more, nobody could follow one, so none glides
+const FOLLOWED = 30; // missions: of more, a user could not follow one, so none glides
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const HINT = "Numbers are missions. Point at a block, or press it, to read what it does.";
 
