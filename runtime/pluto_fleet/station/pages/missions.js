@@ -308,7 +308,7 @@ const keys = (...names) => names.map((name) => [h("kbd", { class: "key" }, name)
 export const help = () => ({
   element: h("div", { class: "help" },
     part("From a plan to a flight", STEPS, "Nothing flies before Start is pressed. When you close this page, the missions fly "
-      + "on; every browser that opens the station sees the same."),
+      + "on; every browser sees the same."),
     part("Stopping", [
       ["Stop: fly home", "All drones fly back to where they started, and land there."],
       ["Stop: land now", "All drones land where they are, also after the other Stop."],
