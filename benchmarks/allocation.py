@@ -4,7 +4,7 @@
 which one of the free drones is chosen, by policy and by how many they are.
 *All at once*: milliseconds in which `batch_optimal` shares drones out. *The queue*: whole plans, of
 which most missions wait; seconds of CPU, and how much more a mission costs than in the first plan.
-Drones that must charge between flights are measured apart: somebody waits whom they can serve soon.
+Drones that must charge between flights are measured apart: there, a mission that waits can be served soon.
 
 The parts of a row run in turns, round after round; the least time of each counts. With `--json` the
 numbers come as JSON.
@@ -105,7 +105,7 @@ def trips(count: int, over: int) -> list[Trip]:
 
 
 def anyone(drone: Drone) -> bool:
-    """Refuse nobody."""
+    """Accept every drone."""
     return True
 
 

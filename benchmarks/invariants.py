@@ -5,7 +5,7 @@
 A thousand missions of three trips fly in virtual time. Every instant is a row of a journal, flights
 fail and are flown again, the brain crashes once and goes on, and every event is held against
 what no run may do. Times are those of the CPU, the best of some runs. The trace has the same hash
-whatever the seed of Python's own hashes: `--hash` prints it.
+for every seed of Python's own hashes: `--hash` prints it.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 `python benchmarks/station.py` serves a compiled app in real time with simulated drones: 50 drones fly,
 200 missions want them, and three browsers look at the Monitor. It prints how much of a core the
-server takes with nobody and with three looking, how much of its main thread each browser, how old
+server takes without and with three browsers, how much of its main thread each browser, how old
 what they show is, what a client costs that asks and never reads, and how long one waits for the
 first paint. Needs Chromium, and what the extra `test` installs. Linux only: it reads /proc.
 """
@@ -133,7 +133,7 @@ def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
             airborne(server, given.drones)
             time.sleep(min(SETTLE, given.seconds))
             gateway = server.gateway()
-            tell({"server, nobody looks, %": share(lambda: server.used, given.seconds)})
+            tell({"server, no browser, %": share(lambda: server.used, given.seconds)})
             if gateway is not None:
                 tell({"gateway, %": share(lambda: seconds_of(gateway), given.seconds)})
             with browser() as found:

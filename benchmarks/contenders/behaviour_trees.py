@@ -51,7 +51,7 @@ class Fleet:
             heappush(self.waiting, (-m.priority, self.seq, m))
 
     def release(self, drone: int) -> None:
-        """Hand a drone to whoever waits, or keep it."""
+        """Hand a drone to the next that waits, or keep it."""
         if self.waiting:
             heappop(self.waiting)[2].drone = drone
         else:

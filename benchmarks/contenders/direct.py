@@ -83,7 +83,7 @@ class Runtime:
             self.loop.call_at(timers[0][0], self.tick)
 
     def release(self, drone: int) -> None:
-        """Hand a drone to whoever waits, or keep it."""
+        """Hand a drone to the next that waits, or keep it."""
         if self.waiting:
             self.loop.call_soon(self.step, heappop(self.waiting)[2], drone)
         else:

@@ -25,7 +25,7 @@ class Fleet:
         return await turn
 
     def release(self, drone: int) -> None:
-        """Hand a drone to whoever waits, or keep it."""
+        """Hand a drone to the next that waits, or keep it."""
         if self.waiting:
             heappop(self.waiting)[2].set_result(drone)
         else:

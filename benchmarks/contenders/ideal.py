@@ -84,7 +84,7 @@ class Fleet:
         self.seq = 0
 
     def release(self, drone: int) -> None:
-        """Hand a drone to whoever waits, or keep it."""
+        """Hand a drone to the next that waits, or keep it."""
         if self.waiting:
             heappop(self.waiting)[2].set_result(drone)
         else:

@@ -65,7 +65,7 @@ class Journal:
 
 
 class Listener:
-    """Somebody who wants to know what happens."""
+    """Counts the events that it hears."""
 
     def __init__(self) -> None:
         self.heard = 0

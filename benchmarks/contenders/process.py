@@ -17,7 +17,7 @@ from .work import Done, Work, expected
 
 STATUS = Path("/proc/self/status")
 MARK = os.getppid
-"""Costs next to nothing, and is called by nobody else: valgrind counts between two calls of it."""
+"""Costs next to nothing, and is called nowhere else: valgrind counts between two calls of it."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -37,7 +37,7 @@ class Notes:
             self.gaps.append(now - self.down.pop(drone))
 
     def landed(self, drone: int | str, now: float) -> None:
-        """A drone has landed: nobody knows it yet."""
+        """A drone has landed, which is not reported yet."""
         self.down[drone] = now
 
 

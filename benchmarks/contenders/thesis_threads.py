@@ -2,7 +2,7 @@
 
 A thread for each mission, for each trip, and for each block that a mission enters: a block's
 `update` starts a thread that does the block's work and then tells those that observe it. Nothing
-polls: whoever waits is woken. The mission is shared by its branches; the gate remembers which trips
+polls: a thread that waits is woken. The mission is shared by its branches; the gate remembers which trips
 have passed.
 """
 

@@ -63,7 +63,7 @@ def fails(mission: int, trip: int, attempt: int) -> bool:
 
 
 def expected(work: Work) -> Done:
-    """Return what must come of it, whoever does it."""
+    """Return what every contender must come to."""
     failed = 0
     for mission in range(work.missions):
         for trip in range(work.trips):

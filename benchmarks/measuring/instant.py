@@ -160,7 +160,7 @@ class Instant:
         """Land."""
 
     def mended(self, drone: str) -> None:
-        """Nobody was lost."""
+        """Do nothing: no drone is ever lost."""
 
     async def recover(self, drone: str) -> bool:
         """Come home."""

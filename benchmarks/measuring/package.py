@@ -10,7 +10,7 @@ from .rounds import HOME, environment
 
 
 def compiled(folder: Path, *options: str) -> Path:
-    """Compile the flow as anybody would, and return where its package is imported from."""
+    """Compile the flow from the command line, and return where its package is imported from."""
     command = [sys.executable, "-m", "plutoc", "compile", str(HOME / "flow" / "app.pluto")]
     done = subprocess.run(
         [*command, "-o", str(folder), *options],

@@ -1,6 +1,6 @@
 """Rounds: in each, every case runs once, and each round begins with another case.
 
-So whatever disturbs the machine disturbs all of them alike, and none always runs first.
+So a disturbance of the machine affects all of them alike, and none always runs first.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ SIDE = 60.0
 """Metres of the field, each way."""
 
 TRIPS = 4
-"""Of each mission: more than anybody flies while this is measured."""
+"""Of each mission: more than are flown while this is measured."""
 
 
 def fleet(drones: int) -> str:
@@ -67,7 +67,7 @@ def _trip(mission: int, trip: int) -> dict[str, object]:
 
 
 def compiled(folder: Path) -> Path:
-    """Compile the app as anybody would, and return where its package is imported from."""
+    """Compile the app from the command line, and return where its package is imported from."""
     (folder / "watched.pluto").write_text(SOURCE)
     compiler = [sys.executable, "-m", "plutoc", "compile", str(folder / "watched.pluto")]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}

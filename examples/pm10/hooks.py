@@ -49,7 +49,7 @@ def follow_gradients(mission: Mission, results: Results) -> Verdict:
 
     The gradients lie between the samples of all missions, so the map grows finer where the dust
     is, and stays coarse where there is none. Each mission adds a few trips and no more: the
-    drones come home in the end, whatever the wind does.
+    drones come home in the end, in any wind.
     """
     samples = [
         Sample(result.trip.target, result.value)

@@ -67,7 +67,7 @@ def _said_there(path: str) -> str:
     return "or in `hooks.py` if it is code of your own"
 
 
-def somebody_elses_file(place: Place, path: str) -> Diagnostic:
+def foreign_file(place: Place, path: str) -> Diagnostic:
     """A file that we never wrote, where one of ours would go."""
     return error(
         "P4002",

@@ -113,7 +113,7 @@ def compare(
                 text = None if old is None else old.decode("utf-8", "replace")
                 files.append(Change(path=path, before=text, after=after))
             elif path in package.owned and path not in recorded:
-                found.append(errors.somebody_elses_file(place, str(folder / path)))
+                found.append(errors.foreign_file(place, str(folder / path)))
             else:
                 text = (old or b"").decode("utf-8", "replace")
                 if sides(old or b"") is None:

@@ -85,7 +85,7 @@ def edge_twice(
 
 
 def too_many_edges(source: Source, span: Span, most: int) -> Diagnostic:
-    """Brackets that make more edges than anybody can mean."""
+    """Brackets that make more edges than can be meant."""
     return error(
         "P1039",
         f"an app has at most {most:,} edges, and with these it has more",

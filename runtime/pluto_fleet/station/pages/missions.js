@@ -326,7 +326,7 @@ export const help = () => ({
         + "the view"],
     ]),
     token() && h("section", { class: "card stack" }, h("h2", {}, "This browser knows the token"),
-      h("p", {}, "Everybody who uses it can command this station."),
+      h("p", {}, "Every user of it can command this station."),
       h("div", {}, button("Forget the token", () => {
         forgetToken();
         location.reload();
