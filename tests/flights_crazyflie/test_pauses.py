@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.flights_crazyflie.pauses import SimulationResult, pauses, sweep
+from tests.flights_crazyflie.pauses import Outcome, pauses, sweep
 from tests.flights_crazyflie.team import no_thread_is_left
 
 pytest.importorskip("cflib")
@@ -24,7 +24,7 @@ def test_however_long_the_pause_after_a_landing_is_the_next_take_off_is_flown(
 ) -> None:
     """By drones that arm on request, and by those that arm by themselves, all at once."""
 
-    async def both() -> Sequence[Sequence[SimulationResult]]:
+    async def both() -> Sequence[Sequence[Outcome]]:
         return await asyncio.gather(
             *(sweep(AROUND, len(AROUND), tmp_path, auto_arm=alone) for alone in (False, True))
         )

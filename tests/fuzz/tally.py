@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from tests.fuzz.trial import SimulationResult
+from tests.fuzz.trial import Outcome
 
 WRITTEN_EVERY = 25
 """Every so many-th app that is accepted is written to the disk as well."""
@@ -23,7 +23,7 @@ class Tally:
     """How many inputs got a code, at least once."""
     hooks: Counter[str] = field(default_factory=Counter)
 
-    def add(self, outcome: SimulationResult) -> None:
+    def add(self, outcome: Outcome) -> None:
         """Count one."""
         self.made[outcome.way] += 1
         self.accepted[outcome.way] += not outcome.codes
