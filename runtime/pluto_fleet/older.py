@@ -79,7 +79,7 @@ def _of_former_blocks() -> dict[str, object]:
     from plutoc_runtime.flow.own_action import OwnAction
     from plutoc_runtime.flow.run import Run
 
-    type.__setattr__(Run, "context", property(context_of))
+    type.__setattr__(Run, "context", property(context_of))  # what `run.context` was
     return {"Action": OwnAction, "launch": _launch, "watch": _watch}
 
 
