@@ -26,7 +26,7 @@ from pluto_fleet.journal.fold import Records, replayed
 from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import FLEET, EventKind
 from plutoc_runtime.time.virtual import VirtualTime
 
 HEADER = {"event": "journal.begun", "app": APP.name}
@@ -103,7 +103,7 @@ def written(path: Path, missions: int) -> int:
         def add(self, row: str) -> int:
             rows.append(row)
             kernel.schedule(
-                kernel.now, Kind.READY, FLEET, partial(life.recorder.durable, len(rows))
+                kernel.now, EventKind.READY, FLEET, partial(life.recorder.durable, len(rows))
             )
             return len(rows)
 

@@ -52,7 +52,9 @@ class Figures:
 
     def __str__(self) -> str:
         an_hour = 3600 * self.trips / self.simulated
-        near = "no drones near each other" if self.nearest == inf else f"nearest {self.nearest:.3f} m"
+        near = (
+            "no drones near each other" if self.nearest == inf else f"nearest {self.nearest:.3f} m"
+        )
         return f"{near}, {an_hour:.0f} trips an hour, {1e6 * self.cpu / self.trips:.0f} µs of CPU a trip"
 
 

@@ -21,7 +21,7 @@ from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.trace import Event
 
 if TYPE_CHECKING:
-    from plutoc_runtime.alone.simulate import Outcome
+    from plutoc_runtime.alone.simulate import SimulationResult
     from plutoc_runtime.domain.model import Mission
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -38,7 +38,7 @@ MISHAPS = {"crash": 0.10, "link": 0.05, "action": 0.05}
 class Flown:
     """What came of one run."""
 
-    outcome: Outcome
+    outcome: SimulationResult
     trace: Sequence[Event]
 
     @property

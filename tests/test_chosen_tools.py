@@ -9,6 +9,7 @@ from typing import Any
 
 import black
 import jinja2
+import lark
 import networkx as nx
 import pytest
 
@@ -16,6 +17,8 @@ from cold_start import SOUND
 from plutoc.cli import main
 
 CHOSEN: dict[str, tuple[object, str]] = {
+    "Lark: tokens": (lark.Lark, "lex"),
+    "Lark: parser": (lark.Lark, "parse_interactive"),
     "networkx: reachability": (nx, "bfs_layers"),
     "networkx: components": (nx, "strongly_connected_components"),
     "networkx: loops that nothing leaves": (nx, "attracting_components"),

@@ -17,7 +17,7 @@ from .work import Work, fails
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
-    from plutoc_runtime.time.kernel import Kernel, Kind
+    from plutoc_runtime.time.kernel import EventKind, Kernel
     from plutoc_runtime.trips.flight import Flight
 
 HOME: Point = (1.0, 1.0, 0.0)
@@ -113,7 +113,7 @@ class ThroughTheKernel(Still):
     """Reports in virtual time: at this instant, when its turn comes."""
 
     def __init__(
-        self, crash: Exception, kernel: Kernel, kind: Kind, key: Callable[[int], int]
+        self, crash: Exception, kernel: Kernel, kind: EventKind, key: Callable[[int], int]
     ) -> None:
         super().__init__(crash, kernel)
         self.kind, self.key = kind, key

@@ -148,7 +148,7 @@ def in_virtual_time(given: argparse.Namespace, work: Work) -> Done:
     """Fly in a simulation."""
     kernel = runtime("plutoc_runtime.time.virtual").VirtualTime()
     events = runtime("plutoc_runtime.time.kernel")
-    navigation = ThroughTheKernel(crash(), kernel, events.Kind.FLIGHT, events.mission_key)
+    navigation = ThroughTheKernel(crash(), kernel, events.EventKind.FLIGHT, events.mission_key)
     plan, over = started(given, work, kernel, navigation)
     kernel.run(over)
     return told(plan)

@@ -26,7 +26,7 @@ from plutoc_runtime.domain.model import Category, Point
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.fleet.policies.first import first
 from plutoc_runtime.flow.run import Run
-from plutoc_runtime.time.kernel import FLEET, Kernel, Kind
+from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel
 
 HOME: Point = (1.0, 1.0, 0.0)
 SECONDS = 10.0
@@ -135,7 +135,7 @@ class Instant:
             when = (
                 kernel.now + SECONDS + self._drones[job.drone] / 1000
             )  # each at an instant of its own
-            kernel.schedule(when, Kind.FLIGHT, FLEET, lambda: report(21.5))
+            kernel.schedule(when, EventKind.FLIGHT, FLEET, lambda: report(21.5))
 
     def break_off(self, drone: str) -> None:
         """There is nothing to break off."""

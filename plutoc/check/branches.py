@@ -64,7 +64,7 @@ def branches(flow: Flow) -> Branches:
         for place in entries:
             if place.frame is not None:
                 _of(found, place.frame).inner[split.fork] = None
-    for part in flow.endless():
+    for part in flow.endless:
         frame = part[0].frame
         if frame is not None and all(place.frame is not None for place in part):
             branch = _of(found, frame)

@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping
 from plutoc.check import errors
 from plutoc.check.branches import Branch, Branches
 from plutoc.check.facts import elsewhere, is_over, puts_trips
-from plutoc.check.flow import Flow, Fork, Place, Split, blocks_of, is_final
+from plutoc.check.flow import Flow, Fork, Loop, Place, Split, blocks_of, is_final
 from plutoc.check.forks import gates_of
 from plutoc.check.statuses import arrows_of, explore, unflown
 from plutoc.diagnostic import Diagnostic
@@ -17,9 +17,6 @@ from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 Left = tuple[Node, tuple[Status, ...], Place]
 """A block, the statuses of it that no edge takes, and where it is left with the first of them."""
-
-
-Loop = tuple[Place, ...]
 
 
 def stuck(flow: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic]:
@@ -105,14 +102,14 @@ def endless(flow: Flow, astray: Collection[str]) -> list[Diagnostic]:
     Those within a fork that nothing leaves are left out: there it is the fork that does not close. So
     are those of finished missions through gates to which they go `astray`: that has been said.
     """
-    never = [part for part in flow.endless() if not (_is_idle(part) and _meets(part, astray))]
+    never = [part for part in flow.endless if not (_is_idle(part) and _meets(part, astray))]
     blocks = {*astray, *(place.node for part in never for place in part)}
     found = [_endless(flow, part) for part in never if any(place.frame is None for place in part)]
     # a way round within a branch may lie on another one, which leads through the branch's gate
     for edges in (flow.edges, _within_branches(flow)):
         idle = _idle(flow, edges)
         if idle is not None:
-            parts = [part for part in idle.endless() if not _meets(part, blocks)]
+            parts = [part for part in idle.endless if not _meets(part, blocks)]
             found += [_spins(flow, idle, part) for part in parts]
             blocks.update(place.node for part in parts for place in part)
     return found

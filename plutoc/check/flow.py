@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import networkx as nx
 
-from plutoc.graph.digraph import endless_loops
 from plutoc.graph.model import Edge, Graph
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
@@ -73,6 +72,10 @@ class Place(NamedTuple):
     """Here it has just left its branch: at the gate, or, by mistake, at a block that flies it."""
 
 
+Loop = tuple[Place, ...]
+"""Places in the order of discovery."""
+
+
 class Step(NamedTuple):
     """How a place was first reached, by the shortest way."""
 
@@ -109,6 +112,9 @@ class Flow:
     """Where missions go next from each place."""
     loose: tuple[tuple[Place, Status], ...]
     """Places left with a status that no edge takes."""
+    endless: tuple[Loop, ...]
+    """The loops that are never left. A way comes to its end where nothing follows, or where some
+    status is left without an edge, even if that is a mistake of its own."""
     entries: Mapping[Split, tuple[Place, ...]]
     """The places where each fork begins."""
     nearest: Mapping[str, Place]
@@ -116,15 +122,6 @@ class Flow:
     arrives: Mapping[str, frozenset[Status]]
     leaves: Mapping[str, frozenset[Status]]
     carries: Mapping[Edge, frozenset[Status]]
-
-    def endless(self) -> tuple[tuple[Place, ...], ...]:
-        """Return the loops that are never left, each as places in the order of discovery.
-
-        A way comes to its end where nothing follows, or where some status is left without an edge,
-        even if that is a mistake of its own.
-        """
-        ending = {place for place, _ in self.loose}
-        return tuple(part for part in endless_loops(self.after) if ending.isdisjoint(part))
 
     def branches(self, node: str, status: Status) -> tuple[Edge, ...]:
         """The edges that this status was seen to take from this block."""

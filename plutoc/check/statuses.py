@@ -27,7 +27,7 @@ from plutoc.check.facts import (
 )
 from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
 from plutoc.diagnostic import Rejected
-from plutoc.graph.digraph import loops, subgraph
+from plutoc.graph.digraph import endless_loops, loops, subgraph
 from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.domain.status import Status
 
@@ -290,6 +290,7 @@ class _Walk:
         return gate
 
     def flow(self) -> Flow:
+        left = {place for place, _ in self.loose}
         return Flow(
             graph=self.graph,
             edges=self.edges,
@@ -297,6 +298,7 @@ class _Walk:
             arrows=self.arrows,
             after=self.after,
             loose=tuple(self.loose),
+            endless=tuple(one for one in endless_loops(self.after) if left.isdisjoint(one)),
             entries={split: tuple(entries) for split, entries in self.entries.items()},
             nearest={place.node: place for place in reversed(self.places)},
             arrives={name: frozenset(self.arrives.get(name, ())) for name in self._names()},

@@ -14,7 +14,7 @@ from packaging.version import InvalidVersion, Version
 
 from plutoc import __version__
 from plutoc.emit.markup import header, toml_text
-from plutoc.emit.merged import sides
+from plutoc.emit.merge_conflicts import sides
 from plutoc.graph.model import Graph
 from plutoc.registry import GROUP, STD
 from plutoc_runtime.alone.toml import line_of_long_key

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -85,7 +86,27 @@ def imports_from(module: Module) -> tuple[ImportFrom, ...]:
     Imports inside functions count too. A plain `import` of such a module is refused: it would bind
     a name that a carried module does not have.
     """
-    return tuple(_imports(module))
+    return tuple(_ours(module) if is_within(module.name, RUNTIME) else _imports(module))
+
+
+_RELATIVE = re.compile(r"^[ ]*from (\.+)([\w.]*) import (\([^)]*\)|[^\n#]*)", re.MULTILINE)
+
+
+def _ours(module: Module) -> Iterator[ImportFrom]:
+    """Yield the same for a module of the runtime, whose form is known: to parse all takes long.
+
+    `tests/emit/test_embed.py` holds that it has no other imports than Python would find.
+    """
+    for match in _RELATIVE.finditer(module.text):
+        dots, inner, names = match.groups()
+        line = module.text.count("\n", 0, match.start()) + 1
+        yield ImportFrom(
+            target=_target(module, inner, len(dots), line),
+            names=tuple(names.strip("()").replace(",", " ").split()),
+            line=line,
+            column=0,
+            written=dots + inner,
+        )
 
 
 def import_statements(text: str) -> Iterator[ast.Import | ast.ImportFrom]:

@@ -16,6 +16,7 @@ from pathlib import Path
 from shutil import copy2
 from tempfile import TemporaryDirectory
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from plutoc import __version__
 from plutoc.diagnostic import Diagnostic, Rejected
@@ -23,8 +24,10 @@ from plutoc.emit import errors
 from plutoc.emit.errors import Place
 from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.lock import DamagedLock, Lock, is_newer, read_lock
-from plutoc.emit.merged import sides, was_merged, was_written
-from plutoc.emit.package import Package
+from plutoc.emit.merge_conflicts import sides, was_merged, was_written
+
+if TYPE_CHECKING:
+    from plutoc.emit.package import Package
 
 _ASIDE = ".plutoc-"
 """What the names of folders for unfinished work begin with; one is left only if we are killed."""

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+
+from packaging.requirements import Requirement
+from packaging.version import Version
 
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import setting_errors as errors
 from plutoc.graph.model import Library
 from plutoc.source import Source
 from plutoc.syntax.tree import File, RequiresDecl, Text, VersionDecl
-
-if TYPE_CHECKING:
-    from packaging.requirements import Requirement
 
 _BETWEEN = re.compile(r"[^0-9A-Za-z+!]+")
 _NUMBERS = re.compile(r"[0-9]+(?:\.[0-9]+)*")
@@ -46,8 +45,6 @@ def version(file: File, found: list[Diagnostic]) -> Text | None:
 
 
 def _normal(text: str) -> str | None:
-    from packaging.version import Version  # slow to import, and most apps name none
-
     try:
         return str(Version(text))
     except ValueError:  # an `InvalidVersion`, or more digits than Python reads
@@ -109,8 +106,6 @@ def _same_name(name: str) -> str:
 
 
 def _read(text: str) -> Requirement | None:
-    from packaging.requirements import Requirement  # slow to import, and most apps require nothing
-
     try:
         requirement = Requirement(text)
     except (ValueError, RecursionError):  # an `InvalidRequirement`, or brackets without end

@@ -7,9 +7,8 @@ from collections.abc import Mapping
 from plutoc.check.model import Checked
 from plutoc.graph.model import START, Edge, Graph
 from plutoc.plan.chart import Chart, Charts, Kind, Spot
-from plutoc.plan.dispatch import dispatch
 from plutoc.plan.irreducible import reducible
-from plutoc.plan.model import Arrived, Body, Branch, Call, End, Join, Plan
+from plutoc.plan.model import Arrived, Body, Branch, Call, Case, Dispatch, End, Join, Plan
 from plutoc.plan.resume_entry import entrances
 from plutoc.plan.resume_paths import asked_once
 from plutoc.plan.shape import Shape, shape
@@ -30,7 +29,7 @@ def _body(
 ) -> Body:
     found = shape(chart)
     steps = {spot: _steps(charts, chart, spot, names) for spot in found.order}
-    return _structured(found, steps, entries, charts.checked.graph) or dispatch(
+    return _structured(found, steps, entries, charts.checked.graph) or _dispatch(
         found, steps, entries
     )
 
@@ -52,6 +51,28 @@ def _structured(
                 continue
             return asked_once(body, entries)
     return None
+
+
+def _dispatch(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...] = ()) -> Body:
+    """Return a chart without structure as one dispatch: a case for each spot that is jumped to.
+
+    What one arrow alone leads to is written where it is led to, so chains and branches stay together.
+    """
+    first, entered = found.chart.entry, frozenset(entries)
+    places = tuple(
+        spot
+        for spot in found.order
+        if found.arrows.in_degree(spot) > 1
+        or spot == first
+        or (spot.kind is Kind.BLOCK and spot.name in entered)
+    )
+    around = Context(elsewhere=frozenset(places), labels=frozenset(places))
+    cases = tuple(
+        # each with a writer of its own: here nothing is ever tried twice
+        Case(label=spot.name, body=Writer(found, steps).body(spot, around))
+        for spot in places
+    )
+    return (Dispatch(start=first.name, cases=cases, entries=entries),)
 
 
 def _at(spot: Spot, steps: Mapping[Spot, Body]) -> Body:

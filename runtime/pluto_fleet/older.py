@@ -38,7 +38,12 @@ _ROOMS = {
 }
 """Which room a module went to, and as what."""
 
-_RENAMED = {"Signal": "Future", "State": "MissionState", "WHATEVER": "ANY_ERROR"}
+_RENAMED = {
+    "Signal": "Future",
+    "State": "MissionState",
+    "WHATEVER": "ANY_ERROR",
+    "Kind": "EventKind",
+}
 
 _ELSEWHERE = ("domain.errors", "flow.run", "flow.mission")
 """Where what left its module may be."""

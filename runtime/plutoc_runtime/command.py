@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser
     from types import ModuleType
 
-    from .alone.simulate import Outcome
+    from .alone.simulate import SimulationResult
     from .domain.app import App
 
 SEAM = (2, 0)
@@ -142,7 +142,7 @@ def _checked(app: App, options: Any) -> int:
     return _told(app.name, outcome, options)
 
 
-def _told(name: str, outcome: Outcome, options: Any) -> int:
+def _told(name: str, outcome: SimulationResult, options: Any) -> int:
     from .alone.simulate import outcome_data
     from .domain.trace import dumped
 
@@ -162,7 +162,7 @@ def _told(name: str, outcome: Outcome, options: Any) -> int:
     return 1 if outcome.given_up or statuses & {Status.FAILED, Status.CANCELLED} else 0
 
 
-def _report(outcome: Outcome) -> Iterator[str]:
+def _report(outcome: SimulationResult) -> Iterator[str]:
     yield from outcome.log
     for mission in outcome.missions:
         reason = mission.reason and f": {mission.reason}"

@@ -15,7 +15,7 @@ from pluto_fleet.flight import simulate as library
 from plutoc_runtime.alone import simulate as alone
 from plutoc_runtime.alone.faults import CARRYING_HOME, OUTAGE, Faults
 from plutoc_runtime.alone.ideal import IdealNavigation
-from plutoc_runtime.alone.simulate import Outcome
+from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain.actions import Plain
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
@@ -39,7 +39,9 @@ SEEDS = range(6)
 NO_FAULTS = Faults()
 
 
-def seen(fly: Callable[..., Outcome], app: App, example: Example, fleet: Any, **how: Any) -> object:
+def seen(
+    fly: Callable[..., SimulationResult], app: App, example: Example, fleet: Any, **how: Any
+) -> object:
     """Return all that can be seen of a run, to the last bit."""
     try:
         flown = fly(app, deepcopy(example.missions), fleet, until=A_WEEK, on_event=None, **how)

@@ -17,7 +17,7 @@ S, C, F, R, U = (
 
 
 def gate(kind: str, left: str, right: str) -> str:
-    """A fork whose two branches bring these statuses; what passes is taken, whatever it is."""
+    """A fork whose two branches bring these statuses; all that passes is taken."""
     return f"""{BASIC}
     left = MissionModifier emits {left}
     right = MissionModifier emits {right}

@@ -153,6 +153,7 @@ def test_steps_between_states_are_bounded_too(monkeypatch: pytest.MonkeyPatch) -
     assert "more than 1,000 ways" in found.message
 
 
+@pytest.mark.long  # twenty seconds; fewer bounds are above
 def test_of_hundreds_of_unlike_bounds_each_is_remembered() -> None:
     """The retries lead FAILED to each other and back: once all have given up, nothing ends that."""
     n = 470

@@ -182,7 +182,7 @@ def test_a_sound_graph_is_not_reported(name: str) -> None:
 
 
 def test_the_sample_of_the_language_has_no_warning_at_all() -> None:
-    """The sample everybody reads first compiles in silence."""
+    """The sample that is read first compiles in silence."""
     assert codes(ALFALFA) == []
 
 

@@ -125,7 +125,7 @@ def edited(draw: st.DrawFn) -> str:
 @settings(max_examples=150, deadline=None)
 @given(text=edited(), seed=st.integers(0, 1000))
 def test_an_edited_graph_is_refused_or_keeps_its_promises(text: str, seed: int) -> None:
-    """Whatever the checks let through can be walked; and they say the same each time."""
+    """All that the checks let through can be walked; and they say the same each time."""
     try:
         checked, warnings = check(build(text))
     except Rejected as rejected:

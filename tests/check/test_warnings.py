@@ -41,7 +41,7 @@ def test_each_warning_is_given(code: str, text: str) -> None:
 
 
 def test_an_otherwise_behind_a_retry_of_nothing_is_mentioned() -> None:
-    """Whoever was judged has no trip left, and ends in the retry."""
+    """A mission that was judged has no trip left, and ends in the retry."""
     text = f"""{STRAIGHT}{RETRY}
     judge = MissionEvaluator
     mend = PriorityManager
@@ -54,7 +54,7 @@ def test_an_otherwise_behind_a_retry_of_nothing_is_mentioned() -> None:
 
 
 def test_a_drone_that_waits_for_a_delay_is_held() -> None:
-    """Nobody else can use it meanwhile; before the allocation it would be free."""
+    """No other mission can use it meanwhile; before the allocation it would be free."""
     held = f"{STRAIGHT}{RETRY}\n    watch -> end".replace(
         "allocate -> launch", "allocate -> wait -> launch"
     )

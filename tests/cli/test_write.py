@@ -35,7 +35,7 @@ def failing(after: int, error: BaseException) -> Callable[[Path, bytes], object]
     def save(path: Path, data: bytes) -> None:
         nonlocal left
         left -= 1
-        Path(path).write_bytes(data if left >= 0 else data[: len(data) // 2])
+        path.write_bytes(data if left >= 0 else data[: len(data) // 2])
         if left < 0:
             raise error
 

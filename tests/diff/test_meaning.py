@@ -58,7 +58,7 @@ def test_an_app_differs_in_nothing_from_itself(name: str) -> None:
 
 @given(st.sampled_from(sorted(EXAMPLES)), SEEDS)
 def test_layout_and_comments_mean_nothing(name: str, seed: int) -> None:
-    """Whatever stands where."""
+    """In any order of the source."""
     text = EXAMPLES[name]
     other = laid_out(words_of(text), Random(seed), Liberty(comments=0.2))
     assert sentences(text, other) == []

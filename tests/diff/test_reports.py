@@ -1,4 +1,4 @@
-"""The reports: whatever a source holds, they stay what they are."""
+"""The reports stay what they are with any text of a source."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def test_a_comment_has_room_for_what_changed_in_a_large_app() -> None:
 def test_a_quantity_is_written_in_the_unit_that_reads_shortest(
     number: float, unit: str, written: str
 ) -> None:
-    """Whatever the source says."""
+    """With any text of the source."""
     assert amount(to_si(number, unit), UNITS[unit][0]) == written
 
 

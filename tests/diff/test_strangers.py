@@ -1,4 +1,4 @@
-"""Blocks of somebody else are as good as ours: what is said comes from their properties."""
+"""Blocks of other packages are as good as ours: what is said comes from their properties."""
 
 from __future__ import annotations
 

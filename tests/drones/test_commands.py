@@ -148,7 +148,7 @@ async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_
     drone = FakeDrone()
     drone.hangs = {"takeoff"}
     async with flying(tmp_path, drone) as flown:
-        await flown.do(flown.team.report("cf1"))
+        await flown.do(flown.team.drone_report("cf1"))
         seen = flown.team.telemetry["cf1"]
         rises = flown.begin(flown.team.takeoff("cf1", 1.0))
         await flown.until(lambda: not seen.landed, 1)

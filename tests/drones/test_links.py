@@ -108,7 +108,7 @@ async def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(
     drone.hangs = {"takeoff"}
     async with flying(tmp_path, drone) as flown:
         seen = flown.team.telemetry["cf1"]
-        await flown.do(flown.team.report("cf1"))
+        await flown.do(flown.team.drone_report("cf1"))
         rises = flown.begin(flown.team.takeoff("cf1", 1.0))
         await flown.until(lambda: not seen.landed, 1)
         drone.goes_silent()

@@ -143,7 +143,7 @@ def test_a_wait_of_many_blocks_is_quoted_as_a_whole(optimised: Flow) -> None:
 
 
 def test_the_traceback_ends_with_the_block(plain: Flow) -> None:
-    """Whoever prints the error prints the block with it."""
+    """The error is printed with its block."""
     error = error_of(plain, "launch")
     blame(error, plain)
     printed = "".join(traceback.format_exception(error)).splitlines()

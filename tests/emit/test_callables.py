@@ -1,4 +1,4 @@
-"""Names of functions in `flow.py`: none hides another, whoever chose it."""
+"""Names of functions in `flow.py`: none hides another."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ SURVEY = carried("survey", "pluto_survey.scan.step", "scan")
 
 
 def test_a_name_that_is_free_is_kept() -> None:
-    """No alias where none is needed, whoever's it is."""
+    """No alias where none is needed."""
     assert lines(SURVEY) == ["from ._runtime.blocks.survey.scan import scan"]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import sys
 from collections.abc import Callable
 from importlib import import_module
@@ -13,7 +14,7 @@ import pytest
 
 import plutoc_runtime
 from plutoc.emit.embed import Carried, embed
-from plutoc.emit.modules import EmbedError
+from plutoc.emit.modules import EmbedError, import_statements, imports_from, is_standard, load
 from plutoc.registry import STD
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.gate_fifo.step import pass_first
@@ -27,11 +28,11 @@ Make = Callable[..., tuple[str, Callable[..., Any]]]
 
 @pytest.fixture
 def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Make:
-    """Return a function that makes a package of somebody else's, and loads its `scan/step.py`."""
+    """Return a function that makes another package of blocks, and loads its `scan/step.py`."""
     monkeypatch.syspath_prepend(tmp_path)
 
     def made(step: str, **others: str) -> tuple[str, Callable[..., Any]]:
-        name = f"somebodys_{next(NUMBERS)}"
+        name = f"others_{next(NUMBERS)}"
         (tmp_path / name / "scan").mkdir(parents=True)
         files = {"__init__": "", "scan/__init__": "", "scan/step": step}
         for path, text in {**files, **others}.items():
@@ -55,7 +56,7 @@ def test_modules_of_the_runtime_are_copied_byte_for_byte() -> None:
 
 
 def test_only_what_is_needed_is_carried() -> None:
-    """A block that nobody uses, and a policy that nobody chose, stay behind."""
+    """A block that is not used, and a policy that was not chosen, stay behind."""
     files = embed([carried(wait_for_time), carried(nearest)], ["plutoc_runtime.command"])
     blocks = [path for path in files if path.startswith("_runtime/blocks/")]
     policies = [path for path in files if path.startswith("_runtime/fleet/policies/")]
@@ -178,3 +179,23 @@ def test_a_step_must_be_a_function_that_can_be_imported(make: Make) -> None:
     _, scan = make("def maker():\n    def inner(): ...\n    return inner\n\n\nscan = maker()\n")
     with pytest.raises(EmbedError, match="at the top of its module"):
         embed([carried(scan, "survey")], [])
+
+
+@pytest.mark.parametrize("path", sorted(RUNTIME.rglob("*.py")), ids=lambda path: path.stem)
+def test_every_import_of_the_runtime_is_found(path: Path) -> None:
+    """They are read off the text: Python's own reader finds the same, and no plain import of others."""
+    name = ".".join((RUNTIME.name, *path.relative_to(RUNTIME).with_suffix("").parts))
+    module = load(name.removesuffix(".__init__"))
+    assert module is not None
+    read = {(one.target, one.names, one.line) for one in imports_from(module)}
+    parsed = set()
+    for node in import_statements(module.text):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = module.package.split(".")[: len(module.package.split(".")) - node.level + 1]
+            target = ".".join([*base, node.module] if node.module else base)
+            parsed.add((target, tuple(alias.name for alias in node.names), node.lineno))
+        elif isinstance(node, ast.ImportFrom):
+            assert is_standard(node.module or "")
+        else:
+            assert all(is_standard(alias.name) for alias in node.names)
+    assert read == parsed

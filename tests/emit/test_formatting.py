@@ -1,4 +1,4 @@
-"""Generated Python comes out as Black writes it, and says what was meant whatever the text is."""
+"""Generated Python comes out as Black writes it, and holds any text as it was meant."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_a_package_is_as_black_writes_it(text: str) -> None:
 
 @given(st.text())
 def test_a_text_is_written_in_ascii_and_read_back(text: str) -> None:
-    """Whatever a user has written into it."""
+    """Any that a user has written."""
     module = formatted(f"x = {literal(text)}")
     assert module.isascii()
     (assignment,) = ast.parse(module).body

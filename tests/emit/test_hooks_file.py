@@ -72,7 +72,7 @@ def test_modifier_beside_a_monitor_waits_for_the_trip() -> None:
     ],
 )
 def test_other_modifiers_return_at_once(emits: str, arrows: str, returned: str) -> None:
-    """What they return is declared, whatever the mission comes with."""
+    """What they return is declared for each status that a mission comes with."""
     written = with_modifier(f"modifier change emits {emits}", arrows)
     assert "await" not in written
     assert written.endswith(f"    return {returned}\n")
@@ -99,7 +99,7 @@ def test_parameters_say_their_units() -> None:
 
 
 def test_stubs_stand_in_declared_order() -> None:
-    """Actions and other hooks as the app has them, whatever their kinds."""
+    """Actions and other hooks of all kinds, as the app has them."""
     tree = ast.parse(hooks_file(checked_of(ODD_NAMES)))
     functions = (ast.AsyncFunctionDef, ast.FunctionDef)
     names = [node.name for node in tree.body if isinstance(node, functions)]
@@ -127,7 +127,7 @@ def test_fields_of_the_app_are_named() -> None:
 
 
 def test_tests_of_hooks_name_each() -> None:
-    """They hold whatever is written in hooks.py; how to test more is said where it helps."""
+    """They hold for any hooks.py; how to test more is said where it helps."""
     written = hooks_test(checked_of(ODD_NAMES).graph)
     assert "def test_str_can_be_called() -> None:" in written
     assert "def test_run_can_be_called() -> None:" in written

@@ -14,7 +14,7 @@ WHOLE = st.text(st.characters(exclude_categories=["Cs"]))
 
 @given(WHOLE)
 def test_toml_gives_every_text_back(text: str) -> None:
-    """Whatever it holds, it is ASCII in the file and itself when read."""
+    """Any text is ASCII in the file and itself when read."""
     assert toml_text(text).isascii()
     assert tomllib.loads(f"a = {toml_text(text)}") == {"a": text}
 

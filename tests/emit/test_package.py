@@ -1,4 +1,4 @@
-"""A generated package is right, whatever its app is called, and it flies."""
+"""A generated package is right under any name of its app, and it flies."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def test_package_passes_its_own_tests(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", sorted(APPS))
 def test_files_of_the_readme_can_be_flown(name: str, tmp_path: Path) -> None:
-    """Whoever copies the missions and the fleet from there has a plan that nothing is wrong with."""
+    """The missions and the fleet copied from there are a plan that nothing is wrong with."""
     folder = write(package_of(APPS[name]), tmp_path)
     text = (folder / "README.md").read_text(encoding="utf-8")
     missions, fleet = re.findall(r"^```toml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVarTuple
 
 from pluto_fleet.flight.simulate import Simulation
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.alone.simulate import Outcome
+from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain.errors import BadInput
 
 if TYPE_CHECKING:
@@ -85,10 +85,10 @@ def in_real_time(
     faults: Faults,
     until: float | None,
     on_event: Callable[[Event], None] | None,
-) -> Outcome:
+) -> SimulationResult:
     """Fly missions by the kernel of real flights; raise `BadInput` where they wait for ever."""
 
-    async def flown() -> Outcome:
+    async def flown() -> SimulationResult:
         kernel = _Midnight()
         simulation = Simulation(app, fleet, kernel, seed, faults, on_event)
         try:

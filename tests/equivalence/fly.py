@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from pluto_fleet.flight.simulate import simulate
-from plutoc_runtime.alone.simulate import Outcome
+from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Drone, Mission
 from plutoc_runtime.domain.trace import Event
@@ -60,7 +60,7 @@ class Fly(Protocol):
         faults: Faults,
         until: float | None,
         on_event: Callable[[Event], None] | None,
-    ) -> Outcome: ...
+    ) -> SimulationResult: ...
 
 
 def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool = True) -> Record:
@@ -113,7 +113,7 @@ def _now(events: Sequence[Event]) -> float:
     return float(str(events[-1]["t"])) if events else 0.0
 
 
-def _ends(outcome: Outcome) -> list[str]:
+def _ends(outcome: SimulationResult) -> list[str]:
     return [
         f"over after {outcome.duration!r}",
         *(_mission(mission) for mission in outcome.missions),

@@ -10,7 +10,7 @@ from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow.run import watch
-from plutoc_runtime.time.kernel import Kind
+from plutoc_runtime.time.kernel import EventKind
 from plutoc_runtime.trips.deadlines import Limit
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ async def lose_patience(run: Run[Any], status: Status, *, within: float) -> Stat
 
 async def nap(run: Run[Any], status: Status, *, seconds: float = 1.0, deep: bool = False) -> Status:
     """Sleep for a while."""
-    await run.core.kernel.sleep(seconds * (2 if deep else 1), Kind.CLOCK, run.key)
+    await run.core.kernel.sleep(seconds * (2 if deep else 1), EventKind.CLOCK, run.key)
     run.core.log(f"napped in {status.value}", run.mission.name)
     return status
 

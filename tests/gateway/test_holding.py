@@ -1,4 +1,4 @@
-"""No two processes command one drone, wherever the folders of their journals are are are."""
+"""No two processes command one drone, wherever the folders of their journals are are are are."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def test_a_folder_that_others_may_enter_is_refused(
     folder = tmp_path / f"pluto-drones-{os.geteuid()}"
     folder.mkdir()
     folder.chmod(0o777)
-    with pytest.raises(BadInput, match="nobody else may enter it"):
+    with pytest.raises(BadInput, match="no other user may enter it"):
         _hold(None, cf1=RADIO)
 
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.simulation.moments import Moment, this_moment
-from pluto_fleet.simulation.world_store import DEEDS, DRONES, WorldStore
+from pluto_fleet.simulation.world_store import DEEDS, DRONES, Moment, WorldStore, this_moment
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import FLEET

@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 from pathlib import Path
 
+import pytest
+
 from tests.cli.conftest import Call
 
 BLOCKS = 10_000
@@ -35,6 +37,7 @@ def chain(blocks: int) -> str:
     )
 
 
+@pytest.mark.long  # half a minute; tests/test_benchmarks.py has large apps
 def test_ten_thousand_blocks_are_compiled(plutoc: Call, here: Path) -> None:
     """Without an error, and to Python that Python reads."""
     Path("long.pluto").write_text(chain(BLOCKS))

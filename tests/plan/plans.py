@@ -12,7 +12,7 @@ from tests.check.graphs import checked
 
 
 def begun(text: str) -> Checked:
-    """Return a graph in which missions go on nowhere: whoever is interrupted begins anew."""
+    """Return a graph in which missions go on nowhere: one that is interrupted begins anew."""
     return replace(checked(text), entries={})
 
 

@@ -28,7 +28,7 @@ CHAIN = "\n".join(
         "watch -> end",
     ]
 )
-"""More blocks where missions go on than anybody would ask for one by one."""
+"""More blocks where missions go on than are asked for one by one."""
 
 
 def shown(text: str) -> str:
@@ -148,7 +148,7 @@ def test_a_loop_asks_where_much_lies_before_its_head() -> None:
 
 
 def test_nothing_is_asked_whose_answer_is_certain() -> None:
-    """Whoever begins goes on nowhere, and has not come from where others go on."""
+    """A mission that begins goes on nowhere, and has not come from where others go on."""
     text = f"""{BASIC}
     choose = MissionModifier emits UNEXECUTED, STANDBY
     wait = Clock

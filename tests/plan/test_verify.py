@@ -140,7 +140,7 @@ def test_a_spoilt_branch_is_refused(changes: dict[str, object], message: str) ->
 
 
 def test_a_join_where_the_graph_has_no_fork_is_refused() -> None:
-    """The branches would fly what nobody wrote."""
+    """The branches would fly what the source does not say."""
     join = next(step for step in FORKED.body if isinstance(step, Join))
     with pytest.raises(BadPlan, match="no such fork at a"):
         verify(Plan(checked=GRAPH, body=(call("create"), call("a"), join, End())))

@@ -131,7 +131,7 @@ def test_a_spoilt_entry_is_refused(plan: Plan, message: str) -> None:
 
 
 def test_an_entry_that_leads_to_an_end_is_none() -> None:
-    """Nobody who goes on at the allocator ever comes there."""
+    """No mission that goes on at the allocator ever comes there."""
 
     def ended(step: Step) -> Body:
         return (End(),) if isinstance(step, Call) and step.node.name == "allocate" else (step,)

@@ -1,4 +1,4 @@
-"""A mission does in its plan what it does in its graph, whatever happens to it."""
+"""A mission does in its plan what it does in its graph."""
 
 from __future__ import annotations
 

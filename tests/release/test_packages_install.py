@@ -160,6 +160,7 @@ def test_the_library_is_built_with_the_brain_as_it_is(library: Path) -> None:
         assert {name.removeprefix(inside): wheel.read(name) for name in names} == ours
 
 
+@pytest.mark.long  # an environment of its own
 def test_the_compiler_alone_runs_apps_and_says_what_its_trials_need(tmp_path: Path) -> None:
     programs = fresh(tmp_path / "venv")
     succeed(programs / "pip", "install", "--quiet", ROOT)

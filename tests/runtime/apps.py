@@ -22,7 +22,7 @@ from plutoc_blocks.timer_monitor.step import watch_timer
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.simulate import Outcome
+from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain import model
 from plutoc_runtime.domain.actions import BUILT_IN, Action
 from plutoc_runtime.domain.airspace import Airspace
@@ -34,7 +34,7 @@ from plutoc_runtime.fleet.policies.nearest import nearest
 from plutoc_runtime.fleet.queue import Policy
 from plutoc_runtime.flow.run import Run
 
-__all__ = ["Outcome"]
+__all__ = ["SimulationResult"]
 
 Way = Callable[[Run[Any], Status], Coroutine[Any, Any, Status]]
 NO_FAULTS = Faults()
@@ -222,7 +222,7 @@ def fly(
     faults: Faults = NO_FAULTS,
     seed: int = 0,
     until: float | None = None,
-) -> Outcome:
+) -> SimulationResult:
     """Fly missions in virtual time."""
     for index, each in enumerate(missions):
         each.index = index
@@ -231,11 +231,11 @@ def fly(
     )
 
 
-def events(outcome: Outcome, kind: str) -> list[Event]:
+def events(outcome: SimulationResult, kind: str) -> list[Event]:
     """Return the events of one kind."""
     return [event for event in outcome.events if event["event"] == kind]
 
 
-def times(outcome: Outcome, kind: str) -> list[float]:
+def times(outcome: SimulationResult, kind: str) -> list[float]:
     """Return when events of one kind happened."""
     return [float(str(event["t"])) for event in events(outcome, kind)]

@@ -9,7 +9,7 @@ from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import Simulation
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.simulate import Outcome
+from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.trace import Event
 from tests.runtime import apps
@@ -20,10 +20,10 @@ def fly(
     missions: Sequence[apps.Mission],
     fleet: FleetFile,
     listener: Callable[[Event], object],
-) -> Outcome:
+) -> SimulationResult:
     """Return what came of the missions."""
 
-    async def flown() -> Outcome:
+    async def flown() -> SimulationResult:
         kernel = RealTime()
         simulation = Simulation(app, fleet, kernel, 0, Faults(), listener)
         try:

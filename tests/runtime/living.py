@@ -23,7 +23,7 @@ from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.trace import Event
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import FLEET, EventKind
 from plutoc_runtime.time.virtual import VirtualTime
 
 from . import apps
@@ -122,7 +122,7 @@ class Living:
 
     def at(self, when: float, call: Callable[[], object]) -> None:
         """Do something at a time."""
-        self.kernel.schedule(when, Kind.CLOCK, FLEET, call)
+        self.kernel.schedule(when, EventKind.CLOCK, FLEET, call)
 
     def die(self) -> None:
         """Kill the brain."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Coroutine, Sequence
 from typing import Any, TypeVar
 
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import Call, Kernel, Key, Kind, Task, Timer
+from plutoc_runtime.time.kernel import Call, EventKind, Kernel, Key, Task, Timer
 
 T = TypeVar("T")
 
@@ -61,11 +61,11 @@ class Mortal(Kernel):
         """Seconds since midnight, at the host's."""
         return self._host.time_of_day
 
-    def at(self, when: float, kind: Kind, key: Key, call: Call) -> Timer:
+    def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
         """Call this at a time, unless it is cancelled, or the kernel killed."""
         return self._host.at(when, kind, key, self._while_alive(call))
 
-    def schedule(self, when: float, kind: Kind, key: Key, call: Call) -> None:
+    def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
         """Call this at a time, unless the kernel is killed."""
         self._host.schedule(when, kind, key, self._while_alive(call))
 

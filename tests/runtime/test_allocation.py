@@ -22,11 +22,11 @@ from tests.runtime import apps
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
 
 
-def chosen(outcome: apps.Outcome) -> list[str]:
+def chosen(outcome: apps.SimulationResult) -> list[str]:
     return [f"{e['mission']}:{e['drone']}" for e in apps.events(outcome, "trip.allocated")]
 
 
-def fly(policy: Policy, *missions: apps.Mission) -> apps.Outcome:
+def fly(policy: Policy, *missions: apps.Mission) -> apps.SimulationResult:
     return apps.fly(apps.app(apps.flow(policy=policy)), *missions, on=apps.fleet(*HOMES))
 
 
@@ -182,7 +182,7 @@ def test_a_drone_that_is_free_is_given_even_to_who_does_not_wait() -> None:
 
 
 def test_a_drone_that_comes_free_at_the_very_limit_is_given() -> None:
-    def two(within: float | None) -> apps.Outcome:
+    def two(within: float | None) -> apps.SimulationResult:
         return apps.fly(
             apps.app(apps.flow(within=within)),
             apps.mission("a", apps.trip("A", 3.0)),
@@ -194,7 +194,7 @@ def test_a_drone_that_comes_free_at_the_very_limit_is_given() -> None:
     assert not two(exact - 0.001).completed
 
 
-def exactly_free(outcome: apps.Outcome) -> float:
+def exactly_free(outcome: apps.SimulationResult) -> float:
     """When the second mission got its drone, to the last digit."""
     (second,) = outcome.missions[1].completed_trips
     return float(str(second.start_time))

@@ -13,7 +13,7 @@ from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.alone.simulate import Outcome
+from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.fleet.policies.nearest import nearest
 from plutoc_runtime.fleet.policies.own import own_policy
@@ -22,7 +22,9 @@ from plutoc_runtime.flow.run import Run
 from tests.runtime import apps
 
 
-def fly(step: Callable[..., Any], hook: Callable[..., Any], policy: Policy = nearest) -> Outcome:
+def fly(
+    step: Callable[..., Any], hook: Callable[..., Any], policy: Policy = nearest
+) -> SimulationResult:
     """Fly one trip, with a block of another author's and a modifier in a fork behind it."""
 
     async def flow(run: Run[apps.Mission]) -> Status:
@@ -64,7 +66,7 @@ def broken(*_: object) -> None:
     raise ZeroDivisionError("by accident")
 
 
-def log_of(outcome: Outcome) -> str:
+def log_of(outcome: SimulationResult) -> str:
     """Return what was logged."""
     return "\n".join(outcome.log)
 

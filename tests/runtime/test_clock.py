@@ -7,7 +7,7 @@ import pytest
 from tests.runtime import apps
 
 
-def starts(outcome: apps.Outcome) -> list[float]:
+def starts(outcome: apps.SimulationResult) -> list[float]:
     return apps.times(outcome, "trip.launched")
 
 

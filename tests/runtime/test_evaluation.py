@@ -13,7 +13,7 @@ from plutoc_runtime.flow.verdict import Verdict
 from tests.runtime import apps
 
 
-def judged(hook: object, *trips: apps.Trip, **more: Any) -> apps.Outcome:
+def judged(hook: object, *trips: apps.Trip, **more: Any) -> apps.SimulationResult:
     assert callable(hook)
     tested = apps.app(
         apps.flow(evaluator=hook, repeater=True), evaluators={"other": lambda m, r: Verdict()}

@@ -15,7 +15,7 @@ from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.hooks.context import Context
 from tests.runtime import apps, in_real_time
 
-Fly = Callable[[Callable[..., object]], apps.Outcome]
+Fly = Callable[[Callable[..., object]], apps.SimulationResult]
 
 
 def comes_back() -> None:
@@ -79,11 +79,11 @@ def _missions() -> Sequence[apps.Mission]:
     ]
 
 
-def in_virtual_time(hook: Callable[..., object]) -> apps.Outcome:
+def in_virtual_time(hook: Callable[..., object]) -> apps.SimulationResult:
     return apps.fly(_app(hook), *_missions())
 
 
-def in_true_time(hook: Callable[..., object]) -> apps.Outcome:
+def in_true_time(hook: Callable[..., object]) -> apps.SimulationResult:
     fleet = apps.fleet((0.5, 0.5, 0.0), airspace=Airspace(cruise_height=0.003))
     return in_real_time.fly(_app(hook), _missions(), fleet, lambda event: None)
 

@@ -25,7 +25,7 @@ Hook = Callable[..., object]
 FAST = Category(name="scout", speed=200.0)
 
 
-def flown(hook: Hook, *, real: bool = False) -> apps.Outcome:
+def flown(hook: Hook, *, real: bool = False) -> apps.SimulationResult:
     """Return what comes of a mission with this action, in virtual or in real time."""
     action = OwnAction(name="grip", hook=hook)
     height = 0.003 if real else 1.2

@@ -10,17 +10,22 @@ import pytest
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.domain.errors import Cancelled
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import Kind
+from plutoc_runtime.time.kernel import EventKind
 from plutoc_runtime.time.virtual import Stuck, VirtualTime
 
 
 def test_events_of_one_instant_come_by_kind_then_key_in_any_order_of_entry() -> None:
     kernel, seen = VirtualTime(), list[str]()
     done: Future[None] = Future()
-    entries = [(Kind.ALLOCATE, 0), (Kind.TIMER, 0), (Kind.FLIGHT, 1), (Kind.FLIGHT, 0)]
+    entries = [
+        (EventKind.ALLOCATE, 0),
+        (EventKind.TIMER, 0),
+        (EventKind.FLIGHT, 1),
+        (EventKind.FLIGHT, 0),
+    ]
     for kind, key in entries:
         kernel.at(5.0, kind, key, partial(seen.append, f"{kind.name} {key}"))
-    kernel.at(6.0, Kind.CLOCK, 0, partial(done.set, None))
+    kernel.at(6.0, EventKind.CLOCK, 0, partial(done.set, None))
     assert kernel.run(done)
     assert seen == ["FLIGHT 0", "FLIGHT 1", "TIMER 0", "ALLOCATE 0"]
     assert kernel.now == 6.0
@@ -31,10 +36,10 @@ def test_a_signal_that_comes_at_the_very_limit_has_come() -> None:
     signal: Future[None] = Future()
 
     async def wait() -> None:
-        won.append(await kernel.within(signal, 5.0, Kind.TIMER, 0))
+        won.append(await kernel.within(signal, 5.0, EventKind.TIMER, 0))
 
     task = kernel.spawn(wait(), 0, "waiter")
-    kernel.at(5.0, Kind.FLIGHT, 0, partial(signal.set, None))
+    kernel.at(5.0, EventKind.FLIGHT, 0, partial(signal.set, None))
     kernel.run(task)
     assert won == [True]
 
@@ -42,7 +47,7 @@ def test_a_signal_that_comes_at_the_very_limit_has_come() -> None:
 def test_time_that_runs_out_says_so() -> None:
     kernel = VirtualTime()
     never: Future[None] = Future()
-    task = kernel.spawn(kernel.within(never, 5.0, Kind.TIMER, 0), 0, "waiter")
+    task = kernel.spawn(kernel.within(never, 5.0, EventKind.TIMER, 0), 0, "waiter")
     kernel.run(task)
     assert (task.result(), kernel.now) == (False, 5.0)
 
@@ -70,7 +75,7 @@ def test_a_cancelled_coroutine_stops_where_it_waits_and_cleans_up() -> None:
             seen.append(f"cleaned up at {kernel.now}")
 
     task = kernel.spawn(wait(), 0, "waiter")
-    kernel.at(3.0, Kind.TIMER, 0, task.cancel)
+    kernel.at(3.0, EventKind.TIMER, 0, task.cancel)
     kernel.run(task)
     assert seen == ["cleaned up at 3.0"]
     with pytest.raises(Cancelled):
@@ -94,7 +99,7 @@ def test_a_coroutine_that_is_cancelled_in_its_turn_may_still_wait_to_clean_up() 
         signal.set(None)  # its turn comes at this instant
         task.cancel()
 
-    kernel.at(3.0, Kind.CLOCK, 0, happen_and_cancel)
+    kernel.at(3.0, EventKind.CLOCK, 0, happen_and_cancel)
     over = kernel.spawn(kernel.sleep(10.0), 2, "clock")
     kernel.run(over)
     assert seen == [5.0]
@@ -142,7 +147,7 @@ def test_real_time_takes_the_same_events_in_the_same_order() -> None:
     async def main() -> list[str]:
         kernel, seen = RealTime(), list[str]()
         when = kernel.now + 0.1  # a busy machine may need some of it to get there
-        for kind, key in [(Kind.TIMER, 0), (Kind.FLIGHT, 1), (Kind.FLIGHT, 0)]:
+        for kind, key in [(EventKind.TIMER, 0), (EventKind.FLIGHT, 1), (EventKind.FLIGHT, 0)]:
             kernel.at(when, kind, key, partial(seen.append, f"{kind.name} {key}"))
         task = kernel.spawn(kernel.sleep(0.15), 0, "sleeper")
         await kernel.run(task)

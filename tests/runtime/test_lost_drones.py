@@ -186,7 +186,7 @@ def test_where_every_drone_is_lost_nothing_begins() -> None:
     fleet.live_on()
     passes(fleet, 10.0)
     assert fleet.life.control.whole is not None
-    with pytest.raises(BadInput, match="cf1: it is lost, and nobody has brought it back"):
+    with pytest.raises(BadInput, match="cf1: it is lost, and was not brought back"):
         fleet.life.control.whole.result()
 
 
@@ -261,11 +261,11 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
     monkeypatch.setattr(Executor, "drone_report", drone_report)
     fleet = living(*"ab")
     vars(fleet.gateway.navigation).update(recover=fetched)
-    live_fleet(fleet.life.session.core).somebody_comes = False
+    live_fleet(fleet.life.session.core).carried_home = False
     assert fleet.run() == ["COMPLETED"] * 2
     assert names(fleet.named("trip.launched"), "drone") == ["cf2", "cf2"]
     assert drone(fleet).status is DroneStatus.RECOVERING
-    assert "cf1 stands at (0.5, 0.5) and needs somebody: go and look" in names(
+    assert "cf1 stands at (0.5, 0.5) and needs a person: go and look" in names(
         fleet.named("log"), "text"
     )
     (event,) = fleet.named("drone.not_ready")
@@ -278,7 +278,7 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
 def test_who_flies_home_after_a_failure_is_waited_for() -> None:
     """It needs no person."""
     fleet = living("a", homes=1)
-    live_fleet(fleet.life.session.core).somebody_comes = False
+    live_fleet(fleet.life.session.core).carried_home = False
     fleet.at(8.0, lambda: fleet.life.control.cancel("a"))
     assert fleet.run() == ["CANCELLED"]
     assert names(fleet.named("drone.recovering"), "drone") == ["cf1"]

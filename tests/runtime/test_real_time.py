@@ -36,7 +36,7 @@ async def blink(drone: Drone, trip: apps.Trip, context: Context) -> int:
     return threading.get_ident()
 
 
-def fly(*missions: apps.Mission) -> tuple[apps.Outcome, list[Event]]:
+def fly(*missions: apps.Mission) -> tuple[apps.SimulationResult, list[Event]]:
     seen: list[Event] = []
     for index, mission in enumerate(missions):
         mission.index = index

@@ -66,7 +66,7 @@ def test_at_one_instant_the_trips_own_end_wins() -> None:
     assert not tight.completed
 
 
-def gap_failures(outcome: apps.Outcome) -> list[Event]:
+def gap_failures(outcome: apps.SimulationResult) -> list[Event]:
     """The failures of a gap."""
     return [e for e in apps.events(outcome, "trip.failed") if "previous one" in str(e["reason"])]
 

@@ -20,6 +20,7 @@ def before(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return unpacked(BEFORE, tmp_path_factory.mktemp("before"))
 
 
+@pytest.mark.long  # nothing of it changes but Python
 def test_a_package_from_before_still_flies_alone(before: Path, tmp_path: Path) -> None:
     """It has all that it needs, and takes nothing of the library that is beside it now."""
     journal = str(tmp_path / "flight.journal")
@@ -38,6 +39,7 @@ def test_a_package_from_before_still_flies_alone(before: Path, tmp_path: Path) -
     assert "pluto_fleet" not in modules
 
 
+@pytest.mark.long  # a whole flight; of newer seams it is always seen
 def test_a_journal_from_before_is_gone_on_from(before: Path, tmp_path: Path) -> None:
     """That package's flight is stopped in the middle; the same app, compiled today, flies the rest."""
     journal = tmp_path / "flight.journal"

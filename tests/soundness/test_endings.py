@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from plutoc.check.flow import Flow
+from plutoc.check import statuses
 from plutoc.check.model import Checked
 from plutoc.compile import analyse
 from plutoc.diagnostic import Rejected
@@ -50,7 +50,7 @@ def test_a_loop_that_should_have_been_refused_would_be_seen(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Through a modifier, by the number of its calls; and of repeaters alone, that no hook is in."""
-    monkeypatch.setattr(Flow, "endless", lambda flow: ())
+    monkeypatch.setattr(statuses, "endless_loops", lambda steps: ())
     noted = SPINNING.replace("more = MissionRepeater", "more = MissionModifier(hook: note)")
     noted = noted.replace("app spinning {", "app spinning {\n  modifier note")
     for text in (SPINNING, noted.replace("[watch, again, more]", "[watch, again]")):

@@ -14,8 +14,7 @@ from pluto_fleet.gateway.process import SETTINGS
 from pluto_fleet.gateway.settings import settings_of
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.simulation.body import Body
-from pluto_fleet.simulation.moments import this_moment
-from pluto_fleet.simulation.world_store import DRONES, WorldStore
+from pluto_fleet.simulation.world_store import DRONES, WorldStore, this_moment
 from tests.station.browser.serving import Station
 
 NEAR = 0.06

@@ -44,7 +44,7 @@ def test_after_these_the_app_lives_again(kind: StrikeKind) -> None:
 
 @pytest.mark.parametrize("kind", [*BY_HAND, StrikeKind.REBOOT, StrikeKind.FALL])
 def test_these_the_app_outlives(kind: StrikeKind) -> None:
-    """Nobody need start it again."""
+    """It need not be started again."""
     assert struck(kind).lives == 1
 
 

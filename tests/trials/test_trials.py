@@ -103,7 +103,7 @@ def test_drawn_missions_are_what_a_person_could_write(seed: int, tmp_path: Path)
 
 @pytest.mark.parametrize("seed", range(20))
 def test_the_same_case_is_the_same_trial(seed: int) -> None:
-    """Event by event, whatever strikes it."""
+    """Event by event, under all that strikes it."""
     one, two = (tried(APP, random_case(APP, FLEET, seed)) for _ in range(2))
     assert one == two
 

@@ -8,8 +8,6 @@ from math import dist
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import tomlkit
-
 from plutoc_runtime import output
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput
@@ -17,6 +15,7 @@ from plutoc_runtime.domain.text import counted, number, place, printable
 
 from ..files.fleet import APART, CRAZYFLIE, fleet_of
 from ..files.reading import parsed
+from ..files.toml import toml_value
 from .drone_status import heard
 
 if TYPE_CHECKING:
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
 
 
 _ORIGIN = 0.05
-"""Metres from (0, 0): that near says who has just been switched on, and knows of no other place."""
+"""Metres from (0, 0): that near says a drone that has just been switched on and knows of no other place."""
 
 
 def write_fleet(app: App, path: Path, told: Sequence[DroneAnswer], navigation: str | None) -> None:
@@ -55,27 +54,22 @@ def _file(app: App, path: Path, there: Sequence[DroneAnswer], navigation: str) -
     yield "# Say below how large the room is, and see whether each drone has its home and category."
     yield ""
     yield "[map]"
-    yield f"size = {_toml([*airspace.size])}  # metres, from the place where positions are (0, 0)"
+    yield f"size = {toml_value([*airspace.size])}  # metres, from the place where positions are (0, 0)"
     yield f"ceiling = {number(airspace.ceiling)}  # nothing flies higher"
     if navigation != CRAZYFLIE:
         yield ""
         yield "[fleet]"
-        yield f"navigation = {_toml(navigation)}"
+        yield f"navigation = {toml_value(navigation)}"
     categories = cycle(category.name for category in app.categories)
     homes = _Homes(airspace)
     for index, (answer, category) in enumerate(zip(there, categories, strict=False), start=1):
         yield ""
         yield "[[drone]]"
         yield f'id = "cf{index}"'
-        yield f"category = {_toml(category)}{_choice(app)}"
+        yield f"category = {toml_value(category)}{_choice(app)}"
         yield homes.line(answer)
         if answer.asked.uri is not None:
-            yield f"uri = {_toml(answer.asked.uri)}"
-
-
-def _toml(value: object) -> str:
-    """Write a value as TOML does."""
-    return tomlkit.item(value).as_string()
+            yield f"uri = {toml_value(answer.asked.uri)}"
 
 
 def _choice(app: App) -> str:
@@ -97,10 +91,10 @@ class _Homes:
         said = round(x, 2) + 0.0, round(y, 2) + 0.0
         if dist(said, (0.0, 0.0)) > _ORIGIN and self._is_free(said):
             self._taken.append(said)
-            return f"home = {_toml([*said])}  # where it stood"
+            return f"home = {toml_value([*said])}  # where it stood"
         free = self._next_of_row()
         self._taken.append(free)
-        return f"home = {_toml([*free])}  # put it there: it said {place((*said, 0.0))}"
+        return f"home = {toml_value([*free])}  # put it there: it said {place((*said, 0.0))}"
 
     def _is_free(self, spot: Corner) -> bool:
         if self._airspace.problem((*spot, 0.0)) is not None:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..drones.protocol import DroneNavigation, DroneTelemetry
     from ..files.options import Options
 
-CONNECT, ANSWER, CLOSE, SCAN = 15.0, 12.0, 10.0, 90.0
+CONNECT_WITHIN, ANSWER_WITHIN, CLOSE_WITHIN, SCAN_WITHIN = 15.0, 12.0, 10.0, 90.0
 """Seconds that each may take."""
 
 LOST = "it does not tell where it is"
@@ -88,11 +88,11 @@ async def found(navigation: str, options: Mapping[str, object]) -> list[str]:
             " file with --fleet"
         )
     try:
-        return list(dict.fromkeys(await _within(SCAN, by.scan(options))))
+        return list(dict.fromkeys(await _within(SCAN_WITHIN, by.scan(options))))
     except BadInput:
         raise
     except _Silent:
-        raise BadInput(f"looking for drones took longer than {number(SCAN)} s") from None
+        raise BadInput(f"looking for drones took longer than {number(SCAN_WITHIN)} s") from None
     except Exception as error:
         raise BadInput(f"cannot look for drones: {_why(error)}") from error
 
@@ -125,10 +125,10 @@ async def identified(asked: DroneQuery, folder: Path) -> None:
         raise BadInput(f"{asked.id} has nothing by which it could show itself")
     with lock_drones({asked.id: asked.uri or asked.id}):
         try:
-            await _within(CONNECT, navigation.connect())
-            await _within(CONNECT, navigation.identify())
+            await _within(CONNECT_WITHIN, navigation.connect())
+            await _within(CONNECT_WITHIN, navigation.identify())
         except _Silent:
-            raise BadInput(of(asked.id, no_answer(CONNECT))) from None
+            raise BadInput(of(asked.id, no_answer(CONNECT_WITHIN))) from None
         except Exception as error:
             raise BadInput(of(asked.id, _why(error))) from error
         finally:
@@ -180,7 +180,7 @@ async def _answer(
             if lost is not None:
                 problems = (*problems, lost)
         case _Silent():
-            problems = (no_answer(CONNECT if so_far.telemetry is None else ANSWER),)
+            problems = (no_answer(CONNECT_WITHIN if so_far.telemetry is None else ANSWER_WITHIN),)
         case Exception() if not isinstance(end, BadInput):
             problems = (_why(end),)
         case _:  # something is missing that all of them need
@@ -191,14 +191,14 @@ async def _answer(
 
 
 async def _ask(navigation: DroneNavigation, so_far: _Heard) -> None:
-    await _within(CONNECT, navigation.connect())
+    await _within(CONNECT_WITHIN, navigation.connect())
     so_far.telemetry = navigation.telemetry
     if so_far.telemetry.flying:
         so_far.problems = (IN_THE_AIR,)
         return
-    so_far.problems = tuple(map(str, await _within(ANSWER, navigation.preflight())))
+    so_far.problems = tuple(map(str, await _within(ANSWER_WITHIN, navigation.preflight())))
     if inspect.iscoroutinefunction(getattr(navigation, "facts", None)):
-        facts = await _within(ANSWER, cast(Tells, navigation).facts())
+        facts = await _within(ANSWER_WITHIN, cast(Tells, navigation).facts())
         so_far.facts = {str(name): str(fact) for name, fact in facts.items()}
     so_far.telemetry = navigation.telemetry
 
@@ -210,7 +210,7 @@ async def _let_go(navigation: DroneNavigation) -> None:
         flying = navigation.telemetry.flying
     if not flying:
         with suppress(Exception):
-            await _within(CLOSE, navigation.close())
+            await _within(CLOSE_WITHIN, navigation.close())
 
 
 async def _within(seconds: float, coroutine: Coroutine[object, object, T]) -> T:

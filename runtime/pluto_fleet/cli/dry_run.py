@@ -14,8 +14,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-import tomlkit
-
 from plutoc_runtime import output
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
@@ -25,7 +23,7 @@ from plutoc_runtime.fleet.reach import CLIMB_SPEED
 from ..drones.protocol import Acts
 from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
-from ..files.values import text
+from ..files.toml import toml_value
 from ..flight.simulate import simulate
 from ..jobs.controls import ForwardingControls
 from ..report.report import exit_code, report, table
@@ -36,7 +34,7 @@ from .preflight import check_real, made
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from plutoc_runtime.alone.simulate import Outcome
+    from plutoc_runtime.alone.simulate import SimulationResult
 
     # was an import of itself
     from plutoc_runtime.domain.actions import Plain
@@ -132,7 +130,9 @@ def _refuse_what_does_not_go_together(options: Options) -> None:
             raise BadInput(f"{flag} is for a flight, and --dry-run is none: leave one out")
 
 
-def _lines(plan: LoadedPlan, outcome: Outcome, commands: Sequence[LoggedCommand]) -> Iterator[str]:
+def _lines(
+    plan: LoadedPlan, outcome: SimulationResult, commands: Sequence[LoggedCommand]
+) -> Iterator[str]:
     yield from table(
         ("time", "drone", "command", "to", "at most"),
         [
@@ -229,8 +229,8 @@ class CommandLog(ForwardingControls):
         job: str | None,
     ) -> object:
         """Do one of the built-in actions here, and return what came of it."""
-        given = [f"{name} = {tomlkit.item(one).as_string()}" for name, one in parameters.items()]
-        what = [*([text(item.name)] if item is not None else []), *given]
+        given = [f"{name} = {toml_value(one)}" for name, one in parameters.items()]
+        what = [*([] if item is None else [toml_value(item.name)]), *given]
         self._note(drone, f"{action}, {', '.join(what)}" if what else action)
         return await self._controls.act(drone, action, parameters, item, job)
 

@@ -25,7 +25,7 @@ from ..jobs.reports import Down
 from ..journal.place import gateway_folder
 from ..process.forked import in_children, leave
 
-AT_ONCE = 1.0
+STOP_DIRECTLY_AFTER = 1.0
 """Seconds that the app may take to stop its drones, before they are told without it."""
 
 
@@ -99,7 +99,7 @@ class Interrupts:
         self._stops.asked = Down.LAND
         if self.loop is not None:
             self.loop.call_soon_threadsafe(self._stop)
-            late = Timer(AT_ONCE, self._go_past)
+            late = Timer(STOP_DIRECTLY_AFTER, self._go_past)
             late.daemon = True
             late.start()
 
@@ -114,5 +114,5 @@ class Interrupts:
             with suppress(BadInput):
                 if journal is None:
                     return
-                stop_directly(gateway_folder(journal), Down.LAND, AT_ONCE)
+                stop_directly(gateway_folder(journal), Down.LAND, STOP_DIRECTLY_AFTER)
                 output.tell("the app is busy: the gateway lands the drones without it")

@@ -16,7 +16,7 @@ from plutoc_runtime.domain.text import counted
 from ..journal import place
 from ..journal.mending import mend
 from ..journal.reader import Reader
-from ..report.sentences import journal_sentence as told
+from ..report.sentences import journal_sentence
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 DAMAGED = 1
 
-PAUSE = 0.2
+LOOK_EVERY = 0.2
 """Seconds between two looks at a journal that is followed."""
 
 
@@ -69,7 +69,7 @@ def _follow(reader: Reader, printer: _Printer) -> None:
     """Print what comes, until it is interrupted, or its output is closed."""
     with suppress(KeyboardInterrupt):
         while reader.damaged is None:
-            _wait(PAUSE)
+            _wait(LOOK_EVERY)
             printer.print(reader.more())
 
 
@@ -112,7 +112,7 @@ def as_json(event: dict[str, Any], wall: float) -> Iterator[str]:
 
 def as_text(event: dict[str, Any], wall: float) -> Iterator[str]:
     """Give an event as people read it, behind the local time at which it was written."""
-    said = told(event, wall)
+    said = journal_sentence(event, wall)
     if said is not None:
         begin = time.strftime("%H:%M:%S", time.localtime(wall)) + "  "
         for line in said.split("\n"):

@@ -29,7 +29,7 @@ from ..report.report import exit_code, last_line, table
 from ..trials.invariants import ENDS, Invariants, items_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.alone.simulate import Outcome
+    from plutoc_runtime.alone.simulate import SimulationResult
     from plutoc_runtime.domain.app import App
 
     from ..report.progress import Progress
@@ -146,7 +146,7 @@ def _in_words(runs: Sequence[RunFigures]) -> str:
     return text
 
 
-Fly = Callable[[int], "Outcome"]
+Fly = Callable[[int], "SimulationResult"]
 """Flies the missions with a seed."""
 
 
@@ -173,7 +173,7 @@ class RunFigures:
     """What no run may ever do, and this one did."""
 
 
-def run_of(seed: int, outcome: Outcome, items: Items) -> RunFigures:
+def run_of(seed: int, outcome: SimulationResult, items: Items) -> RunFigures:
     """Return what the summary needs to know of an outcome."""
     trips = trips_data(outcome)
     invariants = Invariants(items)

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 
     Serve = Callable[[Api, socket, Callable[[], object]], Coroutine[object, object, None]]
 
-AGAIN = "serve shows what was interrupted, and Resume goes on with it"
+HOW_TO_GO_ON = "serve shows what was interrupted, and Resume goes on with it"
 
 
 def serve(app: App, options: Options) -> int:
@@ -62,11 +62,11 @@ def serve(app: App, options: Options) -> int:
     if options.supervise:
         return _supervised(app, options, config)
     with _alone(config):
-        (config.own_folder / LEFT).unlink(missing_ok=True)
+        (config.own_folder / LEFT_FILE).unlink(missing_ok=True)
         station = Station(app, config, _plan(app, options, config))
         leaving = _Leaving(station)
-        left = config.own_folder / LEFT
-        interrupts = Interrupts(leaving, leaving.journal, AGAIN, last=left.touch)
+        left = config.own_folder / LEFT_FILE
+        interrupts = Interrupts(leaving, leaving.journal, HOW_TO_GO_ON, last=left.touch)
         with interrupts.listening():
             run(_serve(serve_web, options, config, station, interrupts))
         left.touch()
@@ -104,7 +104,7 @@ async def _serve(
             station.resume()
 
         def ready() -> None:
-            (config.own_folder / PORT).write_text(str(guard.port), encoding="utf-8")
+            (config.own_folder / PORT_FILE).write_text(str(guard.port), encoding="utf-8")
             output.line(f"station: {address(guard)}")
             output.flush()
             if options.open:
@@ -196,17 +196,17 @@ def _plan(app: App, options: Options, config: StationConfig) -> MissionPlan:
     return plan
 
 
-LEFT = "left"
+LEFT_FILE = "left"
 """The file that is there once a station has ended as it was told to."""
 
-PORT = "port"
+PORT_FILE = "port"
 """The file that says where browsers look for the station: after a crash it is there again."""
 
 
 def _port(options: Options, config: StationConfig) -> int:
     if options.going_on and not options.port:
         with suppress(OSError, ValueError):
-            return int((config.own_folder / PORT).read_text(encoding="utf-8"))
+            return int((config.own_folder / PORT_FILE).read_text(encoding="utf-8"))
     return options.port
 
 
@@ -215,15 +215,15 @@ def _token(config: StationConfig) -> str:
     file = config.own_folder / "token"
     with suppress(OSError, ValueError):
         known = file.read_text(encoding="ascii").strip()
-        if len(known) >= _TOKEN:
+        if len(known) >= _TOKEN_BYTES:
             return known
-    token = secrets.token_urlsafe(_TOKEN)
+    token = secrets.token_urlsafe(_TOKEN_BYTES)
     file.touch(mode=0o600)
     file.write_text(token, encoding="ascii")
     return token
 
 
-_TOKEN = 32
+_TOKEN_BYTES = 32
 """Bytes."""
 
 
@@ -262,8 +262,8 @@ def _supervised(app: App, options: Options, config: StationConfig) -> int:
             first=first,
             again=lambda: [*(word for word in first if word != "--open"), "--going-on"],
             finished=done,
-            over=lambda _: (config.own_folder / LEFT).exists(),
-            how_to_go_on=AGAIN,
+            over=lambda _: (config.own_folder / LEFT_FILE).exists(),
+            how_to_go_on=HOW_TO_GO_ON,
         )
     )
 

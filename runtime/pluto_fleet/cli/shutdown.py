@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-GRACE = 5.0
+HOOKS_END_WITHIN = 5.0
 """Seconds that hooks' threads and processes get to end by themselves."""
 
-_LAST = 1.0
+_KILLED_AFTER = 1.0
 """Seconds between asking a process to end and ending it."""
 
 
@@ -44,7 +44,7 @@ def run(main: Coroutine[Any, Any, T]) -> T:
         for task in left:
             task.cancel()
         left.add(loop.create_task(loop.shutdown_asyncgens()))
-        _, pending = _through(loop, asyncio.wait(left, timeout=GRACE))
+        _, pending = _through(loop, asyncio.wait(left, timeout=HOOKS_END_WITHIN))
         _stubborn.extend(pending)
         asyncio.set_event_loop(None)
         loop.close()
@@ -79,7 +79,7 @@ def leave_in_time(name: str, code: int) -> None:
 
 def _watch(name: str, code: int, leaves: threading.Event) -> None:
     leaves.wait()
-    time.sleep(GRACE)  # in a daemon thread: it ends with the process
+    time.sleep(HOOKS_END_WITHIN)  # in a daemon thread: it ends with the process
     _end(name, code)
 
 
@@ -94,7 +94,7 @@ def _end(name: str, code: int) -> NoReturn:
     output.tell(f"{name}: {what} does not end, and is ended with the app")
     for child in children:
         child.terminate()
-    until = time.monotonic() + _LAST
+    until = time.monotonic() + _KILLED_AFTER
     for child in children:
         child.join(max(0.0, until - time.monotonic()))
         child.kill()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.simulate import Outcome, outcome_data
+from plutoc_runtime.alone.simulate import SimulationResult, outcome_data
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import duration
 from plutoc_runtime.domain.trace import Event, dumped
@@ -49,7 +49,7 @@ def simulate(app: App, options: Options) -> int:
             return _once(app, options, plan, progress)
         from .runs import often  # one run has no need of it
 
-        def again(seed: int) -> Outcome:
+        def again(seed: int) -> SimulationResult:
             return _fly(app, options, plan, seed, None)
 
         return often(app, options, options.runs, plan, progress, again)
@@ -87,7 +87,7 @@ def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> i
 
 def _fly(
     app: App, options: Options, plan: LoadedPlan, seed: int, listener: Listener | None
-) -> Outcome:
+) -> SimulationResult:
     return simulated(
         app,
         deepcopy(plan.missions),  # a run changes its missions

@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     from ..journal.fold import Records
     from .options import Options
 
-AT_ONCE = 1.0
+STOP_DIRECTLY_AFTER = 1.0
 """Seconds until a Stop goes to the drones without the app."""
 
-PATIENCE = 10.0
+ANSWER_WITHIN = 10.0
 """Seconds until any other command is given up."""
 
 
@@ -63,7 +63,7 @@ def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
     """Return what the running app says to a request."""
     journal = options.the_journal
     try:
-        return ask(commands_note(journal), request, PATIENCE)
+        return ask(commands_note(journal), request, ANSWER_WITHIN)
     except NotRunning:
         if not journal.exists():
             raise missing(journal) from None
@@ -134,13 +134,13 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
     if gateway_folder(journal).is_dir():
         # If the app crashes meanwhile, the next one that is started shall land as well.
         offline.leave_stop(journal, how)
-    until = time.monotonic() + PATIENCE
+    until = time.monotonic() + ANSWER_WITHIN
     while True:
         try:
-            return ask(commands_note(journal), request, AT_ONCE)
+            return ask(commands_note(journal), request, STOP_DIRECTLY_AFTER)
         except (NotRunning, NoAnswer) as unheard:
             with suppress(NotRunning):
-                said = stop_directly(gateway_folder(journal), how, PATIENCE)
+                said = stop_directly(gateway_folder(journal), how, ANSWER_WITHIN)
                 return f"{unheard}: {said} without it; {again} goes on"
         if holder(journal) is None:
             if not journal.exists():
@@ -155,10 +155,10 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
 def cut_motors(app: App, journal: Path, drone: str | None) -> str:
     """Switch motors off without asking the app: nothing that it does may hold that up."""
     journal = Path(os.path.realpath(journal))
-    until = time.monotonic() + AT_ONCE
+    until = time.monotonic() + STOP_DIRECTLY_AFTER
     while True:
         try:
-            return cut_directly(gateway_folder(journal), drone, PATIENCE)
+            return cut_directly(gateway_folder(journal), drone, ANSWER_WITHIN)
         except NotRunning:
             if time.monotonic() > until:
                 break

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.actions import PICK, RELEASE
 from plutoc_runtime.domain.model import Photo
+from plutoc_runtime.domain.text import quoted
 
 from ..drones.errors import ActionNotDone, PositionLost, Rejected
 from . import logs, messages, parameters
@@ -127,7 +128,7 @@ def why_not(
         if cf is not None and parameters.element_of(cf, name) is None:
             return messages.no_parameter(drone, name)
         return None
-    return messages.no_action(drone, action)
+    return f"{drone} is a Crazyflie, which cannot {action}"
 
 
 async def act(
@@ -186,7 +187,7 @@ async def _photo(
     except (OSError, TimeoutError, NoPicture) as error:
         why = str(error) or "nothing came in time"
         where = f"{camera[0]}:{camera[1]}"
-        raise ActionNotDone(messages.no_photo(session.drone, where, why)) from error
+        raise ActionNotDone(f"{session.drone} gives no photo at {where}: {why}") from error
     await _check_place(session)
     after = session.now().position
     x, y, z = (round((a + b) / 2, 3) for a, b in zip(before, after, strict=True))
@@ -212,7 +213,9 @@ async def _kept(worker: Worker, folder: Path, drone: str, taken: Picture) -> Pat
     try:
         return await worker.call(write, 5.0)
     except OSError as error:
-        raise ActionNotDone(messages.not_kept(drone, str(folder), str(error))) from error
+        raise ActionNotDone(
+            f"the photo of {drone} could not be kept in {quoted(str(folder))}: {error}"
+        ) from error
 
 
 _LIGHTS = "led.bitmask"

@@ -137,7 +137,7 @@ async def answered(
             session.acknowledged.drop(key, hearing)
         if answer is not None:
             return answer.ljust(4, b"\0")
-    raise LinkLost(messages.not_acknowledged(session.drone, name))
+    raise LinkLost(f"{session.drone} did not acknowledge the command {name}")
 
 
 def _check(session: CrazyflieSession, name: str, code: int) -> None:
@@ -146,7 +146,10 @@ def _check(session: CrazyflieSession, name: str, code: int) -> None:
         return
     state = session.well()
     if code == _BLOCKED:
-        raise Rejected(messages.blocked(session.drone, name, state.said))
+        raise Rejected(
+            f"{session.drone} refuses the command {name}:"
+            f" its supervisor blocks flight ({state.said})"
+        )
     if code == _WRONG_STATE:
-        raise Rejected(messages.wrong_state(session.drone, name))
-    raise Rejected(messages.refused(session.drone, name, code))
+        raise Rejected(f"{session.drone} refuses the command {name}: not in this state")
+    raise Rejected(f"{session.drone} refuses the command {name}: error {code}")

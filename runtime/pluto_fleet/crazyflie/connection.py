@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import number, quoted
 
 from ..drones.errors import LinkLost
 from . import logs, messages, parameters
@@ -62,7 +63,7 @@ async def _open(session: CrazyflieSession, folder: Path) -> None:
     await session.call(lambda cf: cf.link_statistics.stop())
     await session.call(lambda _: logs.begin(session), _OPEN)
     if await session.until_told(TELEMETRY) is None:
-        raise LinkLost(messages.no_telemetry(session.drone))
+        raise LinkLost(f"{session.drone} answers, but does not tell where it is")
 
 
 def _begin(session: CrazyflieSession, folder: Path) -> None:
@@ -84,8 +85,14 @@ async def _answer(session: CrazyflieSession) -> None:
             heard, at = entries, session.loop.time()
         if session.loop.time() - at > ANSWER:
             if session.answered:
-                raise LinkLost(messages.not_complete(session.drone, ANSWER))
-            raise LinkLost(messages.no_answer(session.drone, session.uri, ANSWER))
+                raise LinkLost(
+                    f"{session.drone} answered, and then told nothing more of itself in"
+                    f" {number(ANSWER)} s"
+                )
+            raise LinkLost(
+                f"{session.drone} does not answer at {session.uri}: nothing came in"
+                f" {number(ANSWER)} s; is it on?"
+            )
         with suppress(TimeoutError):
             async with asyncio.timeout(_ASK_AGAIN):
                 await session.established.wait()
@@ -93,7 +100,7 @@ async def _answer(session: CrazyflieSession) -> None:
         if session.uri.startswith("udp://"):  # radio packets are repeated by the dongle
             await session.call(lambda _: _ask_again(session))
     if session.lost:
-        raise LinkLost(messages.no_connection(session.drone, session.uri, session.lost))
+        raise LinkLost(f"{session.drone} cannot be reached at {session.uri}: {session.lost}")
 
 
 def _entries(session: CrazyflieSession) -> int:
@@ -168,7 +175,7 @@ def _look(options: CrazyflieOptions) -> list[str]:
     try:
         radio = RadioManager.open(0)
     except Exception as error:  # cflib raises just that
-        raise LinkLost(messages.no_scan(messages.cause(str(error)))) from error
+        raise LinkLost(f"the radio finds no drone: {messages.cause(str(error))}") from error
     try:
         for address in options.addresses:
             found += _on_the_air(radio, address)
@@ -182,8 +189,8 @@ def _on_the_air(radio: Any, address: str) -> list[str]:
     radio.set_address(bytes_)
     radio.set_arc(1)
     found = []
-    for number, rate in _RATES:
-        radio.set_data_rate(number)
+    for code, rate in _RATES:
+        radio.set_data_rate(code)
         for channel in radio.scan_channels(0, _CHANNELS, (_PROBE,)):
             uri = f"radio://0/{channel}/{rate}"
             name = bytes(bytes_).hex().upper()
@@ -197,7 +204,7 @@ def _bytes(address: str) -> tuple[int, ...]:
     except ValueError:
         found = ()
     if len(found) != 5:
-        raise BadInput(messages.no_address(address))
+        raise BadInput(f'{quoted(address)} is no radio address: five bytes, such as "E7E7E7E7E1"')
     return found
 
 

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.domain.text import number
+
 from ..drones.errors import (
     NavigationError,
     NotReady,
@@ -47,7 +49,7 @@ def check(drone: str, target: Point, speed: float) -> None:
 def check_speed(drone: str, speed: float) -> None:
     """Refuse what is no speed."""
     if not is_speed(speed):
-        raise Rejected(messages.no_speed(drone, speed))
+        raise Rejected(f"{drone} cannot fly at {number(speed)} m/s: a speed must be above 0")
 
 
 def knows_its_place(session: CrazyflieSession) -> None:
@@ -66,7 +68,9 @@ async def takeoff(session: CrazyflieSession, height: float, speed: float) -> Non
         if not await _begun(session, height, seconds) and not await _begun(
             session, height, seconds
         ):
-            raise Rejected(messages.disarmed(session.drone))
+            raise Rejected(
+                f"{session.drone} accepted the take-off, and was disarmed at once, twice"
+            )
     except (NotReady, Rejected):
         with suppress(NavigationError):
             await _disarm(session)
@@ -87,7 +91,7 @@ async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bo
     """Begin to rise; False: it was disarmed just then."""
     await session.fresh()
     if await session.until(lambda state: not state.flies, _SETTLES) is None:
-        raise Rejected(messages.still_flies(session.drone))
+        raise Rejected(f"{session.drone} cannot take off: it says that it still flies")
     await supervisor.rearm(session)
     session.took_off_at = session.loop.time()
     try:
@@ -113,7 +117,7 @@ async def _disarm(session: CrazyflieSession) -> None:
 async def go_to(session: CrazyflieSession, target: Point, speed: float) -> None:
     """Fly straight to a place, and return when it hovers there."""
     if not session.well().steered:
-        raise Rejected(messages.not_flying(session.drone))
+        raise Rejected(f"{session.drone} does not fly: it must take off first")
     if not session.now().finished:  # two trajectories in one blend into a third
         await hold(session)
     seconds = speed_limits_of(session).seconds(session.now().position, target, speed)
@@ -179,4 +183,4 @@ def _hovers(session: CrazyflieSession, state: State, off: Callable[[State], floa
 
 async def _down(session: CrazyflieSession, ready: Callable[[State], bool], limit: float) -> None:
     if await session.until(ready, limit) is None:
-        raise TargetTimeout(messages.not_landed(session.drone))
+        raise TargetTimeout(f"{session.drone} has not come down in time")

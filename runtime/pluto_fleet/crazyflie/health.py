@@ -121,7 +121,7 @@ class AlarmDetector:
             yield DroneEvent(kind=LOCKED, reason=why)
         self._crashed, self._locked = state.crashed, state.locked
         if self._battery_low(state):
-            yield DroneEvent(kind=BATTERY_LOW, reason=messages.low(state.volts))
+            yield DroneEvent(kind=BATTERY_LOW, reason=f"its battery is down to {state.volts:.2f} V")
 
     def hear_of_its_place(self, adrift: bool, variance: float) -> Iterator[DroneEvent]:
         """Yield that it does not know its place in the air any more, when that begins."""

@@ -1,4 +1,4 @@
-"""All that is said of Crazyflies to people: one function a sentence."""
+"""What is said of Crazyflies to people, where that is said in several places or takes a few words."""
 
 from __future__ import annotations
 
@@ -24,36 +24,8 @@ def no_cflib(package: str | None) -> str:
 # The link
 
 
-def no_uri(drone: str) -> str:
-    return f"{drone} has no uri in the fleet file: it says how to reach a Crazyflie"
-
-
 def not_connected(drone: str) -> str:
     return f"{drone} is not connected"
-
-
-def no_answer(drone: str, uri: str, seconds: float) -> str:
-    return f"{drone} does not answer at {uri}: nothing came in {number(seconds)} s; is it on?"
-
-
-def no_connection(drone: str, uri: str, why: str) -> str:
-    return f"{drone} cannot be reached at {uri}: {why}"
-
-
-def not_complete(drone: str, seconds: float) -> str:
-    return f"{drone} answered, and then told nothing more of itself in {number(seconds)} s"
-
-
-def no_telemetry(drone: str) -> str:
-    return f"{drone} answers, but does not tell where it is"
-
-
-def silent(drone: str, seconds: float) -> str:
-    return f"{drone} stopped answering {seconds:.1f} s ago"
-
-
-def silence(seconds: float) -> str:
-    return f"it has told nothing for {seconds:.1f} s"
 
 
 def ended(drone: str, why: str) -> str:
@@ -88,19 +60,7 @@ def cause(message: str) -> str:
     return first or "cflib does not say why"
 
 
-def no_scan(why: str) -> str:
-    return f"the radio finds no drone: {why}"
-
-
-def no_address(address: str) -> str:
-    return f'{quoted(address)} is no radio address: five bytes, such as "E7E7E7E7E1"'
-
-
 # Commands
-
-
-def no_speed(drone: str, speed: float) -> str:
-    return f"{drone} cannot fly at {number(speed)} m/s: a speed must be above 0"
 
 
 def outside(drone: str, target: Point) -> str:
@@ -108,60 +68,12 @@ def outside(drone: str, target: Point) -> str:
     return f"{drone} cannot go to ({x}, {y}, {z}): it must be finite, and above the ground"
 
 
-def not_flying(drone: str) -> str:
-    return f"{drone} does not fly: it must take off first"
-
-
-def not_acknowledged(drone: str, command: str) -> str:
-    return f"{drone} did not acknowledge the command {command}"
-
-
-def blocked(drone: str, command: str, state: str) -> str:
-    return f"{drone} refuses the command {command}: its supervisor blocks flight ({state})"
-
-
-def wrong_state(drone: str, command: str) -> str:
-    return f"{drone} refuses the command {command}: not in this state"
-
-
-def refused(drone: str, command: str, code: int) -> str:
-    return f"{drone} refuses the command {command}: error {code}"
-
-
 def not_begun(drone: str, command: str) -> str:
     return f"{drone} acknowledged the command {command}, and does not move"
 
 
-def not_armed(drone: str, state: str) -> str:
-    return f"{drone} will not arm ({state})"
-
-
-def still_flies(drone: str) -> str:
-    return f"{drone} cannot take off: it says that it still flies"
-
-
-def disarmed(drone: str) -> str:
-    return f"{drone} accepted the take-off, and was disarmed at once, twice"
-
-
-def not_recovered(drone: str) -> str:
-    return f"{drone} does not forget that it has crashed: set it upright, or switch it off and on"
-
-
 def not_arrived(drone: str, what: str, off: float) -> str:
     return f"{drone} has not {what} in time: {number(off)} m are missing"
-
-
-def not_landed(drone: str) -> str:
-    return f"{drone} has not come down in time"
-
-
-def not_stopped(drone: str) -> str:
-    return f"{drone} did not confirm that its motors are off"
-
-
-def crashed(drone: str) -> str:
-    return f"{drone} has tumbled or crashed"
 
 
 def locked(drone: str, deck_failed: bool) -> str:
@@ -181,20 +93,12 @@ IS_LOCKED = "it has locked its motors: switch it off and on"
 LOCKED_BY_DECK = f"one of its decks reports a fault, and {IS_LOCKED}"
 
 
-def low(volts: float) -> str:
-    return f"its battery is down to {volts:.2f} V"
-
-
 def old_firmware(version: int) -> str:
     has = "too old to say which" if version < 0 else f"{version}"
     return (
         f"its firmware speaks protocol {has}, {PROTOCOL} or later is needed:"
         " flash the newest release with cfclient (Connect, Bootloader)"
     )
-
-
-def lacks_variables(names: Sequence[str]) -> str:
-    return f"its firmware has no log variable {', '.join(names)}: flash the newest release"
 
 
 def little(volts: float, least: float, cells: int) -> str:
@@ -245,10 +149,6 @@ def too_fast(speed: float, parameter: str, limit: float) -> str:
     )
 
 
-def cannot_fly(state: str) -> str:
-    return f"its supervisor does not let it fly ({state})"
-
-
 def no_deck(deck: str, found: Sequence[str]) -> str:
     has = f"it has {', '.join(found)}" if found else "it has none"
     return f"it has no deck {quoted(deck)}: {has}"
@@ -268,16 +168,8 @@ def no_parameter(drone: str, name: str) -> str:
     return f"{drone} has no parameter {quoted(name)}"
 
 
-def no_such(drone: str, name: str) -> str:
-    return f"{drone} has neither a log variable nor a parameter {quoted(name)}"
-
-
 def bad_value(drone: str, name: str, value: float, kind: str) -> str:
     return f"{drone}: {number(value)} is no value for {quoted(name)}, which is a {kind}"
-
-
-def not_taken(drone: str, name: str, value: float, has: float) -> str:
-    return f"{drone}: {quoted(name)} was set to {number(value)}, and is {number(has)}"
 
 
 def not_read(drone: str, name: str) -> str:
@@ -306,24 +198,4 @@ def no_grip(drone: str) -> str:
     )
 
 
-def no_action(drone: str, action: str) -> str:
-    return f"{drone} is a Crazyflie, which cannot {action}"
-
-
-def no_photo(drone: str, where: str, why: str) -> str:
-    return f"{drone} gives no photo at {where}: {why}"
-
-
-def not_kept(drone: str, folder: str, why: str) -> str:
-    return f"the photo of {drone} could not be kept in {quoted(folder)}: {why}"
-
-
 # Options
-
-
-def unknown_option(key: str, known: Sequence[str]) -> str:
-    return f"a Crazyflie has no option {quoted(key)}; it has {', '.join(known)}"
-
-
-def bad_option(key: str, wanted: str) -> str:
-    return f"its option {key} must be {wanted}"

@@ -8,6 +8,8 @@ from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.domain.text import quoted
+
 from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
 from ..drones.protocol import LINK_LOST, DroneEvent, DroneTelemetry
 from . import (
@@ -68,7 +70,9 @@ class Crazyflie:
         """
         uri = self._setup.uri
         if uri is None:
-            raise NotReady(messages.no_uri(self._id))
+            raise NotReady(
+                f"{self._id} has no uri in the fleet file: it says how to reach a Crazyflie"
+            )
         if self._session is not None and self._session.alive:
             return
         if self._opening is None or self._opening.done():
@@ -225,7 +229,7 @@ class Crazyflie:
         if logs.has(session.cf, name):
             return await self._reader().mean(name, 0.0)
         if parameters.element_of(session.cf, name) is None:
-            raise Rejected(messages.no_such(self._id, name))
+            raise Rejected(f"{self._id} has neither a log variable nor a parameter {quoted(name)}")
         return await parameters.read(session, name)
 
     async def write(self, name: str, value: float) -> None:

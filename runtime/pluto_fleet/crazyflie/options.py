@@ -8,9 +8,7 @@ from math import sqrt
 from sys import float_info
 
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import number
-
-from . import messages
+from plutoc_runtime.domain.text import number, quoted
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,7 +76,7 @@ def options_of(given: Mapping[str, object]) -> CrazyflieOptions:
     """Return what the fleet file says; raise `BadInput` naming the key that cannot be used."""
     for key in given:
         if key not in _KNOWN:
-            raise BadInput(messages.unknown_option(key, _KNOWN))
+            raise BadInput(f"a Crazyflie has no option {quoted(key)}; it has {', '.join(_KNOWN)}")
     reading = _OptionReader(given)
     sure_within = reading.length("sure_within", SURE_WITHIN)
     lost_beyond = reading.length("lost_beyond", max(LOST_BEYOND, sure_within))
@@ -108,7 +106,7 @@ class _OptionReader:
     given: Mapping[str, object]
 
     def bad(self, key: str, wanted: str) -> BadInput:
-        return BadInput(messages.bad_option(key, wanted))
+        return BadInput(f"its option {key} must be {wanted}")
 
     def number(self, key: str, default: float, *, least: float) -> float:
         value = _number(self.given.get(key, default))

@@ -8,6 +8,8 @@ from contextlib import suppress
 from math import isclose, isfinite
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.domain.text import number, quoted
+
 from ..drones.errors import LinkLost, Rejected
 from . import messages
 
@@ -58,11 +60,11 @@ async def write(session: CrazyflieSession, name: str, value: float, *, stays: bo
     whole = element.pytype not in _FLOATS
     if not isfinite(value) or (whole and not float(value).is_integer()):
         raise Rejected(messages.bad_value(session.drone, name, value, element.ctype))
-    number = int(value) if whole else float(value)
+    sent = int(value) if whole else float(value)
 
     def send(cf: Cf) -> None:
         try:
-            cf.param.set_value(name, number)
+            cf.param.set_value(name, sent)
         except Exception as error:  # out of its range, or one that can only be read
             wrong = messages.bad_value(session.drone, name, value, element.ctype)
             raise Rejected(f"{wrong} ({error})") from error
@@ -70,7 +72,9 @@ async def write(session: CrazyflieSession, name: str, value: float, *, stays: bo
     # What it answers to the first is what it was sent; what it has is asked for.
     has = await _asked(session, name, send, lambda cf: cf.param.request_param_update(name))
     if stays and not isclose(has, value, rel_tol=_EXACT, abs_tol=_EXACT):
-        raise Rejected(messages.not_taken(session.drone, name, value, has))
+        raise Rejected(
+            f"{session.drone}: {quoted(name)} was set to {number(value)}, and is {number(has)}"
+        )
 
 
 def _element(session: CrazyflieSession, name: str) -> Element:

@@ -38,7 +38,9 @@ async def problems(
     if version < messages.PROTOCOL:
         return [messages.old_firmware(version)]  # what else it says need not be so
     if session.lacks:
-        return [messages.lacks_variables(session.lacks)]
+        return [
+            f"its firmware has no log variable {', '.join(session.lacks)}: flash the newest release"
+        ]
     began = session.loop.time()
     lacking = await _of_parameters(session, options, speed)
     state = await session.until(_is_settled, _BETWEEN, well=False) or session.now()
@@ -69,7 +71,7 @@ def _of_state(state: State) -> Iterator[str]:
     elif state.deck_failed:
         return  # that is why
     elif not (state.can_arm or state.can_fly):
-        yield messages.cannot_fly(state.said)
+        yield f"its supervisor does not let it fly ({state.said})"
 
 
 def _of_battery(state: State, battery: BatteryGauge, options: CrazyflieOptions) -> Iterator[str]:

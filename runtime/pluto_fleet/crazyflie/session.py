@@ -205,7 +205,7 @@ class CrazyflieSession:
         if not self.lost:
             if self.state is not None and not self._silent and self.silent_for > SILENCE:
                 self._silent = True
-                self._observer.gone(messages.silence(self.silent_for))
+                self._observer.gone(f"it has told nothing for {self.silent_for:.1f} s")
                 self._wake()
             self._looking = self.loop.call_later(SILENCE / 10, self._look)
 
@@ -254,7 +254,7 @@ class CrazyflieSession:
         if self.lost:
             raise LinkLost(messages.ended(self.drone, self.lost))
         if self.state is None or self.silent_for > SILENCE:
-            raise LinkLost(messages.silent(self.drone, self.silent_for))
+            raise LinkLost(f"{self.drone} stopped answering {self.silent_for:.1f} s ago")
         return self.state
 
     def well(self) -> State:
@@ -263,7 +263,7 @@ class CrazyflieSession:
         if state.locked:
             raise Locked(messages.locked(self.drone, state.deck_failed))
         if state.crashed:
-            raise Crashed(messages.crashed(self.drone))
+            raise Crashed(f"{self.drone} has tumbled or crashed")
         return state
 
     async def fresh(self) -> State:

@@ -46,7 +46,7 @@ async def rearm(session: CrazyflieSession) -> None:
     if state.armed:
         await disarm(session)
     if not await _armed(session):
-        raise NotReady(messages.not_armed(session.drone, session.now().said))
+        raise NotReady(f"{session.drone} will not arm ({session.now().said})")
 
 
 async def disarm(session: CrazyflieSession) -> None:
@@ -108,7 +108,10 @@ async def recover_from_crash(session: CrazyflieSession) -> None:
     answer = await answered(session, (SUPERVISOR, _RECOVER), send, "recover", well=False)
     done = answer[1] == _DONE
     if not done or await session.until(lambda now: not now.crashed, _RECOVERED, well=False) is None:
-        raise NotReady(messages.not_recovered(session.drone))
+        raise NotReady(
+            f"{session.drone} does not forget that it has crashed: set it upright,"
+            " or switch it off and on"
+        )
 
 
 _TIMES, _EACH = 5, 0.2
@@ -140,4 +143,4 @@ async def stop_motors(session: CrazyflieSession) -> None:
                 await asyncio.sleep(_EACH)
     finally:
         worker.end()
-    raise LinkLost(messages.not_stopped(session.drone))
+    raise LinkLost(f"{session.drone} did not confirm that its motors are off")

@@ -1,6 +1,7 @@
 """CRTP packets, the tables of contents they carry, and the way that loses or delays them.
 
-A packet is a byte that says port and channel, and up to 30 bytes."""
+A packet is a byte that says port and channel, and up to 30 bytes.
+"""
 
 from __future__ import annotations
 

@@ -19,15 +19,14 @@ from contextlib import suppress
 from importlib.machinery import ModuleSpec
 from importlib.util import resolve_name
 from tempfile import TemporaryFile
-from typing import IO, TYPE_CHECKING, NamedTuple
+from typing import IO, NamedTuple
+
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.text import duration, quoted
 
 from . import plugins
 from .plugins import CallStyle, Method, PluginKind
 from .timeouts import shortened
-
-if TYPE_CHECKING:
-    from .plugins import PluginKind
-
 
 _MOST_IMPORTS = 8
 """So many modules may hand a class on to each other."""
@@ -41,6 +40,10 @@ class _Lookup(NamedTuple):
     far: int = 0
     """How many modules have handed it on."""
 
+    def refused(self, why: str) -> BadInput:
+        """Return the error about what is sought."""
+        return self.kind.refused(self.name, why)
+
 
 def look_up(kind: PluginKind, name: str, module: str, path: str) -> None:
     """Raise `BadInput` if a module is not there, or has no such class; nothing of it is run."""
@@ -50,7 +53,7 @@ def look_up(kind: PluginKind, name: str, module: str, path: str) -> None:
 
 def _look(sought: _Lookup, module: str, path: Sequence[str]) -> None:
     if module.partition(".")[0] in sys.stdlib_module_names:
-        raise plugins.of_python(sought.kind, sought.name, module)
+        raise sought.refused(f"is none: {quoted(module)} is a module of Python's own")
     spec = _spec(sought, module)
     body = _body(sought, spec)
     bases: Sequence[ast.expr] = ()
@@ -64,7 +67,7 @@ def _look(sought: _Lookup, module: str, path: Sequence[str]) -> None:
             case ast.ImportFrom() as found:
                 return _follow(sought, spec, found, [_original(found, part), *rest])
             case ast.FunctionDef() | ast.AsyncFunctionDef():
-                raise plugins.not_a_class(sought.kind, sought.name)
+                raise sought.refused("is no class")
             case None if at == 0:
                 return _look_further(sought, spec, body, part, rest)
             case None if not bases:
@@ -142,8 +145,11 @@ def _body(sought: _Lookup, spec: ModuleSpec) -> Sequence[ast.stmt]:
             return ast.parse(text).body
     except (ImportError, OSError, SyntaxError, ValueError, RecursionError, MemoryError) as error:
         why = shortened(f"{type(error).__name__}: {error}")
-        raise plugins.not_imported(sought.kind, sought.name, why) from error
-    raise plugins.no_text(sought.kind, sought.name, spec.name)
+        raise sought.refused(f"cannot be imported: {why}") from error
+    raise sought.refused(
+        f"cannot be looked up: {quoted(spec.name)} has no text in Python;"
+        f" its package can offer the class by an entry point, {sought.kind.group}"
+    )
 
 
 def _statements(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
@@ -197,12 +203,11 @@ def _refuse_what_has_nothing(sought: _Lookup, found: ast.ClassDef) -> None:
     """Raise `BadInput` for a class that is its own and has no method of its kind at all."""
     if found.bases or found.keywords or found.decorator_list:
         return
-    kind = sought.kind
     has = {name for one in _statements(found.body) for name in _names(one)}
-    wanted = [method.name for method in kind.methods]
+    wanted = [method.name for method in sought.kind.methods]
     if has.isdisjoint(wanted):
-        lacks = [plugins.no_method(name) for name in wanted]
-        raise plugins.lacks(kind, sought.name, lacks)
+        lacks = "; ".join(f"it has no method {name}" for name in wanted)
+        raise sought.refused(f"cannot be used: {lacks}")
 
 
 IMPORT_LIMIT = 20.0
@@ -241,22 +246,25 @@ def try_import(kind: PluginKind, name: str, module: str) -> None:
                 check=False,
             ).returncode
         except subprocess.TimeoutExpired:
-            raise plugins.hangs(kind, name, module, IMPORT_LIMIT, _last_of(said)) from None
+            late = f"was not done with that in {duration(IMPORT_LIMIT)}"
+            raise kind.refused(name, _not_imported(module, late, said)) from None
         if code != _IMPORTED:
-            raise plugins.ends_all(kind, name, module, _how(code), _last_of(said))
+            ends = f"ends the process that imports it ({_how(code)})"
+            raise kind.refused(name, _not_imported(module, ends, said))
+
+
+def _not_imported(module: str, why: str, said: IO[bytes]) -> str:
+    """Say why a module cannot be imported, with the last line that it said, if it said any."""
+    said.seek(0)
+    lines = said.read().decode("utf-8", "replace").strip().splitlines()
+    last = f"; the last it said: {shortened(lines[-1])}" if lines else ""
+    return f"cannot be imported: {quoted(module)} {why}{last}"
 
 
 def _how(code: int) -> str:
     with suppress(ValueError):
         return f"killed by {signal.Signals(-code).name}"
     return f"exit code {code}"
-
-
-def _last_of(said: IO[bytes]) -> str:
-    """Return the last line that was said, if anything was."""
-    said.seek(0)
-    lines = said.read().decode("utf-8", "replace").strip().splitlines()
-    return shortened(lines[-1]) if lines else ""
 
 
 _NOTHING = object()
@@ -266,7 +274,7 @@ def problems(kind: PluginKind, made: type) -> list[str]:
     """Return all that is wrong with a class of this kind."""
     found: list[str] = []
     if not _takes(made, [kind.argument]):
-        found.append(plugins.not_made_of(kind.argument))
+        found.append(f"it cannot be made: its __init__ must take ({kind.argument})")
     for method in kind.methods:
         found += _of_method(made, method)
     for group in kind.together:
@@ -275,7 +283,7 @@ def problems(kind: PluginKind, made: type) -> list[str]:
             if method in there:
                 found += _of_method(made, method)
             else:
-                found.append(plugins.half(method.name, there[0].name))
+                found.append(f"it has {there[0].name} but no {method.name}: both belong together")
     return found
 
 
@@ -283,26 +291,29 @@ def _of_method(made: type, method: Method) -> Iterator[str]:
     attribute = _attribute(made, method)
     if method.shape is CallStyle.PROPERTY:
         if inspect.isroutine(attribute):  # none at all may be set when an object is made
-            yield plugins.no_property()
+            yield "its telemetry must be a property: put @property above it"
         return
     if attribute is _NOTHING:
-        yield plugins.no_method(method.name)
+        yield f"it has no method {method.name}"
         return
     if not callable(attribute):
-        yield plugins.not_callable(method.name)
+        yield f"its {method.name} is no method"
         return
     written = inspect.unwrap(attribute)
     waits, iterates = inspect.iscoroutinefunction(written), inspect.isasyncgenfunction(written)
     if method.shape is CallStyle.WAITS and not waits:
-        yield plugins.not_async(method.name)
+        yield f"its {method.name} must be `async def`"
     elif method.shape is CallStyle.AT_ONCE and (waits or iterates):
-        yield plugins.is_async(method.name)
+        yield f"its {method.name} must be `def`, not `async def`"
     elif method.shape is CallStyle.ITERATES and waits:
-        yield plugins.no_iterator(method.name)
+        yield (
+            f"its {method.name} must be an async generator, or `def` and return an async iterator"
+        )
     elif method.of_class and not _stands_alone(made, method):
-        yield plugins.not_static(method.name)
+        yield f"its {method.name} must be a staticmethod: it is called before there is a drone"
     elif not _takes(attribute, _arguments(made, method)):
-        yield plugins.not_taken(method.name, method.takes)
+        takes = f"({', '.join(method.takes)})" if method.takes else "nothing"
+        yield f"its {method.name} cannot be called so: it takes {takes}"
 
 
 def _attribute(made: type, method: Method) -> object:

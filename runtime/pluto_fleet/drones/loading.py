@@ -19,6 +19,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
+from plutoc_runtime.domain.text import quoted
 
 from . import plugins
 from .inspection import look_up, problems, try_import
@@ -82,7 +83,7 @@ def _made(kind: PluginKind, name: str, of: Callable[[S], T], argument: S, whose:
     except KeyboardInterrupt:
         raise
     except ANY_ERROR as error:  # an option that it cannot use, mostly
-        raise plugins.not_made(kind, name, whose, _said(error)) from error
+        raise kind.refused(name, f"could not be made{whose}: {_said(error)}") from error
 
 
 @cache
@@ -98,10 +99,10 @@ def _loaded(kind: PluginKind, name: str) -> object:
             look_up(kind, name, module, path)
     found = _imported(kind, name, module, path)
     if not inspect.isclass(found):
-        raise plugins.not_a_class(kind, name)
+        raise kind.refused(name, "is no class")
     wrong = problems(kind, found)
     if wrong:
-        raise plugins.lacks(kind, name, wrong)
+        raise kind.refused(name, f"cannot be used: {'; '.join(wrong)}")
     return found
 
 
@@ -115,14 +116,19 @@ def _offered(kind: PluginKind, name: str) -> str:
         others = sorted({point.name for point in points} - set(dict(kind.ours)))
         raise plugins.no_such_name(kind, name, [*dict(kind.ours), *others])
     if len(values) > 1:
-        raise plugins.several(kind, name, values)
+        raise BadInput(
+            f"several installed packages offer a {kind.word} {quoted(name)}: "
+            f"name the class itself, one of {', '.join(quoted(value) for value in values)}"
+        )
     return values[0]
 
 
 def _apart(kind: PluginKind, name: str, written: str) -> tuple[str, str]:
     module, _, path = (part.strip() for part in written.partition(":"))
     if not all(part.isidentifier() for part in [*module.split("."), *path.split(".")]):
-        raise plugins.no_class_written(kind, name)
+        raise BadInput(
+            f'{quoted(name)} names no {kind.word}: write module:Class, "my_drones:Parrot"'
+        )
     return module, path
 
 
@@ -140,7 +146,7 @@ def _imported(kind: PluginKind, name: str, module: str, path: str) -> object:
     except KeyboardInterrupt:
         raise
     except ANY_ERROR as error:
-        raise plugins.not_imported(kind, name, _said(error)) from error
+        raise kind.refused(name, f"cannot be imported: {_said(error)}") from error
     for part in path.split("."):
         classes = [word for word, value in vars(found).items() if inspect.isclass(value)]
         found = getattr(found, part, None)

@@ -1,5 +1,6 @@
 """What a fleet file may name, navigations and localizations: their methods as data, and what is
-said of a class that cannot be used."""
+said of a class that cannot be used.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +10,7 @@ from difflib import get_close_matches
 from enum import Enum
 
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import duration, quoted
+from plutoc_runtime.domain.text import quoted
 
 
 class CallStyle(Enum):
@@ -49,6 +50,10 @@ class PluginKind:
     ours: tuple[tuple[str, str], ...] = ()
     """Those of this library: each name and its `module:Class`, seen from here; no package replaces them."""
 
+    def refused(self, name: str, why: str) -> BadInput:
+        """Return the error about one of this kind."""
+        return BadInput(f"the {self.word} {quoted(name)} {why}")
+
 
 NAVIGATION_METHODS = (
     Method("connect"),
@@ -77,6 +82,7 @@ LOCALIZATION_METHODS = (Method("positions", CallStyle.ITERATES),)
 
 
 def no_such_name(kind: PluginKind, name: str, names: Sequence[str]) -> BadInput:
+    """Return the error about a name that is not offered; `names`: those that are."""
     found = get_close_matches(name, names, n=1, cutoff=0.6)
     hint = f"did you mean {quoted(found[0])}? " if found else ""
     there = f"there is: {', '.join(names)}; or write" if names else "write"
@@ -86,62 +92,22 @@ def no_such_name(kind: PluginKind, name: str, names: Sequence[str]) -> BadInput:
     )
 
 
-def several(kind: PluginKind, name: str, values: Sequence[str]) -> BadInput:
-    return BadInput(
-        f"several installed packages offer a {kind.word} {quoted(name)}: "
-        f"name the class itself, one of {', '.join(quoted(value) for value in values)}"
-    )
-
-
-def no_class_written(kind: PluginKind, name: str) -> BadInput:
-    return BadInput(f'{quoted(name)} names no {kind.word}: write module:Class, "my_drones:Parrot"')
-
-
 def no_such_module(kind: PluginKind, name: str, module: str) -> BadInput:
-    return BadInput(
-        f"the {kind.word} {quoted(name)} is in no module that is installed: there is no "
-        f"{quoted(module)}; install its package with pip, or put its folder into PYTHONPATH"
-    )
-
-
-def of_python(kind: PluginKind, name: str, module: str) -> BadInput:
-    return BadInput(
-        f"the {kind.word} {quoted(name)} is none: {quoted(module)} is a module of Python's own"
-    )
-
-
-def no_text(kind: PluginKind, name: str, module: str) -> BadInput:
-    return BadInput(
-        f"the {kind.word} {quoted(name)} cannot be looked up: {quoted(module)} has no text in"
-        f" Python; its package can offer the class by an entry point, {kind.group}"
+    """Return the error about a module that is not installed."""
+    return kind.refused(
+        name,
+        f"is in no module that is installed: there is no {quoted(module)};"
+        " install its package with pip, or put its folder into PYTHONPATH",
     )
 
 
 def needs(kind: PluginKind, name: str, missing: str) -> BadInput:
-    return BadInput(f"the {kind.word} {quoted(name)} needs {quoted(missing)}: install it with pip")
-
-
-def not_imported(kind: PluginKind, name: str, why: str) -> BadInput:
-    return BadInput(f"the {kind.word} {quoted(name)} cannot be imported: {why}")
-
-
-def hangs(kind: PluginKind, name: str, module: str, seconds: float, said: str) -> BadInput:
-    last = f"; the last it said: {said}" if said else ""
-    return BadInput(
-        f"the {kind.word} {quoted(name)} cannot be imported: {quoted(module)} was not done with"
-        f" that in {duration(seconds)}{last}"
-    )
-
-
-def ends_all(kind: PluginKind, name: str, module: str, how: str, said: str) -> BadInput:
-    last = f"; the last it said: {said}" if said else ""
-    return BadInput(
-        f"the {kind.word} {quoted(name)} cannot be imported: {quoted(module)} ends the process"
-        f" that imports it ({how}){last}"
-    )
+    """Return the error about a module that the class needs."""
+    return kind.refused(name, f"needs {quoted(missing)}: install it with pip")
 
 
 def no_such_class(kind: PluginKind, name: str, wanted: str, there: Sequence[str]) -> BadInput:
+    """Return the error about a class that its module has not; `there`: those that it has."""
     found = get_close_matches(wanted, there, n=1, cutoff=0.6)
     hint = f"; did you mean {quoted(found[0])}?" if found else ""
     return BadInput(
@@ -149,64 +115,9 @@ def no_such_class(kind: PluginKind, name: str, wanted: str, there: Sequence[str]
     )
 
 
-def not_a_class(kind: PluginKind, name: str) -> BadInput:
-    return BadInput(f"the {kind.word} {quoted(name)} is no class")
-
-
-def lacks(kind: PluginKind, name: str, problems: Sequence[str]) -> BadInput:
-    return BadInput(f"the {kind.word} {quoted(name)} cannot be used: {'; '.join(problems)}")
-
-
-def not_made(kind: PluginKind, name: str, whose: str, why: str) -> BadInput:
-    return BadInput(f"the {kind.word} {quoted(name)} could not be made{whose}: {why}")
-
-
 def deaf(localization: str, drones: Sequence[str]) -> BadInput:
+    """Return the error about drones that a localization cannot tell where they are."""
     return BadInput(
         f"localization {localization}: {', '.join(drones)} cannot be told where they are; "
         "their navigation has no method locate"
     )
-
-
-# What is wrong with a class
-
-
-def no_method(method: str) -> str:
-    return f"it has no method {method}"
-
-
-def not_callable(method: str) -> str:
-    return f"its {method} is no method"
-
-
-def not_async(method: str) -> str:
-    return f"its {method} must be `async def`"
-
-
-def is_async(method: str) -> str:
-    return f"its {method} must be `def`, not `async def`"
-
-
-def no_iterator(method: str) -> str:
-    return f"its {method} must be an async generator, or `def` and return an async iterator"
-
-
-def not_taken(method: str, arguments: Sequence[str]) -> str:
-    takes = f"takes ({', '.join(arguments)})" if arguments else "takes nothing"
-    return f"its {method} cannot be called so: it {takes}"
-
-
-def not_static(method: str) -> str:
-    return f"its {method} must be a staticmethod: it is called before there is a drone"
-
-
-def no_property() -> str:
-    return "its telemetry must be a property: put @property above it"
-
-
-def half(method: str, beside: str) -> str:
-    return f"it has {beside} but no {method}: both belong together"
-
-
-def not_made_of(argument: str) -> str:
-    return f"it cannot be made: its __init__ must take ({argument})"

@@ -190,7 +190,7 @@ def _source(entry: Table) -> Source | None:
 __all__ = ["DroneEntry", "FleetFile", "default_fleet", "fleet_of", "load_fleet"]
 
 DEFAULT_SIZE, ROW = 5, 18
-"""Drones of a fleet that nobody described, and how many stand in a row."""
+"""Drones of the default fleet, and how many stand in a row."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -212,7 +212,7 @@ class FleetFile(FleetData):
 
 
 def default_fleet(app: App, size: int = DEFAULT_SIZE) -> FleetFile:
-    """Return the fleet of whoever has written no fleet file: five drones on an empty plain."""
+    """Return the fleet where there is no fleet file: five drones on an empty plain."""
     categories = islice(cycle(app.categories), size)
     drones = tuple(
         DroneEntry(id=f"cf{place + 1}", category=category.name, home=_default_home(place))

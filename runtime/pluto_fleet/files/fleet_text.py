@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-import tomlkit
-
 from .fleet import CRAZYFLIE, OWN
+from .toml import toml_text
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.fleet_data import WorldData
@@ -41,7 +40,7 @@ def fleet_text(fleet: FleetFile) -> str:
         "drone": [_drone(drone) for drone in fleet.drones],
         "world": None if fleet.world is None else _world(fleet.world),
     }
-    return tomlkit.dumps(_given(file))
+    return toml_text(_given(file))
 
 
 def _drone(drone: DroneEntry) -> dict[str, Any]:

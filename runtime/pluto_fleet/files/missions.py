@@ -27,7 +27,7 @@ ELSEWHERE = {
     Entity.MISSION: ("safe_time", "repeat", "evaluator", "at", "every"),
     Entity.TRIP: ("delay", "priority", "gap"),
 }
-"""Fields that other apps have: whoever writes one here needs to hear why this app has not."""
+"""Fields that other apps have: the message says why this app has not."""
 
 
 def read_fields(table: Table, app: App, entity: Entity, basic: Sequence[str]) -> dict[str, Any]:

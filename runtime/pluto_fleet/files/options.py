@@ -37,7 +37,7 @@ def options_in(table: Table) -> Options:
 
 
 def navigation_options(top: Table, used: Sequence[str]) -> Mapping[str, Options]:
-    """Return the tables `[navigation.NAME]`, by name; one that nobody asks for is a mistake."""
+    """Return the tables `[navigation.NAME]`, by name; one that no drone uses is a mistake."""
     every = top.table("navigation")
     if every is None:
         return {}

@@ -70,7 +70,7 @@ def unflyable(
                 asked = drones  # another home may be better placed after all
                 misses = _misses(app, airspace, asked, chain)
             if misses is not None:
-                reason = _nobody(_nearest(misses, asked))
+                reason = _cannot(_nearest(misses, asked))
                 found.append(Unflyable(mission=mission, trips=chain, reason=reason))
     return found
 
@@ -132,7 +132,7 @@ def _nearest(misses: Sequence[Miss], drones: Sequence[tuple[Category, Point]]) -
     return list(best.values())
 
 
-def _nobody(misses: Sequence[Miss]) -> str:
+def _cannot(misses: Sequence[Miss]) -> str:
     reasons = dict.fromkeys(miss.reason for miss in misses)
     return "no drone of the fleet can do it: " + "; ".join(reasons)
 
@@ -159,7 +159,7 @@ def _alike(names: Iterable[str]) -> Iterator[tuple[str, str]]:
 
 
 def _seen(name: str) -> str:
-    """Return a name as an eye takes it: whatever letters it is made of, large or small."""
+    """Return a name as an eye takes it: of any alphabet, large or small."""
     plain = normalize("NFKC", name).translate(_LETTERS).casefold()
     return " ".join(normalize("NFKC", plain).split())
 

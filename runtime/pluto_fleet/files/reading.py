@@ -14,15 +14,15 @@ from plutoc_runtime.alone.toml import line_of_long_key
 from plutoc_runtime.domain.errors import BadInput
 
 from . import errors
-from .toml_places import Place, Places, line_of, places
+from .toml import TomlLines, TomlPath, line_of, places
 
 if TYPE_CHECKING:
-    from .toml_places import Place
+    from .toml import TomlPath
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wording:
-    """What is said differently to whoever writes a file and to whoever never sees one."""
+    """What is said differently to the author of a file and to a user of the station."""
 
     called: Callable[[str], str]
     """What a key is called."""
@@ -51,7 +51,7 @@ MOST_SHOWN = 50
 class Problem:
     """Something that is wrong with a plan."""
 
-    place: Place
+    place: TomlPath
     who: str
     """How a message calls what it is about."""
     text: str
@@ -67,18 +67,18 @@ class Document:
     """A parsed plan and what is wrong with it: all of it, told in one go."""
 
     def __init__(
-        self, path: str, data: dict[str, object], where: Places, words: Wording = IN_A_FILE
+        self, path: str, data: dict[str, object], where: TomlLines, words: Wording = IN_A_FILE
     ) -> None:
         self.path, self.data, self.words = path, data, words
         self.problems: list[Problem] = []
         self._where = where
 
-    def line(self, place: Place) -> int | None:
+    def line(self, place: TomlPath) -> int | None:
         """Return the line of what has this path."""
         return line_of(self._where, place)
 
-    def problem(self, text: str, place: Place, who: str, near: Place) -> None:
-        """Something is wrong at this place; whoever reads a file finds it near another."""
+    def problem(self, text: str, place: TomlPath, who: str, near: TomlPath) -> None:
+        """Something is wrong at this place; in a file it is found near another."""
         line = self.line(near)
         self.problems.append(Problem(place=place, who=who, text=text, line=line))
 
@@ -93,7 +93,7 @@ class Document:
 
 
 def shortened(lines: Sequence[str]) -> str:
-    """Join lines for a person: nobody reads the thousandth problem."""
+    """Join lines for a person, up to a number that can be read."""
     more = len(lines) - MOST_SHOWN
     if more <= 0:
         return "\n".join(lines)
@@ -136,11 +136,11 @@ def text_of(path: Path) -> str:
 
 
 def _opened(path: str, flags: int) -> int:
-    """Open a file without waiting: a pipe that nobody writes into is empty."""
+    """Open a file without waiting: a pipe without a writer is empty."""
     if not hasattr(os, "O_NONBLOCK"):
         return os.open(path, flags)
     descriptor = os.open(path, flags | os.O_NONBLOCK)
-    os.set_blocking(descriptor, True)  # one that somebody does write into is read to its end
+    os.set_blocking(descriptor, True)  # one with a writer is read to its end
     return descriptor
 
 
@@ -161,7 +161,7 @@ class Table:
     """One table of the file, and how a message calls it."""
 
     def __init__(
-        self, document: Document, data: Mapping[str, object], place: Place = (), who: str = ""
+        self, document: Document, data: Mapping[str, object], place: TomlPath = (), who: str = ""
     ) -> None:
         self.document, self.data, self.place, self.who = document, data, place, who
 

@@ -1,7 +1,8 @@
 """From what TOML holds to what the runtime wants: `delay "3 m" is a length, not a time`.
 
 A number beyond its limits is a slip of the pen, or no flight of any drone; nothing that is computed from
-what lies within divides by nothing or grows beyond all numbers."""
+what lies within divides by nothing or grows beyond all numbers.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The socket through which commands reach a running app.
 
 Nothing stands between a command and what it does: a request is read and carried out within the
-kernel in one go, whatever else the app waits for. Only the answer may have to wait.
+kernel in one go, even while the app waits for other things. Only the answer may have to wait.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Control(Protocol):
         ...
 
     def retire(self, drone: str) -> str:
-        """Let nobody have a drone any more, until it is brought back."""
+        """Give a drone to no trip any more, until it is brought back."""
         ...
 
     def bring_back(self, drone: str) -> str:

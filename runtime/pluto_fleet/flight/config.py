@@ -46,10 +46,10 @@ class FlightConfig:
     note: Path
     """Where to say how commands reach the app."""
     tell: Callable[[Event], object]
-    """Shows an event to whoever watches, once it is on record."""
+    """Shows an event, once it is on record."""
     speed: float = 1.0
     sim: bool = True
-    """Whether drones are simulated: somebody always comes then who carries one home."""
+    """Whether drones are simulated: then a lost one is always carried home."""
     patient: bool = False
     """Whether it goes on for as long as a mission waits for a person's decision."""
 
@@ -65,11 +65,11 @@ class FlightResult:
 
 
 class Stops:
-    """Stops whatever life the app has, and each that would follow."""
+    """Stops the app's present life, and each that would follow."""
 
     def __init__(self) -> None:
         self.asked: Down | None = None
-        """How all drones shall come down, once somebody has asked for that."""
+        """How all drones shall come down, once that was asked for."""
         self.stop_now: Callable[[Down], object] | None = None
         """Stops the life that is being lived."""
 

@@ -1,6 +1,6 @@
 """What a person may tell a running app: stop, pause, go on, skip, cancel, and what only they know.
 
-Each is told within the kernel, and answers with a sentence for whoever asked; `BadInput` says why
+Each is told within the kernel, and answers with a sentence for the person who asked; `BadInput` says why
 it cannot be done. Nothing here waits before the drones are told.
 """
 
@@ -70,7 +70,7 @@ class Control:
             for work in self._steps_out.values():
                 work.cancel()
             if self.whole is not None:
-                self.whole.cancel()  # a roll call may be under way: nothing may begin after it
+                self.whole.cancel()  # drones may be reporting: nothing may begin after that
             core.trace.note("stopped", how=how.value)
         else:
             self._stops.cancel()
@@ -148,7 +148,7 @@ class Control:
         return f"mission {quoted(mission)}: trip {quoted(trip)} has priority {priority}"
 
     def retire(self, drone: str) -> str:
-        """Let nobody have a drone any more, until it is brought back."""
+        """Give a drone to no trip any more, until it is brought back."""
         who = self._drone(drone)
         if who in live_fleet(self._core).retired:
             return f"{drone} is retired already"
@@ -169,7 +169,7 @@ class Control:
         return f"{drone} is asked whether it is well" if asked else f"{drone} is back"
 
     def remember(self, id: str, command: str) -> None:
-        """Put on record that a command is carried out: nobody shall carry it out twice."""
+        """Put on record that a command is carried out: it is never carried out twice."""
         self._core.trace.note("commanded", id=id, command=command)
 
     async def carried_out(self) -> None:

@@ -32,7 +32,7 @@ class LiveFleet(Fleet):
         """Those that no mission may have until they are brought back."""
         self.lost: dict[Drone, str] = {}
         """Those that were lost in an earlier life, and that no person has brought back since."""
-        self.somebody_comes = True
+        self.carried_home = True
         """Whether who needs a person is waited for when all missions have ended."""
 
     def dismiss(self, drone: Drone) -> None:
@@ -132,7 +132,7 @@ class LiveFleet(Fleet):
         """
         stands_since: dict[Drone, float] = {}
         while under_way := {one: task for one, task in self.errands.items() if not task.is_set}:
-            if self.somebody_comes:
+            if self.carried_home:
                 await next(iter(under_way.values())).ended()
                 continue
             now = self._kernel.now
@@ -151,7 +151,7 @@ class LiveFleet(Fleet):
 
     def _leave_to_a_person(self, drones: Sequence[Drone]) -> None:
         for drone in drones:
-            text = f"{drone.id} stands at {place(drone.location)} and needs somebody: go and look"
+            text = f"{drone.id} stands at {place(drone.location)} and needs a person: go and look"
             self._trace.note("log", mission=None, text=text)
 
     async def _come_back(self, drone: Drone) -> None:

@@ -1,7 +1,7 @@
 """One life of an app in real time, with all that stands between it and the outside.
 
 On one side is the journal, which a thread writes, on the other the gateway to the drones; and
-somebody may ask for something at any moment.
+a command may arrive at any moment.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ _ENDED = "the app ended before it could say whether that was done: look, once it
 
 
 class LiveFlight:
-    """From its roll call to its last word."""
+    """From the first report of its drones to its last word."""
 
     def __init__(self, setting: FlightConfig, store: Store, records: Records, begin: float) -> None:
         self._setting, self._store = setting, store
@@ -87,7 +87,7 @@ class LiveFlight:
             watcher=setting.tell,
         )
         live_engine(life.session).patient = setting.patient
-        live_fleet(life.session.core).somebody_comes = setting.sim
+        live_fleet(life.session.core).carried_home = setting.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         async with hear_commands(setting.note, self.answer):
@@ -97,7 +97,7 @@ class LiveFlight:
             except BadInput:  # no drone is ready: the gateway is not needed either
                 await link.goodbye()
                 raise
-            finally:  # whoever still waits for an answer need not any longer
+            finally:  # clients that still wait for an answer need not any longer
                 looks.cancel()
                 self._kept.set_result(self._end.is_set and self._end.result() is End.OVER)
         if end is not End.LOST:
@@ -199,7 +199,7 @@ class LiveFlight:
     # What others ask for
 
     async def answer(self, request: Mapping[str, object]) -> str:
-        """Do what somebody asks for, at once; say so when it cannot be lost any more.
+        """Do what is asked for, at once; say so when it cannot be lost any more.
 
         `BadInput`: it cannot be done, and why.
         """
@@ -210,7 +210,7 @@ class LiveFlight:
     ) -> str:
         """Do this within the kernel, at once; return what it says when that cannot be lost any more.
 
-        `how`: it is a Stop, for which nobody waits.
+        `how`: it is a Stop, whose answer is not waited for.
         """
         if how is not None and self._stops is not None:
             self._stops.asked = how  # if the gateway dies meanwhile, the next life stops, too

@@ -99,7 +99,7 @@ def hear_end(flight: Flight, link: CommandLink, entry: Entry) -> None:
 
 def fly_again(state: MissionState, flight: Flight, link: CommandLink) -> None:
     """Put an interrupted trip back: it has not been flown."""
-    link.forget(flight.id)  # it shall be flown, whatever was known of it
+    link.forget(flight.id)  # it shall be flown, even if it is known already
     state.flight, state.goes_on, state.interrupted = None, False, True
     interventions.interrupt(state.core, state.mission, flight.trip)
 
@@ -119,7 +119,7 @@ def doubt(state: MissionState, flight: Flight) -> None:
         state.mission,
         trip,
         drone.id,
-        f"was {trip.action} of trip {trip.name} done by {drone.id}? Nobody could see it",
+        f"was {trip.action} of trip {trip.name} done by {drone.id}? It could not be seen",
     )
     if trip.action in (PICK, RELEASE):
         state.keep_carrier(drone)

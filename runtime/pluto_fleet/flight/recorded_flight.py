@@ -1,7 +1,7 @@
 """One life of an app that keeps a journal: from its start, or from where an earlier one ended.
 
 An app lives until its last mission has ended, until it is stopped, or until its process dies. The
-next life begins with the journal's records and a roll call of the drones, whichever it was.
+next life begins with the journal's records and a report of the drones, however it ended.
 """
 
 from __future__ import annotations
@@ -143,9 +143,9 @@ class RecordedFlight:
         return await session.see_through()
 
     def _retire(self) -> None:
-        """Let nobody have the drones that were retired in an earlier life, or lost.
+        """Give no trip the drones that were retired in an earlier life, or lost.
 
-        Those that somebody has looked after, and that were not back when it ended, are asked anew.
+        Those that a person has looked after, and that were not back when it ended, are asked anew.
         """
         fleet = live_fleet(self.session.core)
         fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)
@@ -164,7 +164,7 @@ def _refuse_if_none_is_ready(roll: FleetReport, lost: Mapping[str, str]) -> None
     """Raise `BadInput` if no drone may fly: nothing has begun."""
     reasons = {
         drone: (
-            f"it is lost, and nobody has brought it back ({lost[drone]})"
+            f"it is lost, and was not brought back ({lost[drone]})"
             if drone in lost
             else "; ".join(one.problems)
         )

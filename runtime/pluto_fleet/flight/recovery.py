@@ -1,4 +1,4 @@
-"""From the records of an earlier life of the app, and a roll call of the drones, to living missions."""
+"""From the records of an earlier life of the app, and a report of the drones, to living missions."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ class _Revival:
             interventions.hold(self._core, self._mission, why_held)
         else:
             if state.at is not None and state.at not in self._core.app.resumes:
-                state.at = self._core.app.resumes[0]  # somebody has said so
+                state.at = self._core.app.resumes[0]  # a person has said so
             if self._fate is None:
                 self._check_carrier(engaged)
                 self._resume()

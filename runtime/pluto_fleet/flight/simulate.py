@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.simulate import Bound, Outcome, see_through
+from plutoc_runtime.alone.simulate import Bound, SimulationResult, see_through
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.trace import Event
@@ -78,10 +78,10 @@ class Simulation:
 
     def outcome(
         self, missions: Sequence[Mission[Any]], ended: float, given_up: str = ""
-    ) -> Outcome:
+    ) -> SimulationResult:
         """Return what has come of the missions."""
         drones = self.session.drones
-        return Outcome(
+        return SimulationResult(
             duration=ended,
             missions=tuple(missions),
             drones=drones,
@@ -102,7 +102,7 @@ def simulate(
     on_event: Listener | None,
     around: Around | None = None,
     slack: float = 0.0,
-) -> Outcome:
+) -> SimulationResult:
     """Fly the missions in virtual time, until the last one has ended or a time is reached.
 
     Without such a time it is given up where missions set out again and again for nothing.

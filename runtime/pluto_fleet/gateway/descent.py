@@ -56,7 +56,7 @@ class Descent:
         """In which pieces of their ways they are: the one that they left last, and the next stop."""
 
     async def down(self, how: Down) -> None:
-        """Bring them down; whoever cancels this leaves them hovering."""
+        """Bring them down; if this is cancelled they hover."""
         try:
             goers = self._goers(how)
             if self._traffic is None:
@@ -94,7 +94,7 @@ class Descent:
     ) -> tuple[list[DescendingDrone], list[DescendingDrone]]:
         """Return who goes by the plan, and who when there is room.
 
-        Where only so many may be in the air, nobody there must wait for somebody who stands.
+        Where only so many may be in the air, none of them must wait for one that stands.
         """
         stand = [goer for goer in goers if traffic.is_limited and goer.courses[0].section.stands]
         return [goer for goer in goers if goer not in stand], stand
@@ -123,7 +123,7 @@ class Descent:
     # How they go
 
     def _at_once(self, goers: Sequence[DescendingDrone]) -> None:
-        """Let all go by the quickest way: nobody asks for more."""
+        """Let all go by the quickest way: they need not be kept apart."""
         for goer in goers:
             self._send(goer.drone, partial(self._flies, goer.drone, goer.courses[0].section))
 
@@ -144,7 +144,7 @@ class Descent:
         )
 
     async def _follows(self, drone: str) -> None:
-        """Fly as far as nobody is in the way who was to pass before; and so on, to the end."""
+        """Fly as far as no drone is in the way that was to pass before; and so on, to the end."""
         last = len(self._plan.courses[drone].pieces) - 1
         telemetry, at = self._pilots.telemetry[drone], 0
         try:
@@ -174,7 +174,7 @@ class Descent:
         return one.stretch(here, telemetry.landed, first, last)
 
     def _free(self, drone: str, at: int) -> int:
-        """Return where it rests next; where it is, if somebody has to pass first."""
+        """Return where it rests next; where it is, if another has to pass first."""
         last = len(self._plan.courses[drone].pieces) - 1
         waits = [
             piece for piece, other, its in self._plan.after[drone] if not self._left(other, its)
@@ -205,7 +205,7 @@ class Descent:
 
 
 async def _well(command: _Command) -> bool:
-    """Say whether a drone could do it; whatever keeps it, it keeps no other."""
+    """Say whether a drone could do it; a failure keeps no other."""
     try:
         await command()
     except FlightFailed:

@@ -1,6 +1,6 @@
 """One process commands a drone: a lock for each, in a folder that all processes of a user share.
 
-The lock of a gateway's folder goes with that folder; these stay, whatever becomes of it. They belong
+The lock of a gateway's folder goes with that folder; these stay. They belong
 to the process that takes them and end with it, so nothing has to be cleared away after a crash.
 """
 
@@ -38,7 +38,7 @@ def lock_drones(
     """Let no other process command these drones, by their ids and URIs; `DroneInUse` if one does.
 
     `folder` is where the locks are; default: where they are for all processes of this user.
-    Whoever held them last may just be leaving: `patience` is for how many seconds that is waited for.
+    Their last holder may just be ending: it is waited for `patience` seconds.
     """
     until = time.monotonic() + patience
     place = folder or _folder()
@@ -93,7 +93,7 @@ def _folder() -> Path:
         folder.mkdir(mode=0o700)
     if not is_private(folder):
         raise BadInput(
-            f"{folder}: it must be yours, and nobody else may enter it: it says which drones are"
+            f"{folder}: it must be yours, and no other user may enter it: it says which drones are"
             " commanded; move it away"
         )
     return folder

@@ -1,4 +1,4 @@
-"""Where drones may be sent at all, whatever the brain believes: refused, and never made to fit."""
+"""Where drones may be sent at all: checked beside the brain, refused, and never made to fit."""
 
 from __future__ import annotations
 

@@ -56,9 +56,9 @@ class Executor:
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
         self._leaving = leaving
-        """Writes down who takes off; None, as in a simulation: nobody looks after a crash."""
+        """Writes down which drone takes off; None, as in a simulation: it is not needed after a crash."""
         self._traffic = traffic
-        """Keeps them apart from each other; None: nobody does."""
+        """Keeps them apart from each other; None: they are not kept apart."""
         self._envelope = Envelope(airspace)
         self._drones = {drone.id: drone for drone in drones}
         self._jobs: dict[str, Task[None]] = {}
@@ -113,7 +113,7 @@ class Executor:
     # Commands
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover."""
+        """Stop what a drone does, and hover."""
         for task in (self._jobs.pop(drone, None), self._rescues.pop(drone, None)):
             if task is not None:
                 task.cancel()
@@ -128,7 +128,7 @@ class Executor:
         await self._noticed(drone, self._controls.hold(drone))
 
     def begins(self, drone: str) -> None:
-        """A flight begins, for nobody but the drone."""
+        """A flight begins, for no job."""
         self._refuse_if_cut(drone)
         self._controls.begins(drone, None, 0.0)
 
@@ -194,7 +194,7 @@ class Executor:
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it is lost.
 
-        Whoever meets it there takes off what it still carries.
+        What it still carries is taken off there.
         """
         rescue = self._kernel.spawn(
             self._rescue(drone), self._key(drone), f"{drone} is brought home"
@@ -217,7 +217,7 @@ class Executor:
         if self._traffic is not None:
             self._traffic.found(drone)
         home = await self._flies_home(drone)
-        if drone in self._cut:  # meanwhile: it fell, and is nobody's to fetch before it is mended
+        if drone in self._cut:  # meanwhile: it fell, and is not fetched before it is mended
             return False
         if not home and not await controls.fetched(drone):
             return False
@@ -232,7 +232,7 @@ class Executor:
                 begins()
                 return True
             await self._travel(drone, partial(self._home, drone), begins)
-            if not telemetry.landed:  # somebody stood there
+            if not telemetry.landed:  # another drone stood there
                 await self.land(drone)
         except FlightFailed:
             return False

@@ -1,7 +1,8 @@
 """Between the brain and its drones: every command passes here, and may outlive the brain that gave it.
 
 A brain commands through a `Link`. When another brain links, or the brain's heartbeat stays away, the
-old link is cut: it commands nothing any more, and hears nothing."""
+old link is cut: it commands nothing any more, and hears nothing.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Task
+from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel, Task
 
 from ..jobs.controls import FleetDrone
 from ..jobs.reports import Down, DroneReport, FleetReport
@@ -46,9 +47,8 @@ class Busy(RuntimeError):
 class Link:
     """A `Navigation` that the gateway answers: none of it is heard once the link is cut.
 
-    Nothing is refused then, and no command ever returns: whoever gave it is about to be told that
-    the link is lost, and must not take silence for a drone that failed. The same holds from
-    `bring_down` until the roll is called.
+    After a cut no command ever returns: a caller must not mistake a lost link for a failed flight.
+    The same holds from `bring_down` until `fleet_report`.
     """
 
     def __init__(self, gateway: Gateway, lost: Callable[[], object] | None) -> None:
@@ -72,7 +72,7 @@ class Link:
             self._gateway.jobs.fly(job, report if self._line is None else self._line(report))
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover."""
+        """Stop what a drone does, and hover."""
         if self._is_heard:
             self._gateway.break_off(drone)
 
@@ -81,15 +81,15 @@ class Link:
         await self._command(drone, self._navigation.hold(drone), stays=True)
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what a drone measures under this name, whatever else it does."""
+        """Return what a drone measures under this name, also while it flies."""
         return await self._asked(self._navigation.read(drone, name))
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone has under this name, whatever else it does."""
+        """Set what a drone has under this name, also while it flies."""
         await self._asked(self._navigation.write(drone, name, value))
 
     async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
-        """Ask a drone beside what it does; there is no answer once nobody is heard."""
+        """Ask a drone beside what it does; there is no answer once the link is cut."""
         if not self._is_heard:
             question.close()
             await _for_ever()
@@ -134,7 +134,7 @@ class Link:
     async def _command(
         self, drone: str, command: Coroutine[Any, Any, T], *, stays: bool = False
     ) -> T:
-        """Let a drone do something, and return when it has; never, once nobody is heard."""
+        """Let a drone do something, and return when it has; never, once the link is cut."""
         if not self._is_heard:
             command.close()
             await _for_ever()
@@ -176,7 +176,7 @@ class Link:
             self._gateway.jobs.attach(id, report if self._line is None else self._line(report))
 
     def forget(self, id: str) -> None:
-        """Nobody will ask for a job any more: its id may be given again."""
+        """Forget a job: its id may be given again."""
         if self._is_heard:
             self._gateway.jobs.forget(id)
 
@@ -188,7 +188,7 @@ class Link:
     async def bring_down(self, how: Down) -> None:
         """Break off everything and bring all drones down; return when all that can are down.
 
-        This goes on whatever becomes of the brain.
+        This goes on even if the brain ends.
         """
         gateway = self._gateway
         if not gateway.is_commanded_by(self):
@@ -209,7 +209,7 @@ class Link:
             self._navigation.break_off(drone)
         if self._lost is not None:
             kernel = self._gateway.kernel
-            kernel.schedule(kernel.now, Kind.FLIGHT, FLEET, self._lost)
+            kernel.schedule(kernel.now, EventKind.FLIGHT, FLEET, self._lost)
 
 
 async def _for_ever() -> NoReturn:
@@ -221,7 +221,7 @@ async def _for_ever() -> NoReturn:
 class Gateway:
     """All drones of one fleet, and the jobs that they were given.
 
-    Without a ledger what is over is forgotten: nobody will come back and ask. Without patience
+    Without a ledger what is over is forgotten. Without patience
     nothing is landed because the brain is silent.
     """
 
@@ -261,7 +261,7 @@ class Gateway:
         self.jobs = Jobs(kernel, self.navigation.fly, self._keys, self.envelope, ledger)
         self._link: Link | None = None
         self.line: Callable[[Report], Report] | None = None
-        """What lies between a brain and its reports in a simulation: it wraps whoever hears them."""
+        """What lies between a brain and its reports in a simulation: it wraps their listener."""
         self._epoch = 0
         self.descent: Task[None] | None = None
         """Brings all drones down, while that is so."""
@@ -274,7 +274,7 @@ class Gateway:
     # Who commands
 
     def link(self, epoch: int, lost: Callable[[], object] | None = None) -> Link:
-        """Let a brain command; whoever did so before does not any more.
+        """Let a brain command; the one before does not any more.
 
         `lost` is told, once, when this link is cut in turn.
         """
@@ -286,7 +286,7 @@ class Gateway:
         return link
 
     def cut(self) -> None:
-        """Let nobody command. Jobs go on; what else the drones do for the brain is broken off."""
+        """Let no brain command. Jobs go on; what else the drones do for the brain is broken off."""
         link, self._link = self._link, None
         if link is not None:
             self.jobs.mute()
@@ -302,7 +302,7 @@ class Gateway:
         return link is self._link
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover."""
+        """Stop what a drone does, and hover."""
         self.jobs.break_off(drone)
         self.navigation.break_off(drone)
 
@@ -326,7 +326,7 @@ class Gateway:
             due = self.kernel.now + patience
             if self.descent is None and self.flies:
                 self.fail_safe(Down.LAND)
-        self.kernel.schedule(due, Kind.CLOCK, FLEET, partial(self._watch, patience))
+        self.kernel.schedule(due, EventKind.CLOCK, FLEET, partial(self._watch, patience))
 
     def fail_safe(self, how: Down) -> Task[None]:
         """Bring all drones down without the brain, which is cut off."""
@@ -344,7 +344,7 @@ class Gateway:
             self.navigation.break_off(drone.id)
 
     async def cut_motors(self, drone: str) -> str:
-        """Switch a drone's motors off now, whoever commands it; say why if it cannot be told."""
+        """Switch a drone's motors off now, with or without a brain; say why if it cannot be told."""
         try:
             await self.navigation.cut_motors(drone)
         except FlightFailed as error:

@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import Kernel, Key, Kind
+from plutoc_runtime.time.kernel import EventKind, Kernel, Key
 
 from ..jobs.job import Report
 from ..jobs.reports import DroneReport, Entry, JobState, reported_result
@@ -93,7 +93,7 @@ class AssignedJob:
         job.begins()
 
     def report(self, result: object) -> None:
-        """Hear how it ended, and tell whoever waits for that."""
+        """Hear how it ended, and tell the listener."""
         if self._job is None:
             return
         self._job, begun = None, self.state is JobState.BEGUN
@@ -107,11 +107,11 @@ class AssignedJob:
             self.listener(result)
 
     def leave(self) -> None:
-        """Hear no more of it, whatever becomes of it."""
+        """Hear no more of it."""
         self._job = self.listener = None
 
     def break_off(self) -> None:
-        """Nobody flies it any more; an action that has begun may have been done, or not."""
+        """It is not flown any more; an action that has begun may have been done, or not."""
         self.leave()
         if self.state is JobState.FLYING or self.hovers:
             self.state = JobState.BROKEN_OFF
@@ -132,7 +132,7 @@ class AssignedJob:
 
 
 class Jobs:
-    """Every job that somebody may still ask for."""
+    """Every job that may still be asked for."""
 
     def __init__(
         self,
@@ -149,7 +149,7 @@ class Jobs:
         if ledger is not None:
             self._known.update((entry.id, entry) for entry in ledger.entries())
         self._remembered: dict[str, DroneReport] = {}
-        """Who says to have done a job, by the job's id: nobody else may know of it any more."""
+        """The drone that reports a job as done, by the job's id: only it may still know."""
         self._current: dict[str, AssignedJob] = {}
         """What drones fly, or hover for, by the drones' ids."""
         self.boots = dict.fromkeys(keys, 0)
@@ -177,7 +177,7 @@ class Jobs:
     def _repeated(self, known: AssignedJob | Entry, report: Report) -> None:
         """Answer who gives a job once more by what is known of it, never by a flight."""
         if known.state is JobState.BEGUN and not _flies(known):
-            reason = f"nobody can say whether the action of {known.id} was done"
+            reason = f"it cannot be told whether the action of {known.id} was done"
             self._post(known.drone, partial(report, FlightFailed(Failure.UNKNOWN, reason)))
         else:
             self.attach(known.id, report)
@@ -189,7 +189,7 @@ class Jobs:
         return self._envelope.problem(job.stops)
 
     def attach(self, id: str, report: Report) -> None:
-        """Tell somebody how a job ends, or has ended; of others nothing is told."""
+        """Tell a listener how a job ends, or has ended; of others nothing is told."""
         known = self._known.get(id)
         if isinstance(known, AssignedJob) and known.flies:
             known.listener = report
@@ -197,7 +197,7 @@ class Jobs:
             self._post(known.drone, partial(report, reported_result(known)))
 
     def forget(self, id: str) -> None:
-        """Drop a job that does not fly: nobody will ask for it, and its id may be given again."""
+        """Drop a job that does not fly: its id may be given again."""
         known = self._known.get(id)
         if known is None or _flies(known):
             return
@@ -208,7 +208,7 @@ class Jobs:
             self._ledger.forget(id)
 
     def break_off(self, drone: str) -> None:
-        """Stop a drone's job, if it has one: nobody hears of it any more."""
+        """Stop a drone's job, if it has one: it is not reported any more."""
         job = self._current.pop(drone, None)
         if job is not None:
             job.break_off()
@@ -227,15 +227,15 @@ class Jobs:
             del self._current[drone]
             job.break_off()
 
-    # What becomes of whoever listens
+    # What becomes of listeners
 
     def mute(self) -> None:
-        """Nobody listens any more; the jobs go on."""
+        """Drop all listeners; the jobs go on."""
         for job in self._current.values():
             job.listener = None
 
     def leave(self) -> None:
-        """Nobody even writes down what becomes of them: the gateway is gone."""
+        """Write down no more of them: the gateway is gone."""
         for job in self._current.values():
             job.leave()
 
@@ -302,7 +302,7 @@ class Jobs:
                 self._ledger.write(job)
 
     def _post(self, drone: str, call: Callable[[], object]) -> None:
-        self._kernel.schedule(self._kernel.now, Kind.FLIGHT, self._keys[drone], call)
+        self._kernel.schedule(self._kernel.now, EventKind.FLIGHT, self._keys[drone], call)
 
 
 def _done(id: str, drone: DroneReport) -> Entry:

@@ -72,7 +72,7 @@ class Ledger(Protocol):
         ...
 
     def forget(self, id: str) -> None:
-        """Drop a job: nobody will ask for it any more."""
+        """Drop a job: it will not be asked for any more."""
         ...
 
     @property
@@ -88,7 +88,7 @@ class Ledger(Protocol):
         ...
 
     def make_sure(self) -> None:
-        """Return when all is kept, whatever dies. `OSError`: perhaps not."""
+        """Return when all is kept, even after a crash. `OSError`: perhaps not."""
         ...
 
 
@@ -119,7 +119,7 @@ class MemoryLedger:
         self._kept[job.id] = (job.drone, job.state, job.boot, job.value, job.failure, job.reason)
 
     def forget(self, id: str) -> None:
-        """Drop a job: nobody will ask for it any more."""
+        """Drop a job: it will not be asked for any more."""
         self._kept.pop(id, None)
 
     def write_cut(self, drone: str, is_cut: bool) -> None:
@@ -172,7 +172,7 @@ class FileLedger:
     def forget(self, id: str) -> None:
         """Drop a job. Should that be lost, it is only known for longer than it need be.
 
-        What has been dropped takes room until there is much of it; here nobody waits for the disk.
+        What has been dropped takes room until there is much of it; the disk is not waited for here.
         """
         with suppress(OSError):
             self._append({"forget": id}, sync=False)
@@ -232,7 +232,7 @@ class FileLedger:
             self.cut[drone] = None
 
     def _compact(self, spare: int) -> None:
-        """Write the file anew if most of it is of no use; what was damaged stays for whoever looks."""
+        """Write the file anew if most of it is of no use; what was damaged stays, to be looked at."""
         needed = len(self._kept) + len(self.cut)
         if self.is_whole and self._lines > max(2 * needed, self._tried) + spare:
             self._tried = self._lines  # on a full disk: not again at once
@@ -321,7 +321,7 @@ def _sync_folder(folder: Path) -> None:
 
 
 class CutMotors:
-    """It is written down before it is done, for nobody knows when the process is killed.
+    """It is written down before it is done, for the process may be killed at any moment.
 
     So an earlier gateway may have died in between. Then the drone flies, and is to be landed.
     """

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import FLEET, EventKind
 
 if TYPE_CHECKING:
     from ..jobs.job import Report
@@ -29,7 +29,7 @@ class LossyLine:
         """How many reports were late, and how many got lost."""
 
     def __call__(self, report: Report) -> Report:
-        """Return whoever hears reports over this line for somebody."""
+        """Return a listener that hears over this line, for another."""
         return partial(self._carry, report)
 
     def _carry(self, report: Report, result: object) -> None:
@@ -41,7 +41,7 @@ class LossyLine:
             self.late += 1
             kernel, link = self._gateway.kernel, self._gateway.commander
             arrives = partial(self._arrive, link, report, result)
-            kernel.schedule(kernel.now + seconds, Kind.FLIGHT, FLEET, arrives)
+            kernel.schedule(kernel.now + seconds, EventKind.FLIGHT, FLEET, arrives)
         else:
             report(result)
 

@@ -19,7 +19,7 @@ from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import printable
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import FLEET, EventKind
 
 from ..drones.real_fleet import SLACK
 from ..jobs.reports import Down
@@ -29,8 +29,7 @@ from ..process.forked import deaf, in_children
 from ..process.ipc import listening
 from ..process.realtime import RealTime
 from ..simulation.drones import SimulatedNavigation
-from ..simulation.moments import this_moment
-from ..simulation.world_store import WorldStore
+from ..simulation.world_store import WorldStore, this_moment
 from .drone_lock import LEAVING, lock_drones
 from .gateway import Gateway
 from .ledger import FileLedger
@@ -45,7 +44,7 @@ if TYPE_CHECKING:
 
 
 LINGERS = 120.0
-"""Seconds for which one that may hover, unheard, is waited for when nobody needs the gateway else."""
+"""Seconds for which one that may hover, unheard, is waited for when the gateway is not needed otherwise."""
 
 
 class Ending:
@@ -63,7 +62,7 @@ class Ending:
         self._alone = -1.0
         """Seconds without a brain and without a drone in the air."""
         self._told: float | None = None
-        """Seconds since somebody wants it to end."""
+        """Seconds since it was told to end."""
         self._lingers = 0.0 if settings.real is None else LINGERS
         self._left: float | None = None
         """Seconds that are left to a drone that may hover."""
@@ -101,7 +100,7 @@ class Ending:
             self._told = 0.0
 
     def look(self) -> None:
-        """End when nobody has come for a while; look again a second later."""
+        """End when no brain has come for a while; look again a second later."""
         gateway, kernel = self._gateway, self._gateway.kernel
         brain = self.server is not None and self.server.has_a_brain
         busy = brain or gateway.flies or gateway.descent is not None
@@ -113,7 +112,7 @@ class Ending:
                 self.goodbye()
         if self._alone > (self._idle if self._told is None else 0.0):
             self._over.set(None)
-        kernel.schedule(kernel.now + self._second, Kind.CLOCK, FLEET, self.look)
+        kernel.schedule(kernel.now + self._second, EventKind.CLOCK, FLEET, self.look)
 
 
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
@@ -126,7 +125,7 @@ _FOR_APPS = "gateway: an app starts this by itself when it flies; there is nothi
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run the gateway of a folder until nobody needs it."""
+    """Run the gateway of a folder until it is not needed any more."""
     folder = Path(*arguments[:1])
     if len(arguments) != 1 or not (folder / SETTINGS).is_file():
         print(_FOR_APPS, file=sys.stderr)
@@ -242,7 +241,7 @@ async def _command(
 
 
 def _say(what: str) -> None:
-    """Write a line of the log; one that nobody can take is no reason to let drones fall.
+    """Write a line of the log; one that cannot be written is no reason to let drones fall.
 
     What others' classes say is in it, and must command no terminal on which it is read.
     """

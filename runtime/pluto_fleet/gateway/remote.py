@@ -69,7 +69,7 @@ class RemoteLink:
         self._jobs: dict[str, Job] = {}
         """What was given, by the jobs' ids: it is told when its action begins."""
         self._reports: dict[int, tuple[str, Report]] = {}
-        """Who hears how a job ends, by the number of whatever asked for that."""
+        """The listener for how a job ends, by the number of the request."""
         self._asks: dict[str, int] = {}
         """The number under which each job was asked for last: no other is heard."""
         self._asked: dict[int, Future[Any]] = {}
@@ -99,7 +99,7 @@ class RemoteLink:
         """Take what the gateway tells, until it tells nothing more."""
         loop = asyncio.get_running_loop()
         self._heard = loop.time()
-        with suppress(Exception):  # whatever it is that cannot be read: the line is broken
+        with suppress(Exception):  # a message that cannot be read: the line is broken
             while told := await self._reader.readline():
                 self._heard = loop.time()
                 message = message_in(told)
@@ -150,7 +150,7 @@ class RemoteLink:
                 self._asked[number].set(value)
 
     def _report(self, number: int, result: object) -> None:
-        """Tell whoever asked for it, unless the job was asked for again since."""
+        """Tell the listener, unless the job was asked for again since."""
         if number in self._reports:
             id, report = self._reports[number]
             self._drop(id)
@@ -165,7 +165,7 @@ class RemoteLink:
         return self._count
 
     def _expect(self, id: str, report: Report) -> int:
-        """Let somebody hear how a job ends, and nobody else; return the number to ask with."""
+        """Set the only listener for how a job ends; return the number to ask with."""
         self._drop(id)
         self._asks[id] = number = self._number()
         self._reports[number] = id, report
@@ -176,7 +176,7 @@ class RemoteLink:
         self._reports.pop(self._asks.pop(id, 0), None)
 
     async def _ask(self, **message: Any) -> Any:
-        """Ask for what takes its time; whoever cancels this calls it off over there, too."""
+        """Ask for what takes its time; cancelling this cancels it over there, too."""
         number = self._number()
         answer: Future[Any] = Future()
         self._asked[number] = answer
@@ -201,7 +201,7 @@ class RemoteLink:
         self._say({"do": "fly", "n": number, "job": job_data(job)})
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover."""
+        """Stop what a drone does, and hover."""
         self._say({"do": "break_off", "drone": drone})
 
     async def hold(self, drone: str) -> None:
@@ -251,7 +251,7 @@ class RemoteLink:
         self._say({"do": "attach", "n": self._expect(id, report), "id": id})
 
     def forget(self, id: str) -> None:
-        """Nobody will ask for a job any more: its id may be given again."""
+        """Forget a job: its id may be given again."""
         self._drop(id)
         self._say({"do": "forget", "id": id})
 
@@ -277,7 +277,7 @@ class RemoteLink:
         await self.close()
 
     async def close(self) -> None:
-        """Hang up: the gateway goes on, and lands everything if nobody else comes."""
+        """Hang up: the gateway goes on, and lands everything if no other brain comes."""
         self._lost = None
         self._end()
         for task in self._tasks:

@@ -1,7 +1,7 @@
-"""Lets a brain in another process command through the gateway; whatever it says, nothing breaks.
+"""Lets a brain in another process command through the gateway; no message breaks it.
 
-One connection is one link. Who has not linked may only say `stop` and `cut-motors`: whoever may open
-the socket may land the drones, whether the brain answers or not.
+One connection is one link. A client that has not linked may only say `stop` and
+`cut-motors`: who may open the socket may land the drones, whether the brain answers or not.
 """
 
 from __future__ import annotations
@@ -18,7 +18,14 @@ from plutoc_runtime.time.kernel import FLEET, Task
 from ..jobs.reports import Down
 from ..process.ipc import Message, line, message_in
 from .gateway import Busy
-from .wire import MAX_COMMAND, drone_report_data, fleet_report_data, job_of, result_data, seen
+from .wire import (
+    MAX_COMMAND,
+    drone_report_data,
+    fleet_report_data,
+    job_of,
+    result_data,
+    seen,
+)
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
@@ -63,14 +70,14 @@ class Server:
             self.connected.remove(connection)
 
     def hang_up(self) -> None:
-        """Let those go who have said goodbye: whatever is still to be done, they need not wait."""
+        """Let those go who have said goodbye: they need not wait for what is still to be done."""
         for connection in self.connected:
             if connection.leaves:
                 connection.hang_up()
 
 
 class Connection:
-    """One brain, or somebody who wants the drones down."""
+    """One brain, or a client that wants the drones down."""
 
     def __init__(self, server: Server, writer: StreamWriter) -> None:
         self._server, self._writer, self._gateway = server, writer, server.gateway
@@ -314,10 +321,10 @@ async def _as_data(
 
 
 def _call_off(task: Task[Any]) -> None:
-    """Cancel what nobody wants an answer to."""
-    task.over = _nobody
+    """Cancel what needs no answer any more."""
+    task.over = _ignore
     task.cancel()
 
 
-def _nobody(_: object) -> None:
-    """Nobody wants to know how it ended."""
+def _ignore(_: object) -> None:
+    """Do not answer."""

@@ -1,4 +1,4 @@
-"""Finds the gateway of a folder, or starts it: a process that outlives whoever started it."""
+"""Finds the gateway of a folder, or starts it: a process that outlives the one that starts it."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ async def _linked(
 def start(
     folder: Path, settings: Settings, command: Sequence[str] | None = None
 ) -> subprocess.Popen[bytes]:
-    """Start a gateway that nobody's end takes along; what it says goes to its log."""
+    """Start a gateway that outlives this process; what it says goes to its log."""
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     part = folder / f".{SETTINGS}.{os.getpid()}.part"
     part.write_text(json.dumps(data_of(settings)), encoding="utf-8")
@@ -143,7 +143,7 @@ def still_runs(folder: Path) -> int | None:
 
 
 def let_end(folder: Path) -> None:
-    """Let the gateway of a folder end once all its drones are down: nobody comes back to it."""
+    """Let the gateway of a folder end once all its drones are down: no brain comes back to it."""
     process = still_runs(folder)
     if process is not None:
         with suppress(OSError):

@@ -126,7 +126,7 @@ def drone_report_of(data: Message) -> DroneReport:
 
 
 def fleet_report_data(roll: FleetReport) -> dict[str, object]:
-    """Return a roll call as plain data."""
+    """Return a report of the fleet as plain data."""
     return {
         "drones": [drone_report_data(standing) for standing in roll.drones.values()],
         "jobs": [
@@ -146,7 +146,7 @@ def fleet_report_data(roll: FleetReport) -> dict[str, object]:
 
 
 def fleet_report_of(data: Message) -> FleetReport:
-    """Return a roll call."""
+    """Return a report of the fleet."""
     standings = map(drone_report_of, data["drones"])
     entries = [
         Entry(**{**job, "state": JobState(job["state"]), "value": value_of(job["value"])})

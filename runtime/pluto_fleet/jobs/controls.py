@@ -1,4 +1,4 @@
-"""What the gateway can make each drone do, whatever moves it: simulated bodies, or real drones.
+"""What the gateway can make each drone do, simulated or real.
 
 Metres, seconds. Each command returns when it is done: on arrival, when landed; it raises
 `FlightFailed` when the drone cannot finish. A command that is cancelled leaves the drone hovering
@@ -55,7 +55,7 @@ class Controls(Protocol):
         ...
 
     def begins(self, drone: str, job: Job | None, seconds: float) -> None:
-        """A flight begins, which is expected to take so long; None: for nobody but the drone.
+        """A flight begins, which is expected to take so long; None: for no job.
 
         Raises `FlightFailed` where the drone takes no commands.
         """
@@ -97,7 +97,7 @@ class Controls(Protocol):
         ...
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover; a command under way raises `FlightFailed`."""
+        """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
         ...
 
     async def cut(self, drone: str) -> None:
@@ -108,7 +108,7 @@ class Controls(Protocol):
         ...
 
     def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone: whatever had become of it, it may be asked anew."""
+        """A person has looked after a lost drone: it may be asked anew."""
         ...
 
     async def reach(self, drone: str) -> bool:
@@ -116,11 +116,11 @@ class Controls(Protocol):
         ...
 
     async def fetched(self, drone: str) -> bool:
-        """Wait until somebody has put a drone back into its dock, well; False: nobody does."""
+        """Wait until a person has put a drone back into its dock, well; False: that does not happen."""
         ...
 
     def unload(self, drone: str) -> None:
-        """Whoever meets it takes off what it carries."""
+        """Take off what it carries: a person meets it in its dock."""
         ...
 
     async def drone_report(self, drone: str) -> DroneReport:
@@ -149,11 +149,11 @@ class ForwardingControls:
         self._controls.mended(drone)
 
     async def fetched(self, drone: str) -> bool:
-        """Wait until somebody has put a drone back into its dock, well; False: nobody does."""
+        """Wait until a person has put a drone back into its dock, well; False: that does not happen."""
         return await self._controls.fetched(drone)
 
     def unload(self, drone: str) -> None:
-        """Whoever meets it takes off what it carries."""
+        """Take off what it carries: a person meets it in its dock."""
         self._controls.unload(drone)
 
     async def reach(self, drone: str) -> bool:

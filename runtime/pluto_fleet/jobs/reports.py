@@ -1,4 +1,4 @@
-"""What drones answer when the roll is called, and what the gateway remembers of jobs."""
+"""What drones report when they are asked, and what the gateway remembers of jobs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneReport:
-    """What one drone answers when the roll is called."""
+    """What one drone reports when it is asked."""
 
     drone: str
     reached: bool

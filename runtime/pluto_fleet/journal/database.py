@@ -1,6 +1,7 @@
 """A journal's file: three tables with a checksum in every row, looked at before a row is taken from it.
 
-The page `docs/journal.md` says the same for other programs."""
+The page `docs/journal.md` says the same for other programs.
+"""
 
 from __future__ import annotations
 
@@ -65,7 +66,7 @@ def tip_checksum(seq: object, epoch: object) -> int:
 
 
 PATIENCE = 5.0
-"""Seconds that a commit waits for somebody who looks at the file with a tool of his own."""
+"""Seconds that a commit waits for another program that looks at the file."""
 
 _MAGIC = b"SQLite format 3\0"
 _LOOKED_AT, _SIZE_OF_HEAD = 4096, 100
@@ -167,7 +168,7 @@ def found(path: Path, database: sqlite3.Connection) -> Found:
     rest = wal.rest(path)
     torn = errors.torn_log() if rest is wal.Rest.TORN else None
     last_is_bad = seq > 0 and not _sound(database, seq) and _sound(database, seq - 1)
-    if last_is_bad and newest_snapshot(database).seq < seq:  # else nobody needs the row
+    if last_is_bad and newest_snapshot(database).seq < seq:  # else the row is not needed
         torn = errors.torn(seq)
         seq -= 1
     lost = rest is wal.Rest.LOST

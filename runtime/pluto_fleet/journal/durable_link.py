@@ -36,7 +36,7 @@ class DurableLink:
             self._link.fly(job, report)
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does; a flight that has not left stays."""
+        """Stop what a drone does; a flight that has not left stays."""
         self._held.pop(drone, None)
         self._link.break_off(drone)
 

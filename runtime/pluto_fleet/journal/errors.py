@@ -104,7 +104,7 @@ def cannot_write(path: Path, error: Exception, seq: int) -> JournalError:
 
 
 def gone(file: Path, now: Path | None, journal: Path) -> JournalError:
-    """It was deleted or renamed while it was written: whoever looks for it finds nothing."""
+    """It was deleted or renamed while it was written: it cannot be found by its name."""
     if now is not None:
         return JournalError(
             f"{now}: it is part of a journal that is being written, and was moved away from {file}:"
@@ -246,7 +246,7 @@ def unreadable_snapshots() -> str:
 
 
 def no_home() -> JournalError:
-    """Nobody can tell where this user keeps things."""
+    """This user has no home folder."""
     return JournalError(
         "there is no home folder to keep journals in: name the journal, which for fly is --journal"
     )

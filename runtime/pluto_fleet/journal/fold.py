@@ -1,7 +1,8 @@
 """What a journal says, event by event, of every mission: where each stands, and what it has done.
 
 The records are plain data: written down as JSON they are the journal's snapshot. One function an
-event; an event that is not here changes nothing that must survive."""
+event; an event that is not here changes nothing that must survive.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +26,7 @@ Record = dict[str, Any]
 Fact = Mapping[str, Any]
 
 REMEMBERED = 200
-"""Commands that are known by their names: nobody asks again for one that is older."""
+"""Commands that are known by their names: an older one is not asked for again."""
 
 
 class Records:
@@ -48,13 +49,13 @@ class Records:
         self.flown: dict[str, int] = self.data["flown"]
         """How many trips each drone was sent on."""
         self.commands: list[str] = self.data.setdefault("commands", [])
-        """The names of the last commands that were carried out, as whoever commanded chose them."""
+        """The names of the last commands that were carried out, as their senders chose them."""
         self.retired: list[str] = self.data.setdefault("retired", [])
-        """The drones that nobody may have."""
+        """The drones that no trip may have."""
         self.mended: list[str] = self.data.setdefault("mended", [])
         """The drones that were lost, that a person has looked after, and that are not back yet."""
         self.lost: dict[str, Record] = self.data.setdefault("lost", {})
-        """The drones that nobody may have before a person has looked after them: why, and where
+        """The drones that no trip may have before a person has looked after them: why, and where
         each was when it was lost."""
 
     @property
@@ -314,7 +315,7 @@ def _stopped(records: Records, event: Fact) -> None:
 
 
 def _commanded(records: Records, event: Fact) -> None:
-    """Somebody commanded something, and may ask again, not having heard the answer."""
+    """A command was given, and may be given again by a sender that has not heard the answer."""
     records.commands.append(str(event["id"]))
     del records.commands[:-REMEMBERED]
 
@@ -334,7 +335,7 @@ def _brought_back(records: Records, event: Fact) -> None:
 
 
 def _came_back(records: Records, event: Fact) -> None:
-    """A drone is back: that somebody had looked after it says nothing any more."""
+    """A drone is back: that a person had looked after it says nothing any more."""
     if event["drone"] in records.mended:
         records.mended.remove(str(event["drone"]))
 
@@ -347,7 +348,7 @@ def _lost(records: Records, event: Fact) -> None:
 
 
 def shift_delays(records: Records, seconds: float) -> None:
-    """Move every delay that is not over by so many seconds, in which nobody waited."""
+    """Move every delay that is not over by so many seconds, in which the app did not run."""
     for record in records.missions.values():
         if record["delay"] is not None:
             record["delay"][1] += seconds

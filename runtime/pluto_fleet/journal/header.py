@@ -36,7 +36,7 @@ def header(
     faults: Mapping[str, float] | None = None,
     inherited: Mapping[str, object] | None = None,
 ) -> dict[str, object]:
-    """Return the header of a new journal; the two files are kept as text, for whoever goes on.
+    """Return the header of a new journal; the two files are kept as text, for a later life.
 
     `inherited` is what is known of the drones from before: who is lost, mended or retired.
     """

@@ -33,7 +33,7 @@ def mend(path: Path) -> Mended | None:
     """Mend a journal, and keep the damaged one beside it; None: nothing is damaged."""
     path = Path(os.path.realpath(path))
     kept = beside(path, ".damaged")
-    begun = kept.exists() and not path.exists()  # somebody has broken it off before
+    begun = kept.exists() and not path.exists()  # it was interrupted before
     try:
         lock = Lock.take(path)
         try:

@@ -1,4 +1,4 @@
-"""Where a journal is when nobody says, and what lies beside each."""
+"""Where a journal is by default, and what lies beside each."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ def commands_note(journal: Path) -> Path:
 
 
 def new(app: str, now: float) -> Path:
-    """Return where a flight that begins now is written down, so that nobody flies without.
+    """Return where a flight that begins now is written down by default.
 
-    The folder is there after that, and nobody else may look into it.
+    The folder is there after that, and only this user may look into it.
     """
     return new_in(folder_of(app), now)
 
 
 def new_in(folder: Path, now: float) -> Path:
-    """Return the same in a folder that somebody has chosen."""
+    """Return the same in a given folder."""
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         if not os.access(folder, os.W_OK | os.X_OK):
@@ -52,7 +52,7 @@ def new_in(folder: Path, now: float) -> Path:
 
 
 def newest(app: str) -> Path:
-    """Return the journal that was written last, of those whose place nobody chose."""
+    """Return the journal that was written last, of those in the default place."""
     folder = folder_of(app)
     path = newest_in(folder)
     if path is None:
@@ -79,9 +79,9 @@ def written(path: Path) -> int:
 
 
 def folder_of(app: str) -> Path:
-    """Return where an app's journals are when nobody says."""
+    """Return where an app's journals are by default."""
     state = Path(os.environ.get("XDG_STATE_HOME", ""))
-    if not state.is_absolute():  # so it is when nobody has set it
+    if not state.is_absolute():  # it is not set
         home = Path(os.path.expanduser("~"))
         if not home.is_absolute() or os.environ.get("HOME") == "":
             raise errors.no_home()

@@ -15,7 +15,16 @@ from pathlib import Path
 from typing import Any
 
 from . import errors
-from .database import Found, Row, connect, found, is_sound, last_row, look_at, newest_snapshot
+from .database import (
+    Found,
+    Row,
+    connect,
+    found,
+    is_sound,
+    last_row,
+    look_at,
+    newest_snapshot,
+)
 from .errors import TROUBLE, Damaged
 from .lock import holder
 from .place import beside

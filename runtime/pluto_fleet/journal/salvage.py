@@ -1,7 +1,7 @@
 """Finds rows in a damaged journal without the database: in any page that still has some.
 
 A row says itself, by its checksum, whether it is what was written. So every page is taken for one
-that holds rows, whatever it says of itself, and so is every page in the write-ahead log.
+that holds rows, even if its header is damaged, and so is every page in the write-ahead log.
 """
 
 from __future__ import annotations

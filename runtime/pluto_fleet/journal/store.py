@@ -86,7 +86,7 @@ def give_back(path: Path) -> None:
 
 
 Identity = tuple[int, int]
-"""Which file it is, whatever its name: its device and its number there."""
+"""Which file it is under any name: its device and its number there."""
 
 _OPEN = Path("/proc/self/fd")
 _DELETED = " (deleted)"

@@ -16,7 +16,7 @@ OnFailure = Callable[[JournalError], object]
 
 
 class Writer:
-    """Writes rows in a thread of its own; nobody who adds one waits for the disk.
+    """Writes rows in a thread of its own; adding one does not wait for the disk.
 
     `on_durable` and `on_failure` are called in that thread. After a failure nothing is written any
     more, and no row is ever called durable.

@@ -17,7 +17,7 @@ from typing import Any, NoReturn, TypeVar, cast
 from plutoc_runtime.domain.errors import ANY_ERROR
 from plutoc_runtime.domain.guard import as_a_fault, guarded
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import Call, Kernel, Key, Kind
+from plutoc_runtime.time.kernel import Call, EventKind, Kernel, Key
 
 from .forked import end_if_forked
 from .signal_guard import by_a_person, guard_hooks
@@ -56,7 +56,7 @@ class RealTime(Kernel):
         local = time.localtime()
         return local.tm_hour * 3600.0 + local.tm_min * 60.0 + local.tm_sec
 
-    def schedule(self, when: float, kind: Kind, key: Key, call: Call) -> None:
+    def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
         """Call this at a time; a hook may ask for it between the kernel's own events."""
         if self._draining:
             super().schedule(when, kind, key, call)
@@ -134,7 +134,7 @@ class RealTime(Kernel):
     async def _answer(
         self, hook: Callable[..., object], call: Callable[[], object], result: Future[object]
     ) -> None:
-        """Wait for a hook, and post what it ends with, whatever that is."""
+        """Wait for a hook, and post its result or its error."""
         try:
             returned = call() if iscoroutinefunction(hook) else await self._in_thread(call)
             if issubclass(type(returned), CoroutineType):  # it may be anything

@@ -15,7 +15,7 @@ _START = (
     "sys.path.insert(0, home); load(name); sys.path.append(sys.path.pop(0)); "
     "sys.exit(load(name + '.__main__').main())"
 )
-"""Import the package from where it was found this time, whatever else has its name."""
+"""Import the package from where it was found this time, even if another has its name."""
 
 
 def command(*arguments: str) -> list[str]:

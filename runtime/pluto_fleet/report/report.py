@@ -22,7 +22,7 @@ from plutoc_runtime.domain.text import (
 from ..flight.standing import ANSWERS, aside, count_flights, in_order, waiting
 
 if TYPE_CHECKING:
-    from plutoc_runtime.alone.simulate import Outcome
+    from plutoc_runtime.alone.simulate import SimulationResult
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Drone, Mission
 
@@ -43,7 +43,7 @@ class MissionRow(NamedTuple):
     reason: str
 
 
-def report(app: App, outcome: Outcome, apart: float) -> Iterator[str]:
+def report(app: App, outcome: SimulationResult, apart: float) -> Iterator[str]:
     """Yield the lines of the report; the last one says in which world it was flown."""
     yield from mission_table(app, map(row_of, outcome.missions))
     yield ""
@@ -106,7 +106,7 @@ def drone_table(drones: Sequence[Drone], flown: Mapping[str, float]) -> Iterator
     )
 
 
-def last_line(outcome: Outcome) -> str:
+def last_line(outcome: SimulationResult) -> str:
     """Return the whole outcome in one line."""
     trips = trips_data(outcome)
     statuses = [mission.status for mission in outcome.missions]
@@ -158,7 +158,7 @@ _NEEDS_A_PERSON = (Status.UNCERTAIN, Status.HELD)
 _BAD = (Status.FAILED, Status.CANCELLED)
 
 
-def exit_code(outcome: Outcome) -> int:
+def exit_code(outcome: SimulationResult) -> int:
     """Return 0, 1 if a mission failed or the simulation was given up, or 4 if one waits for a person.
 
     A mission that `--until` cut short has not failed.

@@ -1,7 +1,7 @@
-"""One simulated drone: where it is and what is in its battery, worked out when somebody asks.
+"""One simulated drone: where it is and what is in its battery, worked out when it is asked for.
 
-Nothing ticks. A body keeps its last change; whatever goes wrong in the meantime is applied, at its
-exact moment, the next time anybody looks. So a flight costs one event a leg, however long it is.
+Nothing ticks. A body keeps its last change; what goes wrong in the meantime is applied, at its
+exact moment, the next time it is looked at. So a flight costs one event a leg, however long it is.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ class Body:
         self.on_change: Callable[[], object] | None = None
         """Told when something of it has changed that time alone does not change."""
         self.left_alone = False
-        """Whoever let it sink is gone: it touches down by itself."""
+        """It was told to sink before the process was killed: it touches down by itself."""
         self._drawn, self._began = Drawn(), clock()
         self._charge = Charge(drone.battery_level, clock())
         self._leg, self._landed = standing(drone.home, clock()), True
@@ -150,7 +150,7 @@ class Body:
 
     @property
     def standing(self) -> DroneReport:
-        """What it answers when the roll is called; one that takes no commands does not answer."""
+        """What it reports when it is asked; one that takes no commands does not answer."""
         now = self._clock()
         self.settle(now)
         return DroneReport(
@@ -196,7 +196,7 @@ class Body:
         self._changed()
 
     def dock(self, now: float) -> None:
-        """Stand in its dock, put there by somebody, and take commands again."""
+        """Stand in its dock, put there by a person, and take commands again."""
         if self.down is not None and self.down.failure is Failure.BATTERY:
             self.reboot()
         self.down = None

@@ -21,7 +21,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import place
 from plutoc_runtime.fleet.reach import CLIMB_SPEED, grip_problem
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import Kernel, Kind
+from plutoc_runtime.time.kernel import EventKind, Kernel
 
 from ..jobs.job import motors_cut
 from .body import Body, SimulatedDrone
@@ -114,7 +114,7 @@ class SimulatedNavigation:
             over.fail(why)
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, and hover."""
+        """Stop what a drone does, and hover."""
         body = self.bodies[drone]
         if body.over is not None:
             body.halt(self._kernel.now)
@@ -188,7 +188,7 @@ class SimulatedNavigation:
         return value
 
     async def hold(self, drone: str) -> None:
-        """Hover until something goes wrong or nobody wants it any longer."""
+        """Hover until something goes wrong or it is cancelled."""
         body = self._in_the_air(drone)
         if body.fails_to_act:
             raise failed("the action failed", f"{drone} could not do it", body.location)
@@ -206,14 +206,14 @@ class SimulatedNavigation:
         self._in_the_air(drone).settings[name] = value
 
     async def cut(self, drone: str) -> None:
-        """Switch its motors off: it falls, if it flies and can be told, and turns them on for nobody."""
+        """Switch its motors off: it falls, if it flies and can be told, and turns them on no more."""
         cut = motors_cut(drone)
         body = self.bodies[drone]
         if not self.strike(drone, cut.failure, str(cut)) and not body.landed:
             body.check(self._kernel.now)
 
     def mended(self, drone: str) -> None:
-        """Somebody has repaired it, put it into its dock and switched it on."""
+        """A person has repaired it, put it into its dock and switched it on."""
         body = self.bodies[drone]
         if body.down is not None:
             body.reboot()
@@ -241,14 +241,14 @@ class SimulatedNavigation:
         return True
 
     async def fetched(self, drone: str) -> bool:
-        """Wait until somebody has carried a drone home."""
+        """Wait until a drone was carried home."""
         body = self.bodies[drone]
         await self._wait_until(body, self._kernel.now + CARRYING_HOME)
         body.dock(self._kernel.now)
         return True
 
     def unload(self, drone: str) -> None:
-        """Whoever meets it takes off what it carries."""
+        """Take off what it carries: a person meets it in its dock."""
         self.bodies[drone].unload()
 
     async def drone_report(self, drone: str) -> DroneReport:
@@ -274,14 +274,14 @@ class SimulatedNavigation:
         return until
 
     async def _busy(self, body: Body, until: float, command: str) -> None:
-        """Let time pass; whoever cancels this leaves the drone hovering."""
+        """Let time pass; a cancelled command leaves the drone hovering."""
         if body.command:
             raise RuntimeError(f"{body.drone.id} was told {command} while told {body.command}")
         if until <= self._kernel.now:
             return
         over: Future[None] = Future()
         body.command, body.over = command, over
-        timer = self._kernel.at(until, Kind.FLIGHT, body.key, partial(over.set, None))
+        timer = self._kernel.at(until, EventKind.FLIGHT, body.key, partial(over.set, None))
         try:
             await over
         except BaseException:  # no longer wanted

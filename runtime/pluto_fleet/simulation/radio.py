@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Kernel, Kind
+from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel
 
 from ..jobs.controls import ForwardingControls
 
@@ -45,7 +45,7 @@ class Radio(ForwardingControls):
         return seconds
 
     def break_off(self, drone: str) -> None:
-        """Stop whatever a drone does, or is about to be told."""
+        """Stop what a drone does, or is about to be told."""
         order = self._orders.pop(drone, None)
         self._controls.break_off(drone)
         if order is not None:
@@ -103,11 +103,11 @@ class Radio(ForwardingControls):
     async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
         """Ask a drone beside what it does."""
         try:
-            await self._kernel.sleep(self._late(COMMAND), Kind.FLIGHT)
+            await self._kernel.sleep(self._late(COMMAND), EventKind.FLIGHT)
             answer = await question
         finally:
             question.close()
-        await self._kernel.sleep(self._late(ANSWER), Kind.FLIGHT)
+        await self._kernel.sleep(self._late(ANSWER), EventKind.FLIGHT)
         return answer
 
     async def _sent(self, drone: str, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
@@ -125,6 +125,6 @@ class Radio(ForwardingControls):
         seconds = self._late(what)
         if seconds > 0:
             until = self._kernel.now + seconds
-            await self._kernel.within(broken_off, until, Kind.FLIGHT, FLEET)
+            await self._kernel.within(broken_off, until, EventKind.FLIGHT, FLEET)
         if broken_off.is_set:
             broken_off.result()

@@ -1,16 +1,19 @@
 """Keeps a simulated world on the disk, so that it is still there when its process is not.
 
 What drones do is one line of a file each, written the moment it happens. How they stand is another
-file, written anew at every change. Time passes while nobody looks: whoever reads it back finds every
-drone where it has come to meanwhile.
+file, written anew at every change. Time passes also while no process runs: read back, each drone is
+where it has come to meanwhile.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +24,46 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 from ..journal.values import item_data, item_of, point_of, value_data, value_of
 from .body import Body, Snapshot
 from .drones import WorldAction
-from .moments import Moment
+
+_BOOT = Path("/proc/sys/kernel/random/boot_id")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Moment:
+    """A moment, on the wall and since the machine was started."""
+
+    wall: float
+    """Seconds since 1970, as far as the clock is right."""
+    boot: str
+    """Which start of the machine that was; empty: it cannot be told."""
+    up: float
+    """Seconds since then, sleep included; they cannot be set."""
+
+    def since(self, data: Mapping[str, Any]) -> float:
+        """Return the seconds since a moment that was written down; never less than none."""
+        if self.boot and self.boot == data["boot"]:
+            return max(0.0, self.up - float(data["up"]))
+        return max(0.0, self.wall - float(data["wall"]))
+
+    @property
+    def data(self) -> dict[str, object]:
+        """The moment as plain data."""
+        return {"wall": self.wall, "boot": self.boot, "up": self.up}
+
+
+def this_moment() -> Moment:
+    """Return what the clocks show."""
+    boot = _this_boot()
+    up = time.clock_gettime(time.CLOCK_BOOTTIME) if boot else 0.0
+    return Moment(wall=time.time(), boot=boot, up=up)
+
+
+@cache
+def _this_boot() -> str:
+    with suppress(OSError):
+        return _BOOT.read_text(encoding="ascii").strip()
+    return ""
+
 
 DEEDS, DRONES = "world.jsonl", "drones.json"
 """What was done, a line each; how the drones stand."""

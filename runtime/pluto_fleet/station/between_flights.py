@@ -1,4 +1,4 @@
-"""What is known while nothing flies: the unfinished flight, where each drone was last heard of, who is lost."""
+"""What is known while nothing flies: the unfinished flight, where each drone was last heard of, which are lost."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
     from .config import StationConfig
 
-FRESH = 4.0
+FRESH_FOR = 4.0
 """Seconds for which what was heard of a drone is how it is."""
 
 HOVERED = "it was in the air when it was last heard of: go and look"
@@ -60,7 +60,7 @@ class IdleDrones:
             yield _row(entry.id, sightings.get(entry.id), known, now)
 
     def write_down(self, app: App, known: Records | None) -> bool:
-        """Put on record who has crashed with no app there to be told; say whether anybody has.
+        """Put on record the drones that crashed with no app there to be told; say whether any did.
 
         Each news of the drones is looked at once.
         """
@@ -92,7 +92,7 @@ def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> r
     retired = known is not None and id in known.retired
     if known is not None and id in known.mended:  # a person has taken it in their hands since
         return rows.drone_at(id, "UNKNOWN", None, trips, retired, BACK)
-    fresh = seen is not None and now - seen.when < FRESH
+    fresh = seen is not None and now - seen.when < FRESH_FOR
     if lost is not None:
         status, why = "LOST", str(lost["reason"])
         if seen is None and lost["at"] is not None:
@@ -108,11 +108,11 @@ def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> r
     return rows.drone_at(id, status, seen, trips, retired, why)
 
 
-AWAY = "put_away"
+PUT_AWAY_FILE = "put_away"
 """The file that names the last journal that was put away."""
 
 
-def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable | None:
+def unfinished_flight(app: App, config: StationConfig, going_on: bool = False) -> Resumable | None:
     """Return the newest journal of the station's folder, opened, to be shown and gone on with.
 
     A flight over another map would be drawn over this one, and misread: it is left alone, unless
@@ -130,7 +130,7 @@ def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable 
     if same != (config.sim, config.crtp_sim is not None):
         taken.store.close()
         return None
-    if not going_on and drawn(taken.fleet) != drawn(config.fleet):
+    if not going_on and shown_fleet(taken.fleet) != shown_fleet(config.fleet):
         taken.store.close()
         if taken.is_over:
             return None
@@ -142,23 +142,23 @@ def found(app: App, config: StationConfig, going_on: bool = False) -> Resumable 
     return taken
 
 
-def drawn(fleet: FleetFile) -> object:
+def shown_fleet(fleet: FleetFile) -> object:
     """Return what people see of a fleet file."""
     return fleet.airspace, [(one.id, one.category, one.home) for one in fleet.drones]
 
 
 def put_away(config: StationConfig, journal: Path) -> None:
     """Remember that a journal is not to be gone on with; it stays where it is."""
-    (config.own_folder / AWAY).write_text(journal.name, encoding="utf-8")
+    (config.own_folder / PUT_AWAY_FILE).write_text(journal.name, encoding="utf-8")
 
 
 def _put_away(config: StationConfig) -> str:
     with suppress(OSError, ValueError):
-        return (config.own_folder / AWAY).read_text(encoding="utf-8")
+        return (config.own_folder / PUT_AWAY_FILE).read_text(encoding="utf-8")
     return ""
 
 
-FILE = "drones.json"
+DRONES_FILE = "drones.json"
 
 
 class FleetHistory:
@@ -167,7 +167,7 @@ class FleetHistory:
     def __init__(self, app: App, config: StationConfig) -> None:
         self._app, self._config = app, config
         self._kind = [config.sim, config.crtp_sim is not None]
-        self._file = config.own_folder / FILE
+        self._file = config.own_folder / DRONES_FILE
         self._fleet = [entry.id for entry in config.fleet.drones]
         self.records = Records()
         self._journal: Path | None = None
@@ -189,7 +189,9 @@ class FleetHistory:
             check(journal, header, self._app)
             if [header["sim"], header.get("crtp_sim") is not None] != self._kind:
                 return
-            same = drawn(fleet_in(self._app, journal, header)) == drawn(self._config.fleet)
+            same = shown_fleet(fleet_in(self._app, journal, header)) == shown_fleet(
+                self._config.fleet
+            )
             records = recovered(store).records
         if "lost" not in header:  # it was not begun by a station
             for drone, why in self.records.lost.items():

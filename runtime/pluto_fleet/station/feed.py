@@ -36,16 +36,16 @@ class VersionedRows:
         return (text for changed, _, text in self._rows.values() if changed > number)
 
 
-KEPT = 20_000
+LINES_KEPT = 20_000
 """Lines, and results; older ones are in the journal alone."""
 
-AT_ONCE = 500
+LINES_A_MESSAGE = 500
 """Lines that a page gets in one message: the newest."""
 
-VALUE = 1_000
+LONGEST_VALUE = 1_000
 """Characters of what an action returned that pages get; all of it is among the results."""
 
-EXACT = 1_000_000
+LARGEST_ROUNDED = 1_000_000
 """Pages show six digits of a number: of a whole number that has more, they get all."""
 
 
@@ -54,7 +54,7 @@ class Tail:
 
     def __init__(self) -> None:
         self.last = 0
-        self._texts: deque[str] = deque(maxlen=KEPT)
+        self._texts: deque[str] = deque(maxlen=LINES_KEPT)
 
     def add(self, *facts: object) -> None:
         """Add an entry: its number, and these facts."""
@@ -63,7 +63,7 @@ class Tail:
 
     def since(self, number: int) -> Iterator[str]:
         """Yield those after that number, no more than a page can show."""
-        new = min(self.last - number, AT_ONCE, len(self._texts))
+        new = min(self.last - number, LINES_A_MESSAGE, len(self._texts))
         return (self._texts[place] for place in range(-new, 0))
 
     def __iter__(self) -> Iterator[str]:
@@ -77,8 +77,8 @@ class Feed:
         """Begin; `units` are those of the quantities that `measure` measures, where they are known."""
         self._app, self._units = app, units
         self.log, self.results = Tail(), Tail()
-        self._lines: deque[str] = deque(maxlen=KEPT)
-        self._whole: deque[object] = deque(maxlen=KEPT)
+        self._lines: deque[str] = deque(maxlen=LINES_KEPT)
+        self._whole: deque[object] = deque(maxlen=LINES_KEPT)
         """What each of the results is, where pages get it in words."""
 
     def take(self, event: Event) -> None:
@@ -161,11 +161,11 @@ def _in_words(value: object) -> object:
     match value:
         case None:
             return "nothing"
-        case int() if abs(value) >= EXACT:
+        case int() if abs(value) >= LARGEST_ROUNDED:
             return str(value)
         case list() | dict():
             value = json.dumps(value, ensure_ascii=False)
-    return bounded(value, VALUE) if isinstance(value, str) else value
+    return bounded(value, LONGEST_VALUE) if isinstance(value, str) else value
 
 
 _VERDICTS = {"mission.judged": "not accepted", "mission.extended": "more to do"}

@@ -77,7 +77,7 @@ def _named(declaration: str) -> tuple[str, ...]:
 
 Row = dict[str, object]
 
-WHY = 200
+LONGEST_REASON = 200
 """Characters of why a drone may not fly; all of it is on the console."""
 
 
@@ -212,7 +212,7 @@ def _drone_row(
         "mission": mission,
         "trips": trips,
         "retired": retired,
-        "why": cut_off(why, WHY),
+        "why": cut_off(why, LONGEST_REASON),
     }
 
 

@@ -26,8 +26,7 @@ from ..journal.fold import Records
 from ..journal.header import header
 from ..journal.store import Store
 from ..process.ipc import NoAnswer, NotRunning
-from . import between_flights as leftover
-from .between_flights import FleetHistory
+from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
 from .session import FlightSession, Phase, phase_of
@@ -42,13 +41,13 @@ if TYPE_CHECKING:
     from .config import StationConfig
     from .plan.plan import MissionPlan
 
-REMEMBERED = 1_000
+ANSWERS_KEPT = 1_000
 """Commands whose answers are known, if they are asked for once more."""
 
-STOP_WITHIN = 5.0
+GATEWAY_ANSWERS_WITHIN = 5.0
 """Seconds for a gateway without a brain to answer."""
 
-LOOK_EACH = 0.1
+LOOK_EVERY = 0.1
 """Seconds between two looks whether it has ended."""
 
 
@@ -84,7 +83,7 @@ class Station:
     def begin(self, going_on: bool = False) -> None:
         """Show the flight that an earlier station, or `fly`, has not brought to its end."""
         self.history.read()
-        taken = leftover.found(self._app, self._config, going_on)
+        taken = unfinished_flight(self._app, self._config, going_on)
         if taken is None:
             if self.history.flown_elsewhere() is None:
                 self.plan.unlock()
@@ -113,7 +112,7 @@ class Station:
         answer = asyncio.ensure_future(self._do(name, id, arguments))
         self._answers[id] = answer
         answer.add_done_callback(_heard)
-        while len(self._answers) > REMEMBERED and next(iter(self._answers.values())).done():
+        while len(self._answers) > ANSWERS_KEPT and next(iter(self._answers.values())).done():
             self._answers.popitem(last=False)
         return await asyncio.shield(answer)  # the page may go: it is done all the same
 
@@ -273,12 +272,12 @@ class Station:
             )
         folder = place.gateway_folder(self.session.journal)
         with suppress(BadInput):  # nothing flies any more, as it should be
-            await asyncio.to_thread(stop_directly, folder, Down.LAND, STOP_WITHIN)
+            await asyncio.to_thread(stop_directly, folder, Down.LAND, GATEWAY_ANSWERS_WITHIN)
         let_end(folder)
         self._before = folder
         if self.session.records is not None:
             self.history.leave(self.session.journal, self.session.records)
-        leftover.put_away(self._config, self.session.journal)
+        put_away(self._config, self.session.journal)
         self.plan.settle(self.session.ends)
         self.session = None
         return "put away; its journal is kept"
@@ -287,14 +286,14 @@ class Station:
         """Let no second gateway command drones that are still coming down by the one before."""
         if self._config.sim or self._before is None:
             return
-        until = asyncio.get_running_loop().time() + STOP_WITHIN
+        until = asyncio.get_running_loop().time() + GATEWAY_ANSWERS_WITHIN
         while still_runs(self._before) is not None:
             if asyncio.get_running_loop().time() > until:
                 raise BadInput(
                     "the drones of the flight that was put away are still coming down:"
                     " start again when they are"
                 )
-            await asyncio.sleep(LOOK_EACH)
+            await asyncio.sleep(LOOK_EVERY)
         self._before = None
 
     async def _stop(self, how: Down) -> str:
@@ -312,7 +311,7 @@ class Station:
         if self.session is not None:
             folder = place.gateway_folder(self.session.journal)
             with suppress(BadInput):
-                return await asyncio.to_thread(stop_directly, folder, how, STOP_WITHIN)
+                return await asyncio.to_thread(stop_directly, folder, how, GATEWAY_ANSWERS_WITHIN)
         return "nothing flies"
 
     async def _cut_motors(self, drone: str) -> str:
@@ -321,7 +320,7 @@ class Station:
             raise BadInput("nothing flies")
         folder = place.gateway_folder(self.session.journal)
         try:
-            said = await asyncio.to_thread(cut_directly, folder, drone, STOP_WITHIN)
+            said = await asyncio.to_thread(cut_directly, folder, drone, GATEWAY_ANSWERS_WITHIN)
         except NotRunning:
             raise BadInput("nothing commands the drones now") from None
         except NoAnswer:

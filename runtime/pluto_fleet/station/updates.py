@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from .plan.plan import MissionPlan
     from .session import FlightSession
 
-LATEST = 0.12
+LOOK_EVERY = 0.12
 """Seconds between two looks at what has changed, unless something new is announced."""
 
-SOONEST = 0.08
+LOOK_NO_SOONER = 0.08
 """Seconds between two looks, however much is new: the drones are heard of ten times a second."""
 
-PATIENCE = 1.0
+ANSWER_WITHIN = 1.0
 """Seconds after which a page is answered, though nothing has changed."""
 
 
@@ -54,7 +54,7 @@ class Updates:
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
         """Return what has changed since a page looked, as soon as anything has, or in a second."""
         loop = asyncio.get_running_loop()
-        until = loop.time() + PATIENCE
+        until = loop.time() + ANSWER_WITHIN
         while True:
             await self._next_tick()
             session = self._station.session
@@ -71,7 +71,7 @@ class Updates:
         loop = asyncio.get_running_loop()
         if self._tick is None:
             self._tick = loop.create_future()
-            self._timer = loop.call_at(self._ticked_at + LATEST, self._look)
+            self._timer = loop.call_at(self._ticked_at + LOOK_EVERY, self._look)
         await asyncio.shield(self._tick)
 
     def hurry(self) -> None:
@@ -80,7 +80,7 @@ class Updates:
         Not within this call: what flies must not fail by what is shown of it.
         """
         loop = asyncio.get_running_loop()
-        if self._timer is not None and loop.time() - self._ticked_at >= SOONEST:
+        if self._timer is not None and loop.time() - self._ticked_at >= LOOK_NO_SOONER:
             self._timer.cancel()
             self._timer = loop.call_soon(self._look)
 

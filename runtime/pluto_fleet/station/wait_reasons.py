@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
     from ..flight.live_fleet import LiveFleet
 
-EACH = 3.0
+LOOK_EVERY = 3.0
 """Seconds after which it is looked at anew."""
-AT_ONCE = 10
+MISSIONS_A_LOOK = 10
 """Missions of which it is found out in one look: there may be hundreds."""
 
 _DOES = {
@@ -39,16 +39,16 @@ class WaitReasons:
 
     def __init__(self, clock: Callable[[], float]) -> None:
         self._clock = clock
-        self._looked = -EACH
+        self._looked = -LOOK_EVERY
         self._requests: dict[int, Request] = {}
         self._low: set[Drone] = set()
         self._known: dict[int, tuple[float, str]] = {}
-        self._left = AT_ONCE
+        self._left = MISSIONS_A_LOOK
 
     def look(self, fleet: LiveFleet) -> None:
         """Begin a look at all missions and drones."""
-        now, self._left = self._clock(), AT_ONCE
-        if now - self._looked >= EACH:
+        now, self._left = self._clock(), MISSIONS_A_LOOK
+        if now - self._looked >= LOOK_EVERY:
             self._looked = now
             self._requests = {id(request.trip): request for request in fleet.queue.waiters()}
             self._low = set(fleet.queue.too_low())
@@ -59,9 +59,9 @@ class WaitReasons:
     def why(self, fleet: LiveFleet, trip: Trip) -> str:
         """Say why no drone flies a trip yet; empty: that is found out at one of the next looks."""
         now = self._clock()
-        since, said = self._known.get(id(trip), (-EACH, ""))
+        since, said = self._known.get(id(trip), (-LOOK_EVERY, ""))
         request = self._requests.get(id(trip))
-        if request is not None and self._left and now - since >= EACH:
+        if request is not None and self._left and now - since >= LOOK_EVERY:
             self._left -= 1
             said = why_no_drone(fleet, request)
             self._known[id(trip)] = now, said

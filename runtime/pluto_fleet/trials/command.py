@@ -38,7 +38,7 @@ FOUND, BAD_INPUT = 1, 2
 
 STRUCK_EVERYWHERE = 3
 """Of so many seeds, what can strike does so at every row of the journal."""
-ENOUGH = 5
+MOST_FINDINGS = 5
 """After so many findings the search ends."""
 
 _WRONG = attrgetter("wrong")
@@ -71,7 +71,7 @@ def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
 
     def enough(tally: Tally) -> bool:
         progress.update(tally.runs / way.runs, _so_far(tally, way, options))
-        return len(tally.findings) >= ENOUGH
+        return len(tally.findings) >= MOST_FINDINGS
 
     def fails(case: Case) -> bool:
         progress.update(1.0, f"{_so_far(tally, way, options)}: making the first one smaller")

@@ -10,7 +10,7 @@ from .rules import Say, at
 if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
 
-Place = tuple[object, object, object, object, int]
+DelayPlace = tuple[object, object, object, object, int]
 """Mission, block, trip, round, attempt."""
 
 _ROUNDED = 0.002
@@ -28,7 +28,7 @@ class DelaysAreWaited:
         self._say = say
         self._delay: dict[object, _Delay] = {}
         """By mission, what it waits for."""
-        self._waited: set[Place] = set()
+        self._waited: set[DelayPlace] = set()
         self._tries: dict[tuple[object, object], int] = {}
         """By mission and trip, which attempt it is; 1 if it is not here."""
         self._round: dict[object, object] = {}
@@ -147,7 +147,7 @@ class _Delay:
 
     __slots__ = ("begins", "over", "paused", "place", "rest", "until")
 
-    def __init__(self, place: Place, over: float, until: float) -> None:
+    def __init__(self, place: DelayPlace, over: float, until: float) -> None:
         self.place, self.over, self.until = place, over, until
         self.begins = until if until > over else 0.0
         """A time of day, for which a Stop changes nothing."""

@@ -72,7 +72,7 @@ class ServesOneMission:
 class StaysDown:
     """No drone that recovers, charges or is lost is given to a mission; a lost one stays lost.
 
-    Who is free stands on the ground.
+    A free drone stands on the ground.
     """
 
     def __init__(self, say: Say) -> None:
@@ -111,7 +111,7 @@ class ItemsStayAboard:
         self._say = say
         self._items = items
         self._carrier: dict[object, tuple[object, str]] = {}
-        """By mission: who has its item aboard, and which trip releases it."""
+        """By mission: which drone has its item aboard, and which trip releases it."""
         self.hears: Mapping[str, Hears] = {
             "trip.allocated": self._serve,
             "trip.launched": self._serve,

@@ -28,16 +28,16 @@ if TYPE_CHECKING:
     from ..journal.fold import Records
     from .case import Case
 
-PATIENCE = 3.0
+HEARTBEAT_WITHIN = 3.0
 """Seconds without a brain after which the gateway lands everything."""
-PULSES = 20
+UNAWARE_FOR = 20
 """Seconds for which a brain goes on after another has taken over."""
 MOST_LIVES = 40
-LONGEST = 7 * 86_400.0
+LONGEST_TRIAL = 7 * 86_400.0
 """Seconds, delays apart. A mission that has not ended by then never will."""
-THINKS = 20.0
+PERSON_LOOKS_AFTER = 20.0
 """Seconds after which a person looks, and decides."""
-STOPPED = 45.0
+STOPPED_FOR = 45.0
 """Seconds for which an app that was stopped stays so."""
 
 _read = json.JSONDecoder().raw_decode
@@ -77,7 +77,7 @@ class TrialLife:
         self.life.control.stopped.watch(self.stopped)
         self.task = self.life.go_on(planned)
         self.due: list[Callable[[], object]] = []
-        run.later(THINKS, self.person)
+        run.later(PERSON_LOOKS_AFTER, self.person)
 
     def take_turn(self) -> None:
         """Let it do what is due."""
@@ -252,7 +252,7 @@ class TrialLife:
         }
         told = self.told(partial(tell[kind], mission))
         if told and kind is StrikeKind.PAUSE:
-            self.run.later(THINKS, self.person)
+            self.run.later(PERSON_LOOKS_AFTER, self.person)
         return told
 
     def told(self, command: Callable[[], object]) -> bool:
@@ -282,7 +282,7 @@ class TrialLife:
                 if self.told(decide):
                     run.fired["decision"] += 1
         if any(record["paused"] for record in self.life.recorder.records.missions.values()):
-            run.later(THINKS, self.person)
+            run.later(PERSON_LOOKS_AFTER, self.person)
 
     def lost(self) -> None:
         """Brain and gateway have lost one another: the brain begins anew from its own journal."""
@@ -305,7 +305,7 @@ class TrialLife:
             self.wire.alive = False
             self.run.gateway.cut()
             self.die()
-            self.run.later(STOPPED, self.run.start_life)
+            self.run.later(STOPPED_FOR, self.run.start_life)
 
     def die(self) -> None:
         """Nothing of it goes on."""
@@ -379,7 +379,7 @@ class TrialRun(TrialWorld):
             why = f"{self.record.endless} sets out again and again, and nothing ends that"
             self.found.append(f"{self.world.now:g} s: {why}")
             return False
-        if self.world.now > LONGEST + self.record.delays and not self.over:
+        if self.world.now > LONGEST_TRIAL + self.record.delays and not self.over:
             self.found.append(f"it goes on for ever; waiting: {self.waiting()}")
             return False
         return True
@@ -429,8 +429,8 @@ class TrialRun(TrialWorld):
                 self.fired["failsafe"] += 1
                 gateway.fail_safe(Down.LAND)
 
-        if down > PATIENCE:
-            self.later(PATIENCE, land)
+        if down > HEARTBEAT_WITHIN:
+            self.later(HEARTBEAT_WITHIN, land)
         self.later(down, self.start_life)
 
     def freeze(self) -> None:
@@ -439,9 +439,9 @@ class TrialRun(TrialWorld):
         if brain is not None:
             brain.remember()
             self.be_missed(self.case.weather.down)
-            for pulse in range(PULSES):
+            for pulse in range(UNAWARE_FOR):
                 self.later(self.case.weather.down + 1.0 + pulse, brain.go_on_unaware)
-            self.later(self.case.weather.down + 1.0 + PULSES, brain.die)
+            self.later(self.case.weather.down + 1.0 + UNAWARE_FOR, brain.die)
 
     def ended(self, brain: TrialLife) -> None:
         """A life came to its end by itself: everything has ended, or waits for a person."""
@@ -452,7 +452,7 @@ class TrialRun(TrialWorld):
         brain.die()
         waits = self.record.waits
         if waits and self.record.decide(brain.life.recorder.records):
-            self.later(THINKS, self.start_life)
+            self.later(PERSON_LOOKS_AFTER, self.start_life)
             return
         self.over = True
         if waits:

@@ -49,10 +49,10 @@ class ExactlyOnce:
     def __init__(self, repeat: Mapping[str, str]) -> None:
         self._repeat = repeat
         """By action: `safe`, `once` or `ask`."""
-        self._launched: dict[str, Place] = {}
+        self._launched: dict[str, TripPlace] = {}
         """By job, which trip it flies."""
         self._recorded: dict[str, None] = {}
-        self._wanted: Counter[Place] = Counter()
+        self._wanted: Counter[TripPlace] = Counter()
         """How often an evaluator wanted a trip again."""
         self._round: dict[object, object] = {}
         self._completed: dict[object, None] = {}
@@ -90,7 +90,7 @@ class ExactlyOnce:
         """Return what was done too often, and what is not on record as it was."""
         found = []
         jobs: Counter[str] = Counter()
-        places: Counter[Place] = Counter()
+        places: Counter[TripPlace] = Counter()
         safe = {act.job for act in acts if self._repeat.get(act.action, "once") == "safe"}
         for act in acts:
             place = self._launched.get(act.job)
@@ -115,7 +115,7 @@ class ExactlyOnce:
         return found
 
 
-Place = tuple[object, object, object]
+TripPlace = tuple[object, object, object]
 """Mission, trip, round."""
 
 
@@ -279,7 +279,7 @@ class TrialRecord:
         """A hook has returned: if it is an action of the app's own, that was done."""
         if any(action.hook is hook for action in self._app.actions.values()):
             context: Any = args[2]
-            flight = context._state.flight
+            flight = context._latest()
             self.did(flight.id, flight.trip.action, now)
 
     def answer(self, name: str, records: Records) -> str:

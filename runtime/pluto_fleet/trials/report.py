@@ -7,13 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import tomlkit
-
 from plutoc_runtime.domain.fields import Entity, FieldType
 from plutoc_runtime.domain.model import Mission, Trip
 from plutoc_runtime.domain.text import counted, in_shell, printable
 
 from ..files.fleet_text import fleet_text
+from ..files.toml import toml_text
 from ..report.report import table
 from ..report.sentences import line_of
 from .case import ENDS, WORDS, WRITTEN, strikes_text, weather_text
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
 
 def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
     """Return the missions file."""
-    return tomlkit.dumps({"mission": [_mission(app, mission) for mission in missions]})
+    return toml_text({"mission": [_mission(app, mission) for mission in missions]})
 
 
 def _mission(app: App, mission: Mission[Any]) -> dict[str, Any]:

@@ -128,7 +128,7 @@ class NothingAfterTheEnd:
 
 
 class CompletedDidEverything:
-    """Who ends COMPLETED has completed every trip of its last round, added ones included."""
+    """A mission that ends COMPLETED has completed every trip of its last round, added ones included."""
 
     def __init__(self, say: Say) -> None:
         self._say = say
@@ -273,7 +273,7 @@ class AttemptsCountUp:
 
 
 class LimitsAreKept:
-    """Who fails for its safe time has flown so long: a limit is that of one trip and of no other."""
+    """A trip that fails for its safe time has flown so long: a limit is that of one trip and of no other."""
 
     def __init__(self, say: Say) -> None:
         self._say = say

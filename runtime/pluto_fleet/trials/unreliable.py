@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from plutoc_runtime.domain.errors import Cancelled, FlightFailed
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Key, Kind, Task, Timer
+from plutoc_runtime.time.kernel import FLEET, EventKind, Key, Task, Timer
 from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Link
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_LONG = 30.0
+_HOOK_BLOCKS_FOR = 30.0
 """Seconds that a hook takes that blocks."""
 
 
@@ -57,7 +57,7 @@ class UnreliableTime(VirtualTime):
             task.drop()
         return task
 
-    def at(self, when: float, kind: Kind, key: Key, call: Callable[[], object]) -> Timer:
+    def at(self, when: float, kind: EventKind, key: Key, call: Callable[[], object]) -> Timer:
         """Call this at a time, or a little later."""
         late = self._weather.late
         if late and when > self.now and self._chance.random() < late:
@@ -74,7 +74,7 @@ class UnreliableTime(VirtualTime):
             raise BrokenHook("by chance")
         if self._weather.block and self._chance.random() < self._weather.block:
             self._fired["hook blocking"] += 1
-            await self.sleep(_LONG)
+            await self.sleep(_HOOK_BLOCKS_FOR)
         result = await super().call_hook(hook, *args, **named)
         self._done(hook, args)
         return result
@@ -189,7 +189,9 @@ class UnreliableLink(Link):
         if self._slow:
             self._fired["slow line"] += 1
             now = self._world.now
-            self._world.schedule(now + self._slow, Kind.FLIGHT, FLEET, partial(self._go, message))
+            self._world.schedule(
+                now + self._slow, EventKind.FLIGHT, FLEET, partial(self._go, message)
+            )
         else:
             self._go(message)
 

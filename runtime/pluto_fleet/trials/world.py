@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.time.kernel import FLEET
-from plutoc_runtime.time.kernel import Kind as When
+from plutoc_runtime.time.kernel import EventKind as When
 from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Gateway

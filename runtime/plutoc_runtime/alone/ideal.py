@@ -16,7 +16,7 @@ from ..domain.airspace import way_from
 from ..domain.errors import Failure, FlightFailed
 from ..fleet.reach import CLIMB_SPEED, docked, flight_seconds, grip_problem
 from ..time.future import Future
-from ..time.kernel import FLEET, Kernel, Key, Kind, Task
+from ..time.kernel import FLEET, EventKind, Kernel, Key, Task
 from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
 from .world import World
 
@@ -356,7 +356,7 @@ class IdealNavigation:
         if until <= self._kernel.now:
             return
         drone.over = over = Future[None]()
-        timer = self._kernel.at(until, Kind.FLIGHT, drone.key, partial(over.set, None))
+        timer = self._kernel.at(until, EventKind.FLIGHT, drone.key, partial(over.set, None))
         try:
             await over
         finally:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
+class SimulationResult:
     """What came of a flown plan."""
 
     duration: float
@@ -79,7 +79,7 @@ def simulate(
     faults: Faults,
     until: float | None,
     on_event: Listener | None,
-) -> Outcome:
+) -> SimulationResult:
     """Fly the missions until the last one has ended or a time is reached.
 
     Without such a time it is given up where missions set out again and again for nothing.
@@ -97,7 +97,7 @@ def simulate(
 
     session = Session(app, fleet, kernel, navigation, [listen])
     ended, given_up = see_through(session, kernel, missions, bound, until)
-    return Outcome(
+    return SimulationResult(
         duration=ended,
         missions=tuple(missions),
         drones=session.drones,
@@ -188,7 +188,7 @@ def see_through(
         kernel.close()
 
 
-def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
+def outcome_data(name: str, seed: int, outcome: SimulationResult) -> dict[str, object]:
     """Return the object that `simulate --json` prints."""
     return {
         "app": name,
@@ -222,7 +222,7 @@ def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
     }
 
 
-def trips_data(outcome: Outcome) -> dict[str, int]:
+def trips_data(outcome: SimulationResult) -> dict[str, int]:
     """Return how many flights there were, and how they ended."""
     return {
         "completed": outcome.count("trip.completed"),

@@ -15,7 +15,7 @@ from ..domain.model import AfterTrip
 from ..domain.status import DroneStatus
 from ..domain.text import cut_off, printable
 from ..time.future import Future
-from ..time.kernel import FLEET, Kernel, Key, Kind, Task
+from ..time.kernel import FLEET, EventKind, Kernel, Key, Task
 from .reach import docked
 
 if TYPE_CHECKING:
@@ -165,10 +165,10 @@ class Fleet:
             return
         await self._settle(drone)
         if self._after_trip is AfterTrip.NEXT:
-            await self._kernel.sleep(0, Kind.ALLOCATE, self._key(drone))
+            await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             while self._is_stray(drone) and not self.queue.room:
                 await self._next_change()
-                await self._kernel.sleep(0, Kind.ALLOCATE, self._key(drone))
+                await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             if self._is_stray(drone):
                 self._become(drone, DroneStatus.RETURNING)
                 await self._return(drone)
@@ -219,7 +219,9 @@ class Fleet:
         elif self._is_docked(drone):
             self._become(drone, DroneStatus.CHARGING)
             charged = self._kernel.now + missing * drone.category.charge_time + 0.001
-            self._kernel.at(charged, Kind.CLOCK, self._key(drone), partial(self._charged, drone))
+            self._kernel.at(
+                charged, EventKind.CLOCK, self._key(drone), partial(self._charged, drone)
+            )
         else:
             return False
         return True
@@ -232,7 +234,7 @@ class Fleet:
             self._become(drone, _FREE)
         else:
             later = self._kernel.now + _LOOK_AGAIN
-            self._kernel.at(later, Kind.CLOCK, self._key(drone), partial(self._charged, drone))
+            self._kernel.at(later, EventKind.CLOCK, self._key(drone), partial(self._charged, drone))
 
     def _fetch_what_is_low(self) -> None:
         """Missions wait for drones that stand away from home with too little in their batteries."""

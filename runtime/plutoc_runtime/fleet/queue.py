@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from ..domain.errors import HookFault, MissionFailed
 from ..domain.status import DroneStatus
 from ..time.future import Future
-from ..time.kernel import FLEET, Kernel, Kind, Timer
+from ..time.kernel import FLEET, EventKind, Kernel, Timer
 from .reach import Demand, Reach, docked
 
 if TYPE_CHECKING:
@@ -321,7 +321,7 @@ class Queue:
                 self._recheck.cancel()
             self._recheck_at, self._recheck = soonest, None
             if soonest < inf:
-                self._recheck = self._kernel.at(soonest, Kind.CLOCK, FLEET, self.changed)
+                self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
 
 
 def _charging(drone: Drone, level: float) -> float:

@@ -44,7 +44,7 @@ class Recorder(Protocol):
         ...
 
 
-class Supervisor(Protocol):
+class MissionSupervisor(Protocol):
     """What sees missions to their ends: the engine."""
 
     def ended(self, state: MissionState, task: Task[Status]) -> None:
@@ -100,7 +100,7 @@ class MissionState:
 
     core: Core
     mission: Mission[Any]
-    supervisor: Supervisor
+    supervisor: MissionSupervisor
     task: Task[Status] | None = None
     """The coroutine that takes it through its graph."""
     at: str | None = None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ..domain.actions import Action
 from ..domain.errors import ActionFailed, Failure, FlightFailed, HookFault
 from ..domain.text import bounded, text_of
-from ..hooks.calls import LONGEST_REASON, Held, call_action, changed, look
+from ..hooks.calls import LONGEST_REASON, ProtectedFacts, call_action, changed, look
 from ..hooks.context import Context
 from ..hooks.keepable import keepable
 from ..hooks.live_drone import LiveDrone, can_wait
@@ -55,7 +55,7 @@ class OwnAction(Action):
         call = call_action(kernel, hook, drone, trip, context, **trip.parameters)
         work = kernel.spawn(call, key, name)
         hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
-        held = Held(trip, "name", "action", "item", "index", "attempt", "status")
+        held = ProtectedFacts(trip, "name", "action", "item", "index", "attempt", "status")
         over: Future[None] = Future()
         work.watch(over.set)
         hover.watch(over.set)

@@ -9,7 +9,7 @@ from ..domain.errors import ANY_ERROR, MissionFailed
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.model import Mission
 from ..domain.status import UNEXECUTED, Status
-from ..hooks.calls import Held, changed, fault_of, hook_name, look
+from ..hooks.calls import ProtectedFacts, changed, fault_of, hook_name, look
 from ..time.kernel import branch_key
 from .mission import MOST_CALLS, MissionState
 
@@ -56,7 +56,7 @@ class Run(Generic[M]):
             )
         mission, flying = self.mission, self.state.in_flight
         name, index = mission.name, mission.index
-        held = None if flying is None else Held(flying.trip, "name", "action")
+        held = None if flying is None else ProtectedFacts(flying.trip, "name", "action")
         try:
             answer = await self.core.kernel.call_hook(hook, *args)
         except NOT_ITS_OWN:

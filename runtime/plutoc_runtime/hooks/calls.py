@@ -29,7 +29,7 @@ async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: obj
         raise fault_of(hook, error) from error
 
 
-class Held:
+class ProtectedFacts:
     """What the runtime knows things by, while a hook has them in its hands: it may not change that."""
 
     def __init__(self, of: object, *facts: str) -> None:

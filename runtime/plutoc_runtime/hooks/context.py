@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.text import class_of, text_of
 from ..time.future import Future
-from ..time.kernel import Kernel, Key, Kind, mission_key
+from ..time.kernel import EventKind, Kernel, Key, mission_key
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from .live_drone import LiveDrone
 
 
-class Ending(Protocol):
+class LatestFlight(Protocol):
     """The mission's latest flight: a future that is set when its trip is over."""
 
     trip: Trip
@@ -42,7 +42,7 @@ class Context:
         results: ResultStore,
         log: Callable[[str, str], None],
         mission: Mission[Any],
-        latest: Callable[[], Ending | None],
+        latest: Callable[[], LatestFlight | None],
         live: LiveDrone | None = None,
     ) -> None:
         self._kernel, self._results, self._log = kernel, results, log
@@ -75,7 +75,9 @@ class Context:
         """Wait for so many seconds, simulated or real."""
         kernel, over = self._kernel, Future[None]()
         _must_be_finite(seconds)
-        timer = kernel.at(kernel.time() + seconds, Kind.CLOCK, self._key, lambda: over.set(None))
+        timer = kernel.at(
+            kernel.time() + seconds, EventKind.CLOCK, self._key, lambda: over.set(None)
+        )
         try:
             await kernel.offer(over)
         finally:
@@ -100,7 +102,7 @@ class Context:
         if within is not None:
             _must_be_finite(within)
             until = (trip.start_time or 0.0) + within
-            timer = kernel.at(until, Kind.TIMER, self._key, wake)
+            timer = kernel.at(until, EventKind.TIMER, self._key, wake)
         try:
             await kernel.offer(over)
         finally:

@@ -45,7 +45,7 @@ def branch_key(key: Key, number: int, depth: int) -> Key:
     return key + (min(number + 1, room) << (_BRANCH * (_DEPTH - depth))) if depth <= _DEPTH else key
 
 
-class Kind(IntEnum):
+class EventKind(IntEnum):
     """What is taken first of all that happens at one instant."""
 
     READY = 0  # a coroutine goes on: what has begun is finished first
@@ -242,13 +242,13 @@ class Kernel:
         """Seconds since midnight, local time."""
         raise NotImplementedError
 
-    def at(self, when: float, kind: Kind, key: Key, call: Call) -> Timer:
+    def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
         """Call this at a time, unless it is cancelled; a time that has passed means now."""
         timer = Timer(call)
         self.schedule(when, kind, key, timer)
         return timer
 
-    def schedule(self, when: float, kind: Kind, key: Key, call: Call) -> None:
+    def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
         """Call this at a time, in any case; a time that has passed, or is none, means now."""
         self.count = count = self.count + 1
         if not when > self.now:
@@ -265,7 +265,9 @@ class Kernel:
         """Return the coroutines that have not ended, in the order in which they set out."""
         return tuple(self.tasks)
 
-    async def sleep(self, seconds: float, kind: Kind = Kind.CLOCK, key: Key = FLEET) -> None:
+    async def sleep(
+        self, seconds: float, kind: EventKind = EventKind.CLOCK, key: Key = FLEET
+    ) -> None:
         """Wait for so many seconds."""
         over: Future[None] = Future()
         timer = self.at(self.now + seconds, kind, key, lambda: over.set(None))
@@ -274,7 +276,7 @@ class Kernel:
         finally:
             timer.cancel()
 
-    async def within(self, future: Future[Any], until: float, kind: Kind, key: Key) -> bool:
+    async def within(self, future: Future[Any], until: float, kind: EventKind, key: Key) -> bool:
         """Wait until it happens or the time comes; say whether it has happened."""
         either: Future[None] = Future()
 
@@ -343,4 +345,4 @@ class Kernel:
                 return
 
 
-_LAST = int(Kind.ALLOCATE)
+_LAST = int(EventKind.ALLOCATE)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from ..time.kernel import Kernel, Kind
+from ..time.kernel import EventKind, Kernel
 
 if TYPE_CHECKING:
     from ..domain.model import Trip
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .flight import Flight
 
 
-class Branch(Protocol):
+class LimitOwner(Protocol):
     """The branch of a mission that asks for a limit; the limit is void once the branch is over."""
 
     key: Key
@@ -37,7 +37,7 @@ class Limit(NamedTuple):
         self,
         kernel: Kernel,
         watched: dict[float, EqualLimits],
-        branch: Branch,
+        branch: LimitOwner,
         flight: Flight,
         number: int,
     ) -> None:
@@ -61,13 +61,13 @@ class Limit(NamedTuple):
                 equal.waiting.popleft()
             equal.waiting.append((flight, branch))
 
-    def schedule(self, kernel: Kernel, branch: Branch, flight: Flight, number: int) -> None:
+    def schedule(self, kernel: Kernel, branch: LimitOwner, flight: Flight, number: int) -> None:
         """Let it expire in its own place among the events of that instant."""
         # behind a hook of the mission's at that instant, as if it stood in a branch of its own
         key, call = branch.key + number, partial(self._expire, branch, flight)
-        kernel.schedule(self.since + self.span, Kind.TIMER, key, call)
+        kernel.schedule(self.since + self.span, EventKind.TIMER, key, call)
 
-    def _expire(self, branch: Branch, flight: Flight) -> None:
+    def _expire(self, branch: LimitOwner, flight: Flight) -> None:
         if not (flight.is_set or (branch.task is not None and branch.task.is_set)):
             branch.abort(self.overdue(flight.trip, self.span))
 
@@ -79,12 +79,12 @@ class EqualLimits:
         self, kernel: Kernel, watched: dict[float, EqualLimits], limit: Limit, number: int
     ) -> None:
         self._kernel, self._watched, self.limit, self.number = kernel, watched, limit, number
-        self.waiting: deque[tuple[Flight, Branch]] = deque()
+        self.waiting: deque[tuple[Flight, LimitOwner]] = deque()
 
     def arm(self) -> None:
         """Look again when the first of them is due."""
         until = self.waiting[0][0].launched_at + self.limit.span
-        self._kernel.schedule(until, Kind.TIMER, -1, self._due)
+        self._kernel.schedule(until, EventKind.TIMER, -1, self._due)
 
     def _due(self) -> None:
         kernel, span, waiting = self._kernel, self.limit.span, self.waiting

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil, isfinite
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.time.kernel import Kind
+from plutoc_runtime.time.kernel import EventKind
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -45,7 +45,7 @@ async def wait_for_time(
                 block=block,
                 resumes_at=state.at,
             )
-        await kernel.sleep(until - arrival, Kind.CLOCK, run.key)
+        await kernel.sleep(until - arrival, EventKind.CLOCK, run.key)
     state.delay = None
     if state.waited is None:
         state.waited = set()

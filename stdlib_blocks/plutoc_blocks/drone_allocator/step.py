@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.domain.errors import MissionFailed, nothing_to_fly
 from plutoc_runtime.domain.status import FAILED, STANDBY, Status
 from plutoc_runtime.domain.text import duration
-from plutoc_runtime.time.kernel import Kind
+from plutoc_runtime.time.kernel import EventKind
 
 if TYPE_CHECKING:
     from plutoc_runtime.fleet.queue import Policy, Request
@@ -63,7 +63,7 @@ def allocate_drone(
 async def _no_longer_than(run: Run[Any], request: Request, seconds: float) -> None:
     kernel, queue = run.core.kernel, run.core.queue
     # the queue is served first: who gets a drone at that instant has one
-    if not await kernel.within(request, kernel.now + seconds, Kind.ALLOCATE, run.key):
+    if not await kernel.within(request, kernel.now + seconds, EventKind.ALLOCATE, run.key):
         raise MissionFailed(
             f"trip {request.trip.name} had no drone within {duration(seconds)}: "
             f"waits for a drone ({queue.standing()})"

@@ -17,7 +17,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Category, Point
 from plutoc_runtime.fleet.reach import docked
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Kind
+from plutoc_runtime.time.kernel import FLEET, EventKind
 from plutoc_runtime.time.kernel import Task as Coroutine
 from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Task
@@ -130,7 +130,7 @@ class Sky:
 
     async def pause(self, seconds: float) -> None:
         """Let a drone do something for so long."""
-        await self.kernel.sleep(seconds, Kind.CLOCK, FLEET)
+        await self.kernel.sleep(seconds, EventKind.CLOCK, FLEET)
 
 
 class Restless:
@@ -159,7 +159,7 @@ class Restless:
             if happens:
                 self.sky.kernel.schedule(
                     self.sky.kernel.now + chance.uniform(0.5, 30),
-                    Kind.CLOCK,
+                    EventKind.CLOCK,
                     FLEET,
                     lambda: self._mishap(drone),
                 )

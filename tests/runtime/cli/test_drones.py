@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli import drone_status as drone_answers
+from pluto_fleet.cli import drone_status
 from pluto_fleet.drones import localization
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.gateway.drone_lock import lock_drones
@@ -48,7 +48,7 @@ uri = "fake://4"
 @pytest.fixture(autouse=True)
 def _drones(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
     """Let some drones be there, and let those that are not there not be waited for."""
-    monkeypatch.setattr(drone_answers, "CONNECT", 0.2)
+    monkeypatch.setattr(drone_status, "CONNECT_WITHIN", 0.2)
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     RECORD.clear()

@@ -222,7 +222,7 @@ def test_who_was_mistaken_may_decide_otherwise(journal: Write, command: Command)
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("South done", 'mission "South" waits for nobody\'s decision'),
+        ("South done", 'mission "South" waits for no decision'),
         ("East done", 'mission "East" is not in this journal; those that wait are: "North"'),
         ("North", "was it done?; say one of: done, not-done, cancel"),
         ("North go-on", "was it done?; say one of: done, not-done, cancel"),

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.cli import runs as often
+from pluto_fleet.cli import runs
 from pluto_fleet.cli.runs import percentile, run_of
 from pluto_fleet.trials.invariants import Items
-from plutoc_runtime.alone.simulate import Outcome
+from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain.trace import Event
 from tests.runtime.cli.conftest import Command
 
@@ -69,7 +69,7 @@ def test_the_same_runs_are_the_same_text(missions: Path, command: Command) -> No
     assert command(*flags) == command(*flags)
 
 
-def twice(seed: int, outcome: Outcome, items: Items) -> Any:
+def twice(seed: int, outcome: SimulationResult, items: Items) -> Any:
     """Let the mission that ended last end once more."""
     end: Event = next(
         event for event in reversed(outcome.events) if event["event"] == "mission.ended"
@@ -81,7 +81,7 @@ def test_a_run_that_does_what_no_run_may_do_is_exit_70(
     missions: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It says what, with which seed, and how to see it again."""
-    monkeypatch.setattr(often, "run_of", twice)
+    monkeypatch.setattr(runs, "run_of", twice)
     code, out, _ = command("simulate", missions, "--runs", 2, "--fail", "crash=5%", "--seed", 3)
     assert code == 70
     assert "seed 3 did what no run may do: North ended 2 times\n" in out

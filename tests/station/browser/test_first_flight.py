@@ -52,7 +52,7 @@ def sizes(station: Station) -> list[int]:
 def test_three_missions_are_drawn_by_drag_and_drop_and_flown_to_their_end(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution")
+    station = serve("drugs_distribution", "--speed", "60")
     page = visit(station)
     draw(page)
     is_drawn(station)

@@ -24,7 +24,7 @@ from tests.station.browser.steps import (
 def test_the_example_plan_of_every_app_is_sound_and_flies_to_its_end(
     serve: Serve, visit: Visit, app: str
 ) -> None:
-    station = serve(app, "--speed", "40")
+    station = serve(app, "--speed", "80")
     page = visit(station)
     page.get_by_role("button", name="Use the example plan").click()
     expect(missions_listed(page).first).to_be_visible()

@@ -74,7 +74,7 @@ def nothing_ran(page: Page) -> None:
 
 def test_script_in_every_text_is_shown_as_text_and_never_runs(serve: Serve, visit: Visit) -> None:
     """In the plan, in the flight, in the console, and in what is said of commands."""
-    station = serve("drugs_distribution")
+    station = serve("drugs_distribution", "--speed", "60")
     put(station, HOSTILE)
     page = visit(station)
     for text in HOSTILE:

@@ -68,7 +68,7 @@ def drawn(station: Station) -> dict[str, list[Place]]:
 
 @pytest.mark.long  # a whole flight once more
 def test_the_exercise_is_drawn_and_flown_without_a_mouse(serve: Serve, visit: Visit) -> None:
-    station = serve("drugs_distribution")
+    station = serve("drugs_distribution", "--speed", "60")
     page = visit(station)
     for mission, trips in PLAN.items():
         go_to(page, "Missions")

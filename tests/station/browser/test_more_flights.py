@@ -90,6 +90,7 @@ def test_what_was_stopped_is_put_away_and_the_plan_begins_anew(serve: Serve, vis
     sees_all(page, "Completed", ("Mission 2", "Mission 3"))
 
 
+@pytest.mark.long  # a slow flight; test_first_flight.py calls drones home
 def test_landing_now_is_heard_while_all_fly_home(serve: Serve, visit: Visit) -> None:
     station = serve("drugs_distribution", "--speed", "5")
     put_in(station)

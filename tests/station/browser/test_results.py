@@ -16,7 +16,7 @@ from tests.station.browser.test_monitor import FIELD, panel
 def test_a_measurement_is_listed_with_what_where_when_and_for_whom(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution")
+    station = serve("drugs_distribution", "--speed", "60")
     put_in(station)
     page = visit(station)
     start(page)
@@ -46,7 +46,7 @@ def test_what_the_apps_own_actions_return_is_listed_as_such_with_their_parameter
 
 
 def test_a_number_of_many_digits_is_shown_as_it_is(serve: Serve, visit: Visit) -> None:
-    station = serve("drugs_distribution")
+    station = serve("drugs_distribution", "--speed", "60")
     station.end()
     fleet = station.folder / "fleet.toml"
     text = station.app.fleet.read_text().replace("temperature = 21.5", "temperature = 12345.0")

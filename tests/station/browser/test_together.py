@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from concurrent.futures import ThreadPoolExecutor
 
+import pytest
 from playwright.sync_api import Route, expect
 
 from tests.station.browser.conftest import Serve, Visit
@@ -75,7 +76,7 @@ def _names(station: Station) -> list[str]:
 def test_two_who_press_start_at_once_start_once_and_see_the_same(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution")
+    station = serve("drugs_distribution", "--speed", "60")
     put_in(station)
     one, other = visit(station), visit(station)
     held: list[Route] = []
@@ -108,6 +109,7 @@ def test_many_starts_in_one_moment_start_once(serve: Serve) -> None:
     until(lambda: list(station.statuses()) == list(COMPLETED), "each of them flies, once")
 
 
+@pytest.mark.long  # a whole flight; test_monitor.py pauses one
 def test_a_mission_that_one_pauses_is_paused_for_the_other_who_lets_it_go_on(
     serve: Serve, visit: Visit
 ) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from playwright.sync_api import expect
 
 from tests.station.browser.conftest import Serve, Visit
@@ -15,7 +16,7 @@ def test_the_printed_address_lets_one_fly_and_the_token_leaves_it(
     serve: Serve, visit: Visit
 ) -> None:
     """The floor plan is seen, too: it needs the token as well."""
-    station = serve("drugs_distribution", "--name", "ward.example")
+    station = serve("drugs_distribution", "--name", "ward.example", "--speed", "60")
     assert "#token=" in station.url
     put_in(station)
     page = visit(station)
@@ -71,6 +72,7 @@ def test_one_browser_is_told_the_token_once_until_it_is_told_to_forget_it(
     expect(last.get_by_role("heading")).to_contain_text("asks for its token")
 
 
+@pytest.mark.long  # a slow flight once more
 def test_a_token_that_is_forgotten_or_replaced_elsewhere_leaves_no_page_whose_stop_fails(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:

@@ -163,7 +163,7 @@ def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
     until(lambda: planned.get("/api/plan")["missions"][1]["name"] == "Alpha", "it is kept")
     go_on(other, held)
     expect(notices(other)).to_contain_text(
-        "Another user wrote “Alpha” while you wrote “Beta” there. The plan has yours now."
+        "Another page wrote “Alpha” while you wrote “Beta” there. The plan has yours now."
     )
     until(lambda: planned.get("/api/plan")["missions"][1]["name"] == "Beta", "it is kept")
     name = one.get_by_role("textbox", name="Name")
@@ -209,7 +209,7 @@ def test_who_writes_into_a_mission_that_another_one_deletes_is_told(
     one.get_by_role("button", name="Delete").click()
     until(lambda: len(planned.get("/api/plan")["missions"]) == 2, "it is gone")
     go_on(other, held)
-    expect(notices(other)).to_contain_text("You wrote “Beta”, but another user has")
+    expect(notices(other)).to_contain_text("You wrote “Beta”, but another page has")
 
 
 def test_who_types_into_a_mission_that_another_one_starts_is_told(
@@ -229,7 +229,7 @@ def test_who_types_into_a_mission_that_another_one_starts_is_told(
     expect(page.get_by_role("button", name="Stop: fly home")).to_be_enabled()
     go_on(page, held)
     expect(notices(page)).to_contain_text(
-        "You wrote “Beta”, but another user has removed or started that meanwhile."
+        "You wrote “Beta”, but another page has removed or started that meanwhile."
     )
     expect(name).to_have_value("Mission 2")
 

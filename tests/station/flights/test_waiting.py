@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from pluto_fleet.flight.live_fleet import live_fleet
-from pluto_fleet.station.wait_reasons import AT_ONCE, WaitReasons, why_no_drone
+from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons, why_no_drone
 from plutoc_runtime.alone.ideal import Charge
 from plutoc_runtime.domain.model import Category, Item
 from plutoc_runtime.domain.status import DroneStatus
@@ -90,11 +90,11 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
 
 def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
     """None is forgotten, and nothing is found out twice within seconds."""
-    fleet = living(*[far(f"m{n}") for n in range(3 * AT_ONCE)], low=0.25)
+    fleet = living(*[far(f"m{n}") for n in range(3 * MISSIONS_A_LOOK)], low=0.25)
     core = fleet.life.session.core
     waiting, seen = WaitReasons(lambda: 0.0), []
     trips = [request.trip for request in core.queue.waiters()]
     for _ in range(4):
         waiting.look(live_fleet(core))
         seen.append(sum(bool(waiting.why(live_fleet(core), trip)) for trip in trips))
-    assert seen == [AT_ONCE, 2 * AT_ONCE, 3 * AT_ONCE, 3 * AT_ONCE]
+    assert seen == [MISSIONS_A_LOOK, 2 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK]

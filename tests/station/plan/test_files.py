@@ -168,7 +168,7 @@ def test_a_bad_file_is_told_by_the_name_that_it_has() -> None:
 
 
 def test_what_unflyable_trips_is_taken_and_told() -> None:
-    """Whoever draws can mend it."""
+    """The person who draws can mend it."""
     plan = imported(FILE.replace('"4 g"', '"8 g"').replace("0.004", "0.008"))
     [(_, _, _, sentence)] = said(plan)
     assert "carrier carries at most 5 g" in sentence

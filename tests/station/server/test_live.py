@@ -128,8 +128,8 @@ def test_who_asks_too_often_is_hung_up_on() -> None:
 
 
 def test_who_says_nothing_is_hung_up_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(live, "_FIRST", 0.01)
-    monkeypatch.setattr(live, "_NEXT", 0.01)
+    monkeypatch.setattr(live, "_FIRST_WITHIN", 0.01)
+    monkeypatch.setattr(live, "_NEXT_WITHIN", 0.01)
     ask = asked()
     assert talk(ask, ALine(stays=True)).closed == live.SILENT
     line = talk(ask, ALine(SEEN, stays=True))

@@ -1,5 +1,6 @@
 """What was seen of a flight: every command with how it ended, where the drone was meanwhile, and
-what can be read from that: how far it moved, how fast, how often it told something."""
+what can be read from that: how far it moved, how fast, how often it told something.
+"""
 
 from __future__ import annotations
 

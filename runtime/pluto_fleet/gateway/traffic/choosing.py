@@ -34,7 +34,7 @@ class _Rest(NamedTuple):
 
     since: float
     until: float
-    """When somebody else must have that piece."""
+    """When another must have that piece."""
     way: tuple[Stretch, ...]
 
 
@@ -130,7 +130,7 @@ _MOMENT = 1.5
 
 @dataclass(slots=True, eq=False)
 class DescendingDrone:
-    """Somebody who is to come down."""
+    """A drone that is to come down."""
 
     drone: str
     courses: Sequence[Course]
@@ -139,7 +139,7 @@ class DescendingDrone:
 
 @dataclass(slots=True, eq=False)
 class Choice:
-    """How somebody comes down."""
+    """How a drone comes down."""
 
     course: Course
     way: tuple[Stretch, ...]
@@ -171,9 +171,9 @@ class Chooser:
         others: Sequence[DescendingDrone],
         enough: float,
     ) -> Choice | None:
-        """Return with which way somebody is down first; being down by then is good enough.
+        """Return with which way a drone is down first; being down by then is good enough.
 
-        Of the others nobody knows yet where they will go: they are left a moment to go there.
+        Where the others will go is not known yet: they are left a moment to go there.
         """
         best: tuple[Course, Found] | None = None
         cost = inf
@@ -192,7 +192,7 @@ class Chooser:
         return Choice(course, way, down, _times(course, way))
 
     def _sorted(self, goer: DescendingDrone) -> list[tuple[float, Course]]:
-        """Return somebody's ways, with what they cost if nobody is in the way: the best first."""
+        """Return a drone's ways, with what they cost if none is in the way: the best first."""
         key = goer, self.rests
         if key not in self._ways:
             costs = [
@@ -237,7 +237,7 @@ class Chooser:
         return is_elsewhere and hypot(ax - bx, ay - by) < self._limit
 
     def _leaves(self, goer: DescendingDrone) -> float:
-        """Return when somebody is gone from where it is, if nobody is in the way."""
+        """Return when a drone is gone from where it is, if none is in the way."""
         found = self._gone.get((goer, self.rests))
         if found is None:
             course, now = goer.courses[0], 0.0
@@ -253,7 +253,7 @@ class Chooser:
         return found
 
     def pairs(self, one: Course, other: Course) -> list[Near]:
-        """Return which pieces are too near to each other; where both begin, nobody can help it."""
+        """Return which pieces are too near to each other; where both begin, it cannot be helped."""
         pairs = self._pairs.get((one, other))
         if pairs is None:
             self.effort += len(one.pieces) // 2
@@ -262,7 +262,7 @@ class Chooser:
         return pairs
 
     def _near_start(self, course: Course, goer: DescendingDrone) -> list[int]:
-        """Return which pieces are too near to where somebody is now; the start cannot be helped."""
+        """Return which pieces are too near to where another is now; the start cannot be helped."""
         key = course, goer
         pieces = self._starts.get(key)
         if pieces is None:

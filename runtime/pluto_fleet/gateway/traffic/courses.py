@@ -38,7 +38,7 @@ _CLIMBS = 0.27
 _RESTS = 30
 """At about so many places a drone may rest on its way, at most."""
 _LOWEST = 0.3
-"""Metres of height below which nobody rests on the way."""
+"""Metres of height below which no drone rests on the way."""
 _SMOOTHLY = [s**4 * (35 - 84 * s + 70 * s**2 - 20 * s**3) for s in (n / 100 for n in range(101))]
 """The share of a leg that lies behind a real drone after each hundredth of its time."""
 
@@ -81,7 +81,7 @@ class Course:
     seconds: float = field(init=False)
     """How long it lasts in one go."""
     cost: float = field(init=False)
-    """The same, and more for what nobody likes."""
+    """The same, and more for what is to be avoided."""
     rests: tuple[int, ...] = field(init=False)
     """The pieces at whose ends a drone may rest without losing much time, the first and the last included."""
     _least: dict[int, float] = field(init=False, default_factory=dict, repr=False)

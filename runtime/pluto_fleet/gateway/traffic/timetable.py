@@ -5,7 +5,8 @@ rests on the way, and the last chooses first. Then the last chooses anew, again 
 few that are in its way, among all others.
 
 Times are only planned with, never relied upon: what comes of it is where each rests, and which waits for
-which. Since each waits only for drones that should have been there earlier, none waits for ever."""
+which. Since each waits only for drones that should have been there earlier, none waits for ever.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +41,7 @@ def planned(goers: Sequence[DescendingDrone], chooser: Chooser, good: float) -> 
         if choice is not None:
             plan[goer] = choice
         if (choice is None or choice.down > good) and chooser.effort > _SMALL:
-            break  # of so many, nobody needs to know how late the others are
+            break  # of so many, how late the others are does not matter
     if _score(plan, goers, good) <= good:
         return plan
     chooser.rests = True
@@ -65,7 +66,7 @@ def _chosen(
 
 
 def _whole(best: Plan, goers: Sequence[DescendingDrone], chooser: Chooser, good: float) -> Plan:
-    """Let all choose anew, a few times, whoever was last first."""
+    """Let all choose anew, a few times, the last one first."""
     order, least = list(goers), _score(best, goers, good)
     for chooser.hurry in _HURRIES * 2:
         plan = _chosen(order, {}, chooser, 0.0)
@@ -143,7 +144,7 @@ class Timetable:
     after: dict[str, list[tuple[int, str, int]]] = field(default_factory=dict)
     """For each: before which of its pieces it waits, for whom, until which piece is left."""
     awaited: dict[str, set[int]] = field(default_factory=dict)
-    """Which of each one's pieces somebody waits for."""
+    """Which of each one's pieces another waits for."""
     late: float = 0.0
     """When the last is down."""
     without: tuple[DescendingDrone, ...] = ()
@@ -152,8 +153,8 @@ class Timetable:
     def rest_after(self, drone: str, at: int, free: int) -> int:
         """Return where a drone that rests at the end of a piece rests next; there, if it must wait.
 
-        `free`: up to which piece nobody has to pass before it. It leaves out a rest where that saves
-        time, and nobody waits for what is behind it then: a long leg leaves its beginning slowly.
+        `free`: up to which piece none has to pass before it. It leaves out a rest where that saves
+        time, and none waits for what is behind it then: a long leg leaves its beginning slowly.
         """
         course, to, lasts = self.courses[drone], at, 0.0
         for stretch in self.stretches[drone]:

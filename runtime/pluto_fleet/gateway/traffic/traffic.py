@@ -7,7 +7,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import FLEET, Kernel, Kind, Timer
+from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel, Timer
 
 from .reservations import Reservation, box_of, meets, nearest
 from .wait_queue import Obstacle, Wait
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ...jobs.controls import Controls, FleetDrone
 
 AGAIN = 0.5
-"""Seconds after which those who wait are looked at again, even if nobody says to have passed."""
+"""Seconds after which those who wait are looked at again, even if none says to have passed."""
 WAIT_BEFORE_LANDING = 10.0
 """Seconds that a drone hovers where it is in the way of others; then it lands, and waits there."""
 AT_LAST = 30.0
@@ -69,13 +69,13 @@ class Traffic:
         self._free: dict[str, None] = {}
         """Who has given something free at this instant."""
         self.halted: dict[str, None] = {}
-        """Who was stopped on its way, because somebody fails, and goes on by another."""
+        """Drones that were stopped on their way, because another fails, and go on by another way."""
         self._timer: Timer | None = None
         self.ground = Ground(self._drones, self._telemetry, airspace, self.step)
         self.look_around()
 
     def look_around(self) -> None:
-        """See who is in the air that nobody has sent there."""
+        """See which drones are in the air that were not sent there."""
         for drone, telemetry in self._telemetry.items():
             if drone not in self._claims and not telemetry.landed:
                 self._claim(drone).rests((), 0.0)
@@ -139,7 +139,7 @@ class Traffic:
             self._released(drone)
 
     def _stop_before(self, drone: str) -> None:
-        """Let nobody fly below a drone that sinks; who is there already had better fly on."""
+        """Let none fly below a drone that sinks; one that is there already had better fly on."""
         column = self._claims[drone].shape(self._kernel.now)
         for other, claim in self._claims.items():
             if other == drone or not claim.moves or other in self.halted:
@@ -150,13 +150,13 @@ class Traffic:
                 self._controls.break_off(other)
 
     def break_off(self, drone: str) -> None:
-        """Whatever a drone waits for, it gets it no more."""
+        """Drop a drone's place in the queue."""
         wait = self._waiting.pop(drone, None)
         if wait is not None:
             wait.over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
 
     def lost(self, drone: str) -> None:
-        """Nobody knows any more where a drone is: it comes down when its battery is empty."""
+        """It is not known any more where a drone is: it comes down when its battery is empty."""
         flight_time = self._drones[drone].category.flight_time
         self._silent[drone] = self._kernel.now + flight_time
 
@@ -167,16 +167,16 @@ class Traffic:
     # Who waits
 
     def _released(self, drone: str) -> None:
-        """Somebody has given something free: look at those whom it kept, at the end of this."""
+        """A drone has released something: look at those that it kept, at the end of this instant."""
         if not self._free:
             self._look_at(self._kernel.now, self._look_at_some)
         self._free[drone] = None
 
     def _look_at(self, when: float, look: Callable[[], None]) -> Timer:
-        return self._kernel.at(when, Kind.CLOCK, FLEET, look)
+        return self._kernel.at(when, EventKind.CLOCK, FLEET, look)
 
     def _look_at_some(self) -> None:
-        """Give those what they can get who waited for somebody that has gone."""
+        """Give what they can get to those that waited for a drone that has gone."""
         free, self._free = self._free, {}
         for wait in self._in_turn():
             is_for_room = wait.section.stands and self.is_limited
@@ -204,7 +204,7 @@ class Traffic:
             wait.over.set(self._give(section))
 
     def _found(self, wait: Wait) -> Section | None:
-        """Return a way that is free now. Most are still blocked by whoever blocked them before."""
+        """Return a way that is free now. Most are still blocked by the drone that blocked them before."""
         if not self._has_room(wait.section):
             return None
         for index, way in enumerate(wait.ways):
@@ -212,7 +212,7 @@ class Traffic:
             if obstacle is not None and self._stays(obstacle, way):
                 continue
             if index and elder is not None and self._waiting.get(elder.section.drone) is elder:
-                continue  # of the first way it must be known whether somebody is on it
+                continue  # of the first way it must be known whether a drone is on it
             claim = self._blocker(way)
             wait.obstacles[index] = None if claim is None else self._obstacle(claim, way)
             if claim is None:
@@ -222,7 +222,7 @@ class Traffic:
         return None
 
     def _stays(self, obstacle: Obstacle, way: Section) -> bool:
-        """Say whether somebody who was on a way still is."""
+        """Say whether a drone that was on a way still is."""
         claim, now = obstacle.claim, self._kernel.now
         if self._claims.get(claim.drone) is not claim:
             return False
@@ -281,7 +281,7 @@ class Traffic:
         return until is not None and self._kernel.now >= until
 
     def _blocker(self, section: Section) -> Reservation | None:
-        """Return somebody who has what a section takes."""
+        """Return a drone that has what a section takes."""
         claims, drone = self._claims, section.drone
         if not claims or (len(claims) == 1 and drone in claims):
             return None
@@ -321,14 +321,14 @@ class Traffic:
             return False
         if stands:
             return True
-        # Who is too near to somebody that hovers already, may go away, but no nearer.
+        # A drone that is too near to one that hovers already may go away, but no nearer.
         now = nearest(way[:1], shape[:1])
         return now >= limit or meets(way, shape, now - 1e-6)
 
     def _elder(self, section: Section, since: float) -> Wait | None:
-        """Return somebody who has waited for long for what a section takes.
+        """Return a drone that has waited for long for what a section takes.
 
-        Who lands is never kept, nor who leaves that place to somebody older.
+        One that lands is never kept, nor one that leaves that place to an older one.
         """
         if section.lands:
             return None

@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 _HALVINGS = 4
 """So often a leg is halved to find how far a drone must fly on it before it has left a way."""
 _HOVERS = 5.0
-"""Seconds after which somebody looks whether a drone hovers there still: it may have come down."""
+"""Seconds after which it is looked at again whether a drone hovers there: it may have come down."""
 _EXACT = 1e-6
 
 
 class Obstacle:
-    """Somebody on a way. While it does what it did, it is there until it can have left."""
+    """A drone on a way. While it does what it did, it is there until it can have left."""
 
     __slots__ = ("_cruise", "_points", "_until", "_upright", "claim")
 
@@ -50,7 +50,7 @@ class Obstacle:
             self._until = now + _HOVERS
 
     def is_sure(self, now: float) -> bool:
-        """Say whether it must be there still; otherwise somebody has to look."""
+        """Say whether it must be there still; otherwise it has to be looked at."""
         return now < self._until and self.claim.points is self._points
 
     def _seconds(self, way: tuple[Point, ...], limit: float, shape: tuple[Point, ...]) -> float:
@@ -80,16 +80,16 @@ def _between(a: Point, b: Point, part: float) -> Point:
 
 @dataclass(slots=True, eq=False)
 class Wait:
-    """Somebody waits for a section."""
+    """A drone waits for a section."""
 
     section: Section
     since: float
     ways: Sequence[Section]
     over: Future[Section] = field(default_factory=Future)
     obstacles: list[Obstacle | None] = field(init=False)
-    """For each of the ways, somebody who was on it when it was looked at last."""
+    """For each of the ways, the drone that was on it when it was looked at last."""
     elders: list[Wait | None] = field(init=False)
-    """For each of them, who was to have it first when nobody was on it."""
+    """For each of them, the drone that was to have it first when none was on it."""
 
     def __post_init__(self) -> None:
         self.obstacles, self.elders = [None] * len(self.ways), [None] * len(self.ways)

@@ -37,7 +37,7 @@ class Section:
     lands: bool
     """It ends on the ground: the last point is right below the one before."""
     tail: tuple[Point, ...] = ()
-    """Where it goes at once after that, if nobody tells it otherwise: to its dock."""
+    """Where it goes at once after that by default: to its dock."""
     aside: bool = False
     """It only goes out of the way of others."""
 
@@ -63,7 +63,7 @@ class Section:
 def sections(section: Section, step: float, airspace: Airspace) -> Iterator[Section]:
     """Yield a section, and then the same at other heights: the smallest detour first.
 
-    None is lower than where drones fly anyway: nobody knows what stands there.
+    None is lower than where drones fly anyway: what stands there is not known.
     """
     yield section
     way = section.points[1 if section.stands else 0 : -1 if section.lands else None]

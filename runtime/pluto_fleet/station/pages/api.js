@@ -223,8 +223,8 @@ export function liveFeed() {
   return live;
 }
 
-// The plan that all users draw together. Changes are functions from missions to missions that find
-// what they change by key: seen at once, saved by themselves; where another user was quicker, on top of
+// The plan that everybody draws together. Changes are functions from missions to missions that find
+// what they change by key: seen at once, saved by themselves; where another page was quicker, on top of
 // theirs; without a connection, later.
 const TYPING = 300; // ms
 const BETWEEN = 120; // two savings, also while a pin is dragged
@@ -274,9 +274,9 @@ export function planKept() {
       const other = theirs.get(at);
       if (value === was.get(at)) continue;
       if (now.get(at) !== value) {
-        said.push(`You wrote “${value}”, but another user has removed or started that meanwhile.`);
+        said.push(`You wrote “${value}”, but another page has removed or started that meanwhile.`);
       } else if (![was.get(at), value, lost.get(at)].includes(other)) {
-        said.push(`Another user wrote “${other ?? ""}” while you wrote “${value}” there. `
+        said.push(`Another page wrote “${other ?? ""}” while you wrote “${value}” there. `
           + "The plan has yours now.");
       }
     }

@@ -269,7 +269,7 @@ function control(field, id, evaluators, change) {
 
 // field: { name, type, label?, default?, units?, wrong?: value → why it cannot be in the plan }
 // change(value, typing, draft): undefined is empty; draft: { typed, why }, for what is not in the plan
-// → { element, input, update(value, { problem, locked }) }; what is being typed stays meanwhile.
+// → { element, input, update(value, { problem, locked }) }; what is typed in stays meanwhile.
 export function fieldFor(field, { evaluators = [], change }) {
   const id = unique(field.name);
   let known; // the value that was typed or shown here
@@ -301,7 +301,7 @@ export function fieldFor(field, { evaluators = [], change }) {
       const now = String(value ?? "");
       if (document.activeElement !== input) known = now;
       const text = !foreign() ? own
-        : `Another user has changed this to “${now}”: type on to replace that, or leave this field `
+        : `Another page has changed this to “${now}”: type on to replace that, or leave this field `
           + `to take it. ${own}`;
       put(words, text);
       shown(problem, text);

@@ -1,5 +1,5 @@
 // The station's page: messages, the head with Start and the two Stops, and the pages, which are
-// loaded one by one: an error in one of them does not keep Stop from working.
+// loaded one by one: though one of them is broken, Stop works.
 
 import {
   command, get, keepToken, liveFeed, planKept, selection, takeToken, token, wait,
@@ -45,7 +45,7 @@ async function tell(name, given = {}) {
 
 const URGENT = "If it is urgent, use the drones' own switches.";
 
-// Tried for a minute, even after errors.
+// Tried for a minute.
 async function stop(how) {
   const alarm = setTimeout(say, 1500,
     `Stop has not reached the station yet: trying again. ${URGENT}`, { bad: true });

@@ -161,7 +161,7 @@ async function another({ plan, say, selected }, ask, said) {
     const { status, data } = await ask(plan.revision());
     if (!data.missions) throw new Error(data.said);
     plan.take(data);
-    if (status === 409) throw new Error("Another user changed the plan meanwhile: try again.");
+    if (status === 409) throw new Error("Another page changed the plan meanwhile: try again.");
   } catch (error) {
     say(error.message, { bad: true });
     return;
@@ -308,7 +308,7 @@ const keys = (...names) => names.map((name) => [h("kbd", { class: "key" }, name)
 export const help = () => ({
   element: h("div", { class: "help" },
     part("From a plan to a flight", STEPS, "Nothing flies before Start is pressed. When you close this page, the missions fly "
-      + "on; every browser sees the same."),
+      + "on; all who open the station see the same."),
     part("Stopping", [
       ["Stop: fly home", "All drones fly back to where they started, and land there."],
       ["Stop: land now", "All drones land where they are, also after the other Stop."],
@@ -549,7 +549,7 @@ function tripActs({ plan, selected, say, hush }, choose, focus) {
     set: (key, name, value, typing) => inTrip(key, (trip) => withField(trip, name, value), typing),
     setIn: (key, part, name, value, typing) => inTrip(key, (trip) =>
       ({ ...trip, [part]: withField(trip[part] ?? {}, name, value) }), typing),
-    // another user may be writing the others
+    // other pages may be writing the others
     setAxis: (key, axis, value, typing) => inTrip(key, (trip) => {
       const target = [...(trip.target ?? [0, 0])];
       target[axis] = value;
@@ -578,7 +578,7 @@ function tripActs({ plan, selected, say, hush }, choose, focus) {
       const where = mission();
       const index = at(key);
       const trip = where.trips[index];
-      if (!trip) return; // another user was faster
+      if (!trip) return; // another page was faster
       edit((trips) => trips.filter((other) => other.key !== key));
       const next = mission().trips[index] ?? mission().trips.at(-1);
       choose(next?.key ?? null);

@@ -26,7 +26,7 @@ function droneMark(floor, { id }, choose) {
   const points = [];
   const show = ({ x, y, status, seen, battery: charge }, time) => {
     element.style.display = trail.style.display = x === null ? "none" : "";
-    if (x === null) return; // its place is unknown
+    if (x === null) return; // where it is is not known
     const last = points.at(-1);
     if (!last || last[1] !== x || last[2] !== y) floor.move(element, x, y);
     if (!last || Math.hypot(x - last[1], y - last[2]) >= APART) points.push([time, x, y]);
@@ -184,7 +184,7 @@ function droneList(context, chosen) {
 }
 
 const WIDE = matchMedia("(min-width: 1160px)");
-const OFTEN = 250; // ms: what need not be read ten times a second is written so often
+const OFTEN = 250; // ms between two writings of what changes ten times a second
 
 // Which mission is looked at: the table, the map and the graph show the same.
 function choice({ plan, selected }) {
@@ -324,7 +324,7 @@ export function monitor(context) {
 const LIT = 2500; // ms that an edge stays lit after a mission took it
 const SEATS = 6; // tokens at a block; of more, the others are counted
 const SIZE = 20;
-const FOLLOWED = 30; // missions: of more, a user could not follow one, so none glides
+const FOLLOWED = 30; // missions: of more, none could be followed, so none glides
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 const HINT = "Numbers are missions. Point at a block, or press it, to read what it does.";
 
@@ -493,8 +493,8 @@ function graphView({ live, app: { graph } }, chosen) {
   const view = h("div", { class: "graph-view" }, room);
   new ResizeObserver(([{ contentRect }]) => {
     if (!contentRect.width) return;
-    const least = Math.max(460 / height, 2 / 3); // so small it may be to be seen at once
-    const scale = Math.max(0.35, Math.min(contentRect.width / width, 1.25, least));
+    const whole = Math.max(460 / height, 2 / 3);
+    const scale = Math.max(0.35, Math.min(contentRect.width / width, 1.25, whole));
     stage.style.transform = `scale(${scale})`;
     room.style.width = `${width * scale}px`;
     room.style.height = `${height * scale}px`;

@@ -92,7 +92,7 @@ export function sureButton(label, act) {
 }
 
 const HOLD = 1000; // ms
-const STUCK = 100; // ms that one frame counts at most: while a page is stuck, a hold cannot be seen
+const STUCK = 100; // ms that one frame counts at most: while a page is stuck, no hold is seen
 
 // For what drops a drone: done while a pointer or a key is held down on it for a second. A press
 // that is shorter opens a field in which a word is typed instead.
@@ -426,7 +426,7 @@ export function missionTable(context, chosen) {
     if (top < list.scrollTop) list.scrollTop = top;
   }
   let soon = 0;
-  // While a user is in the table, rows do not change places under their hands.
+  // While the focus is in the table, rows do not change places under their hands.
   function arrangeSoon() {
     soon ||= setTimeout(() => {
       soon = 0;

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission, Trip
 
     from ...files.fleet import FleetFile
-    from ...files.toml_places import Place
+    from ...files.toml import TomlPath
 
 
 _CALLED = {
@@ -155,7 +155,7 @@ def _document(app: App, missions: Sequence[Shape]) -> Document:
     return Document("", data, {}, on_a_screen(app))
 
 
-def _problem(missions: Sequence[Shape], place: Place, text: str, alone: str) -> PlanProblem:
+def _problem(missions: Sequence[Shape], place: TomlPath, text: str, alone: str) -> PlanProblem:
     """Find the keys of what is at this place of a file."""
     mission = trip = None
     inside: Sequence[str | int] = ()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from datetime import time
 from typing import TYPE_CHECKING, Any
@@ -11,6 +10,7 @@ from plutoc_runtime.domain.fields import Entity
 
 from ...files.missions import missions_of
 from ...files.reading import parsed
+from ...files.toml import toml_value
 from ...files.values import numbers
 from .problems import as_in_a_file
 from .shape import Shape, fields_of, trips_of
@@ -52,32 +52,7 @@ def _mission(app: App, mission: Shape) -> Iterator[str]:
 def _pairs(given: Mapping[str, object], keys: Sequence[str], indent: str) -> Iterator[str]:
     for key in keys:
         if key in given:
-            yield f"{indent}{key} = {_written(given[key])}"
-
-
-def _written(value: object) -> str:
-    match value:
-        case bool():
-            return "true" if value else "false"
-        case str():
-            return _quoted(value)
-        case list():
-            return f"[{', '.join(map(_written, value))}]"
-        case dict():
-            pairs = (f"{_quoted_key(key)} = {_written(one)}" for key, one in value.items())
-            return f"{{ {', '.join(pairs)} }}" if value else "{}"
-        case _:
-            return repr(value)
-
-
-def _quoted(text: str) -> str:
-    # JSON escapes what TOML does, and alike, but for one character that TOML does not want bare
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
-
-
-def _quoted_key(key: str) -> str:
-    bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
-    return key if bare else _quoted(key)
+            yield f"{indent}{key} = {toml_value(given[key])}"
 
 
 def _shape(given: Mapping[str, Any], number: str, app: App) -> Shape:
@@ -101,9 +76,9 @@ def _fields(given: Mapping[str, Any], app: App, entity: Entity) -> Shape:
     return {key: _plain(given[key]) for key in fields}
 
 
-def _plain(value: object) -> object:
+def _plain(given: object) -> object:
     """Return a value as JSON has it: TOML has times of day of its own, 08:00:00."""
-    return value.isoformat("auto") if isinstance(value, time) else value
+    return given.isoformat("auto") if isinstance(given, time) else given
 
 
 def _metres(place: Sequence[object]) -> list[object]:

@@ -161,7 +161,7 @@ async def _at_once(edit: Callable[[], None]) -> None:
 async def _edited(
     plan: ServedPlan, audit: Audit, request: Request, edit: Coroutine[None, None, None]
 ) -> Reply:
-    """Change the plan; who has seen an older one is given the newest."""
+    """Change the plan; a page that has seen an older one is given the newest."""
     try:
         await edit
         status = 200
@@ -204,13 +204,13 @@ def _nothing_else(given: Mapping[str, object]) -> None:
 ALWAYS = ("/api/stop", "/api/cut-motors")
 """They bring drones down: no limit of rates or load holds for them."""
 
-_COMMANDS, _EDITS, _READS = 20.0, 20.0, 100.0
+_COMMANDS_A_SECOND, _EDITS_A_SECOND, _READS_A_SECOND = 20.0, 20.0, 100.0
 """A second, for each client; edits of the plan use up no commands."""
-_AT_ONCE = 64
+_MOST_UNDER_WAY = 64
 """Requests that are under way, Stops not counted."""
-_WRONG_TOKEN = 0.5
+_WRONG_TOKEN_WAITS = 0.5
 """Seconds after which a wrong token is refused."""
-_WAITING = 32
+_MOST_WAITING = 32
 """So many wait; more are told at once."""
 
 Pause = Callable[[float], Awaitable[object]]
@@ -232,8 +232,8 @@ class Api:
         self._station, self._audit, self._pause = station, audit, pause
         self._pages = pages()
         self._picture = picture(station.image) if station.image is not None else None
-        self._commands, self._edits = Rate(_COMMANDS, clock), Rate(_EDITS, clock)
-        self._reads = Rate(_READS, clock)
+        self._commands, self._edits = Rate(_COMMANDS_A_SECOND, clock), Rate(_EDITS_A_SECOND, clock)
+        self._reads = Rate(_READS_A_SECOND, clock)
         self._live = LiveUpdates(station, guard, audit, clock)
         self._under_way = self._waiting = 0
 
@@ -286,7 +286,7 @@ class Api:
             return await change(self._station, self._audit, request)
         if not self._rate(request).allows(request.client):
             raise Refused(refusals.TOO_MANY)
-        if self._under_way >= _AT_ONCE:
+        if self._under_way >= _MOST_UNDER_WAY:
             raise Refused(refusals.TOO_BUSY)
         self._under_way += 1
         try:
@@ -303,11 +303,11 @@ class Api:
 
     async def _slow_down(self) -> None:
         """Let only those wait that guess."""
-        if self._waiting >= _WAITING:
+        if self._waiting >= _MOST_WAITING:
             return
         self._waiting += 1
         try:
-            await self._pause(_WRONG_TOKEN)
+            await self._pause(_WRONG_TOKEN_WAITS)
         finally:
             self._waiting -= 1
 

@@ -16,12 +16,12 @@ from traceback import format_exception
 from .guard import Rate
 from .http import Request
 
-_LARGEST = 4 * 1024 * 1024
+_LARGEST_FILE = 4 * 1024 * 1024
 """Bytes of a file; then it becomes `audit.log.1`, and what was there before is gone."""
-_LONGEST = 200
-_MOST = 20
+_LONGEST_TEXT = 200
+_MOST_ENTRIES = 20
 """Characters of a text, and entries of a list, that are written down."""
-_REFUSED, _AT_ONCE = 1.0, 20.0
+_REFUSALS_A_SECOND, _REFUSALS_AT_ONCE = 1.0, 20.0
 """Lines a second about what was refused, and at once: refusals must not push out what was done."""
 
 
@@ -36,7 +36,7 @@ class Audit:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._file, self._now = file, now
-        self._refusals = Rate(_REFUSED, clock, _AT_ONCE)
+        self._refusals = Rate(_REFUSALS_A_SECOND, clock, _REFUSALS_AT_ONCE)
         self._left_out = 0
 
     def done(self, request: Request, given: Mapping[str, object], status: int, said: str) -> None:
@@ -58,7 +58,7 @@ class Audit:
 
     def trouble(self, request: Request, error: BaseException) -> None:
         """Note a mistake of the station's own, with all that helps to find it."""
-        where = "".join(format_exception(error))[-20 * _LONGEST :]
+        where = "".join(format_exception(error))[-20 * _LONGEST_TEXT :]
         self._write({"client": request.client, "trouble": request.path}, where)
 
     def _write(self, entry: Mapping[str, object], where: str | None = None) -> None:
@@ -79,7 +79,7 @@ class Audit:
         """Put a file that is full aside."""
         assert self._file is not None
         with suppress(FileNotFoundError):
-            if self._file.stat().st_size + more > _LARGEST:
+            if self._file.stat().st_size + more > _LARGEST_FILE:
                 self._file.replace(self._file.with_name(f"{self._file.name}.1"))
 
 
@@ -90,14 +90,14 @@ _TELLING = ("host", "origin", "sec-fetch-site")
 def short(value: object, depth: int = 3) -> object:
     """Return a value with what is long in it cut."""
     if isinstance(value, str):
-        return value if len(value) <= _LONGEST else value[:_LONGEST] + "…"
+        return value if len(value) <= _LONGEST_TEXT else value[:_LONGEST_TEXT] + "…"
     if isinstance(value, Mapping):
         if depth == 0:
             return "…"
-        some = list(value.items())[:_MOST]
-        return {str(key)[:_LONGEST]: short(each, depth - 1) for key, each in some}
+        some = list(value.items())[:_MOST_ENTRIES]
+        return {str(key)[:_LONGEST_TEXT]: short(each, depth - 1) for key, each in some}
     if isinstance(value, (list, tuple)):
-        if depth == 0 or len(value) > _MOST:
+        if depth == 0 or len(value) > _MOST_ENTRIES:
             return f"… ({len(value)})"
         return [short(each, depth - 1) for each in value]
     return value

@@ -16,8 +16,8 @@ from . import refusals
 from .http import Reply, Request
 from .refusals import Refusal
 
-_KNOWN = 1024
-"""Clients that are remembered; who is forgotten begins anew."""
+_CLIENTS_KEPT = 1024
+"""Clients that are remembered; one that is forgotten begins anew."""
 
 
 class Rate:
@@ -37,7 +37,7 @@ class Rate:
         left = min(self._at_once, left + (now - since) * self._a_second)
         allowed = left >= 1
         self._left[client] = (left - 1 if allowed else left, now)
-        if len(self._left) > _KNOWN:
+        if len(self._left) > _CLIENTS_KEPT:
             del self._left[next(iter(self._left))]
         return allowed
 

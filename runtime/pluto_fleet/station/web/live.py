@@ -21,13 +21,13 @@ from .strict_json import asked_number, parsed_object
 LIVE = "/api/live"
 """Where pages connect."""
 
-_AT_ONCE = 32
+_MOST_PAGES = 32
 """Pages that are kept up to date."""
-_WAITING = 32
-"""Who has connected and not said yet what has been seen, nor the token."""
-_MESSAGES = 20.0
+_MOST_WAITING = 32
+"""Pages that have connected and sent nothing yet."""
+_MESSAGES_A_SECOND = 20.0
 """A second."""
-_FIRST, _NEXT = 10.0, 120.0
+_FIRST_WITHIN, _NEXT_WITHIN = 10.0, 120.0
 """Seconds in which something must be said."""
 _LONGEST_FLIGHT = 100
 
@@ -57,7 +57,7 @@ class LiveUpdates:
         """Tell a page that cannot stay connected."""
         query = request.query
         counts = [asked_number(query, name) for name in ("seen", "log", "results")]
-        if self._on >= _AT_ONCE:
+        if self._on >= _MOST_PAGES:
             raise Refused(refusals.TOO_BUSY)
         self._on += 1
         try:
@@ -96,7 +96,7 @@ class LiveUpdates:
         why = refusal(self._guard, request, Access.LIVE)
         if why is None and request.path != LIVE:
             why = refusals.NO_SUCH_PAGE
-        if why is None and (self._over or self._waiting >= _WAITING):
+        if why is None and (self._over or self._waiting >= _MOST_WAITING):
             why = refusals.TOO_BUSY
         if why is not None:
             self._audit.refused(request, why.status, why.said)
@@ -112,13 +112,13 @@ class LiveUpdates:
         self._waiting += 1
         try:
             await page.open()
-            first = await _heard(page, _FIRST)
+            first = await _heard(page, _FIRST_WITHIN)
         finally:
             self._waiting -= 1
         token = first.get("token", "")
         if not isinstance(token, str) or not knows(self._guard, token):
             raise _Improper(NO_TOKEN, refusals.NO_TOKEN.said)
-        if self._on >= _AT_ONCE:
+        if self._on >= _MOST_PAGES:
             raise _Improper(TOO_MANY, refusals.TOO_BUSY.said)
         self._on += 1
         try:
@@ -127,12 +127,12 @@ class LiveUpdates:
             self._on -= 1
 
     async def _tell(self, page: PageSocket, asked: dict[str, object]) -> None:
-        rate = Rate(_MESSAGES, self._clock)
+        rate = Rate(_MESSAGES_A_SECOND, self._clock)
         while True:
             if not rate.allows(""):
                 raise _Improper(TOO_MANY, refusals.TOO_MANY.said)
             await page.send(await self._station.newer(*_seen(asked)))
-            asked = await _heard(page, _NEXT)
+            asked = await _heard(page, _NEXT_WITHIN)
 
 
 class _Improper(Exception):

@@ -1,4 +1,4 @@
-"""Serves an `Api` by uvicorn, in the station's own loop. Nothing is decided here but who is let go.
+"""Serves an `Api` by uvicorn, in the station's own loop. Nothing is decided here but which connections end.
 
 A connection on which nothing happens makes room for others: else a stranger who opens many and says
 nothing could keep out the one who wants to press Stop.

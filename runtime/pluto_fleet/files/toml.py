@@ -1,4 +1,4 @@
-"""Where the tables, keys and elements of a TOML text stand: `tomllib` does not tell.
+"""TOML texts: how values are written, and where tables, keys and elements stand, which `tomllib` does not tell.
 
 A path is made of keys and positions: `("mission", 0, "trip", 1, "action")`. The text is one that
 `tomllib` has accepted, so that this only follows its shape and checks nothing.
@@ -12,8 +12,10 @@ from bisect import bisect_right
 from collections.abc import Mapping
 from contextlib import suppress
 
-Place = tuple[str | int, ...]
-Places = Mapping[Place, int]
+import tomlkit
+
+TomlPath = tuple[str | int, ...]
+TomlLines = Mapping[TomlPath, int]
 """The line, from 1, of every table, key and element."""
 
 _BETWEEN = re.compile(r"(?:[ \t\n]|#[^\n]*)*")
@@ -28,7 +30,7 @@ _STRING = re.compile(
 _BARE = re.compile(r"[^,\]}\n#]+")
 
 
-def places(text: str) -> Places:
+def places(text: str) -> TomlLines:
     """Return the line of everything in a TOML text that has a path."""
     scanner = _Scanner(text.replace("\r\n", "\n"))
     with suppress(LookupError, ValueError, RecursionError):  # better no line than no message
@@ -36,7 +38,7 @@ def places(text: str) -> Places:
     return scanner.lines
 
 
-def line_of(where: Places, place: Place) -> int | None:
+def line_of(where: TomlLines, place: TomlPath) -> int | None:
     """Return the line of a path, or of the nearest thing around it."""
     while place:
         if place in where:
@@ -47,13 +49,13 @@ def line_of(where: Places, place: Place) -> int | None:
 
 class _Scanner:
     def __init__(self, text: str) -> None:
-        self.lines: dict[Place, int] = {}
+        self.lines: dict[TomlPath, int] = {}
         self._text, self._at = text, 0
         self._starts = [0, *(match.end() for match in re.finditer("\n", text))]
-        self._counts: dict[Place, int] = {}
+        self._counts: dict[TomlPath, int] = {}
 
     def document(self) -> None:
-        table: Place = ()
+        table: TomlPath = ()
         while self._skip():
             if self._take("[["):
                 table = self._header(repeated=True)
@@ -62,10 +64,10 @@ class _Scanner:
             else:
                 self._pair(table)
 
-    def _header(self, *, repeated: bool) -> Place:
+    def _header(self, *, repeated: bool) -> TomlPath:
         line = self._line()
         *outer, last = self._keys()
-        place: Place = ()
+        place: TomlPath = ()
         for key in outer:
             place = (*place, key)
             if place in self._counts:  # [[mission.trip]] belongs to the mission begun last
@@ -79,7 +81,7 @@ class _Scanner:
         self._need("]]" if repeated else "]")
         return place
 
-    def _pair(self, table: Place) -> None:
+    def _pair(self, table: TomlPath) -> None:
         line, place = self._line(), table
         for key in self._keys():
             place = (*place, key)
@@ -87,7 +89,7 @@ class _Scanner:
         self._need("=")
         self._value(place)
 
-    def _value(self, place: Place) -> None:
+    def _value(self, place: TomlPath) -> None:
         self._skip()
         if self._take("{"):
             while self._skip() and not self._take("}"):
@@ -140,3 +142,18 @@ class _Scanner:
 
     def _line(self) -> int:
         return bisect_right(self._starts, self._at)
+
+
+def toml_text(table: Mapping[str, object]) -> str:
+    """Write a whole file."""
+    return tomlkit.dumps(table)
+
+
+def toml_value(value: object) -> str:
+    """Write one value on one line."""
+    if isinstance(value, dict):
+        pairs = [
+            f"{tomlkit.key(key).as_string()} = {toml_value(one)}" for key, one in value.items()
+        ]
+        return f"{{ {', '.join(pairs)} }}" if pairs else "{}"
+    return tomlkit.item(value).as_string()

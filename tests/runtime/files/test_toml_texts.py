@@ -7,7 +7,7 @@ import tomllib
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.files.toml_places import Place, line_of, places
+from pluto_fleet.files.toml import TomlPath, line_of, places
 
 TEXT = '''# a comment with [[mission]] in it
 title = """
@@ -38,7 +38,7 @@ x = -1e5
 
 def test_every_table_key_and_element_has_its_line() -> None:
     """Comments, long texts, nested lists, inline tables and dotted keys are all seen through."""
-    expected: dict[Place, int] = {
+    expected: dict[TomlPath, int] = {
         ("title",): 2,
         ("mission", 0): 5,
         ("mission", 0, "name"): 6,
@@ -107,8 +107,8 @@ def written(value: object) -> str:
             return str(value)
 
 
-def paths(value: object, place: Place) -> list[Place]:
-    inner: list[Place] = [place] if place else []
+def paths(value: object, place: TomlPath) -> list[TomlPath]:
+    inner: list[TomlPath] = [place] if place else []
     if isinstance(value, dict):
         return inner + [p for key, v in value.items() for p in paths(v, (*place, key))]
     if isinstance(value, list):

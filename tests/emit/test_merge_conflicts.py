@@ -6,7 +6,7 @@ from hashlib import sha256
 
 import pytest
 
-from plutoc.emit.merged import sides, was_merged
+from plutoc.emit.merge_conflicts import sides, was_merged
 
 
 def digest(text: str) -> str:
