@@ -186,8 +186,8 @@ def test_no_drone_lands_before_all_are_in_the_air() -> None:
         for mission in range(3):
             before.append(len(told))
             trip = SimpleNamespace(index=0, attempt=1)
-            state = SimpleNamespace(mission=SimpleNamespace(index=mission))
-            navigation.fly(SimpleNamespace(trip=trip, state=state), told.append)
+            job = SimpleNamespace(trip=trip, mission=SimpleNamespace(index=mission))
+            navigation.fly(job, told.append)
         await asyncio.sleep(0)  # one turn of the loop
         return before
 

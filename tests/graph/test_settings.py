@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import pytest
 
 from plutoc.diagnostic import Diagnostic, Rejected
@@ -130,18 +127,3 @@ def test_a_broken_setting_declares_no_name() -> None:
     file, mistakes = read(source)
     _, found = resolved(file, BLOCKS)
     assert [each.code for each in (*mistakes, *found)] == ["P0001", "P1032"]
-
-
-def test_without_settings_nothing_is_imported_to_read_them() -> None:
-    """It would be slow, and most apps have none."""
-    script = (
-        "import sys\n"
-        "from plutoc.graph.resolve import resolved\n"
-        "from plutoc.registry import standard\n"
-        "from plutoc.source import Source\n"
-        "from plutoc.syntax.parse import parse\n"
-        "source = Source('a.pluto', 'pluto 1\\napp demo {\\n a = TripMonitor\\n}\\n')\n"
-        "resolved(parse(source), standard())\n"
-        "assert not [name for name in sys.modules if name.startswith('packaging')]\n"
-    )
-    subprocess.run([sys.executable, "-c", script], check=True)

@@ -65,7 +65,7 @@ def test_an_example_stands_alone_and_flies_with_the_library(
         missing(run(programs / example.name, *words, cwd=example), words[0])
     is_clean(package)
 
-    succeed(programs / "pip", "install", "--quiet", "--no-deps", library)
+    succeed(programs / "pip", "install", "--quiet", library)
     together = simulated(programs / example.name, example)
     assert {mission["status"] for mission in together["missions"]} == {"COMPLETED"}
     assert "world" not in together

@@ -7,11 +7,12 @@ import os
 import time
 from collections.abc import Callable, Coroutine, Generator
 from contextlib import suppress
-from functools import partial
-from inspect import iscoroutinefunction
+from functools import lru_cache, partial
+from inspect import CO_COROUTINE, iscoroutinefunction
 from math import inf
+from opcode import opmap
 from threading import Thread
-from types import CoroutineType, coroutine
+from types import CodeType, CoroutineType, coroutine
 from typing import Any, NoReturn, TypeVar, cast
 
 from plutoc_runtime.domain.errors import ANY_ERROR
@@ -123,7 +124,13 @@ class RealTime(Kernel):
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
-        """Run a hook beside the missions: `async def` as a task, `def` in a thread."""
+        """Run a hook beside the missions: `async def` as a task, `def` in a thread.
+
+        One that never waits is over as soon as it is called, as in virtual time: so what happens at one
+        instant has the same order in both.
+        """
+        if _never_waits(hook):
+            return await _alone(cast("Coroutine[Any, Any, object]", hook(*args, **named)))
         result: Future[object] = Future()
         running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
         try:
@@ -210,3 +217,15 @@ def _alone(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
             step = partial(hook.send, (yield waits_for))
         except ANY_ERROR as error:  # the hook hears of it
             step = partial(hook.throw, error)
+
+
+def _never_waits(hook: Callable[..., object]) -> bool:
+    """Say whether this is an `async def` without any `await`, `async for` or `async with`."""
+    code = getattr(getattr(hook, "func", hook), "__code__", None)  # a partial carries its function
+    return isinstance(code, CodeType) and _runs_through(code)
+
+
+@lru_cache(maxsize=1_000)
+def _runs_through(code: CodeType) -> bool:
+    waits = opmap.get("SEND")  # what every way to wait is compiled to
+    return bool(waits and code.co_flags & CO_COROUTINE and waits not in code.co_code[::2])
