@@ -223,7 +223,7 @@ export function liveFeed() {
   return live;
 }
 
-// The plan that everybody draws together. Changes are functions from missions to missions that find
+// The plan that all draw together. Changes are functions from missions to missions that find
 // what they change by key: seen at once, saved by themselves; where another page was quicker, on top of
 // theirs; without a connection, later.
 const TYPING = 300; // ms
