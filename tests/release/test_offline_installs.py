@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet import __version__
 from tests.release.environments import ROOT, compile_app, fresh, run, succeed
 
 # pip builds a wheel in six environments; test_packages_install.py has one
@@ -45,7 +46,7 @@ def offline(programs: Path, *words: str | Path, wheels: tuple[Path, ...]) -> Non
 def flies(programs: Path) -> None:
     """The library is there, and the app is flown by it."""
     program = programs / "drugs_distribution"
-    assert "pluto-fleet 1.0.0" in succeed(program, "--version")
+    assert f"pluto-fleet {__version__}" in succeed(program, "--version")
     plan: list[str | Path] = [EXAMPLE / "missions.toml", "--fleet", EXAMPLE / "fleet.toml"]
     assert "with traffic" in succeed(program, "simulate", *plan).splitlines()[-1]
 

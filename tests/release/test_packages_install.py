@@ -13,6 +13,8 @@ from zipfile import ZipFile
 
 import pytest
 
+from pluto_fleet import __version__
+from pluto_fleet.seam import NEWEST, written
 from tests.release.environments import ROOT, Finished, compile_app, fresh, run, succeed
 
 EXAMPLES = sorted(path.parent for path in ROOT.glob("examples/*/app.pluto"))
@@ -94,7 +96,7 @@ def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> 
     def told(*words: str | Path) -> Finished:
         return run(program, *words, PYTHONPATH=OURS, XDG_STATE_HOME=state)
 
-    assert "seam 1.0, pluto-fleet 1.0.0" in told("--version").out
+    assert f"seam {written(NEWEST)}, pluto-fleet {__version__}" in told("--version").out
 
     fleet = ("--fleet", str(example / "fleet.toml"))
     flight = ("fly", str(example / "missions.toml"), *fleet, "--sim", "--speed", "50")
@@ -139,7 +141,7 @@ def test_a_package_that_carries_the_library_flies_alone(tmp_path: Path) -> None:
     assert "drugs-distribution" in there
     assert "pluto-fleet" not in there
     program = programs / "drugs_distribution"
-    assert "pluto-fleet 1.0.0" in succeed(program, "--version")
+    assert f"pluto-fleet {__version__}" in succeed(program, "--version")
     plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]
     flown = run(program, "fly", *plan, "--sim", "--speed", "200", XDG_STATE_HOME=str(tmp_path))
     assert flown.code == 0, flown.err

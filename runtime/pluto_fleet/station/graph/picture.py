@@ -132,7 +132,7 @@ def _readmes(app: App) -> Iterable[str]:
 _NAME, _KIND, _LABEL = 8.2, 6.0, 6.2
 """How wide a letter is, on average: of a name, of a kind, of the statuses beside an arrow."""
 _BORDER, _NARROW, _WIDE, _HIGH = 20.0, 72.0, 210.0, 44.0
-_PILL = (62.0, 32.0)
+_PILL = (62.0, 44.0)
 _MOST = 400
 """Of more boxes nothing could be seen."""
 

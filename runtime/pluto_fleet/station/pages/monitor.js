@@ -493,7 +493,7 @@ function graphView({ live, app: { graph } }, chosen) {
   const view = h("div", { class: "graph-view" }, room);
   new ResizeObserver(([{ contentRect }]) => {
     if (!contentRect.width) return;
-    const whole = Math.max(460 / height, 2 / 3);
+    const whole = Math.max(460 / height, 7 / 8);
     const scale = Math.max(0.35, Math.min(contentRect.width / width, 1.25, whole));
     stage.style.transform = `scale(${scale})`;
     room.style.width = `${width * scale}px`;
