@@ -89,7 +89,7 @@ def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> 
     example = ROOT / "examples/drugs_distribution"
     package = compile_app(example / "app.pluto", tmp_path / "package")
     programs = fresh(tmp_path / "venv")
-    succeed(programs / "pip", "install", "--quiet", "--no-deps", package, library)
+    succeed(programs / "pip", "install", "--quiet", package, library)
     program = programs / "drugs_distribution"
     state = str(tmp_path / "state")
 

@@ -13,7 +13,7 @@ HIDDEN_BUTTONS = """
     const box = one.getBoundingClientRect();
     if (!box.width || !box.height) continue;
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-    if (x < 0 || y < 0 || x >= innerWidth || y >= innerHeight) continue;
+    if (x < 0 || y < 0 || x > innerWidth - 1 || y > innerHeight - 1) continue; // no element is found at the very edge
     let clipped = false; // by a list that scrolls
     for (let up = one.parentElement; up; up = up.parentElement) {
       const edge = up.getBoundingClientRect();
