@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from tests.fuzz.tally import WRITTEN_EVERY, Tally
 from tests.fuzz.trial import trial
 
-FEW, MANY = 600, 1800
+FEW, MANY = 400, 1800
 
 
 @pytest.mark.parametrize("count", [FEW, pytest.param(MANY, marks=pytest.mark.long)])  # a minute

@@ -234,6 +234,7 @@ def test_a_lost_drone_is_brought_back_by_command_while_nothing_flies(serve: Serv
     until(lambda: found(station, who)["status"] in ("FREE", "BUSY", "CHARGING"), "it is well")
 
 
+@pytest.mark.long  # they fly in real time: half a minute
 def test_simulated_crazyflies_begin_the_next_flight_where_the_last_one_has_left_them(
     serve: Serve,
 ) -> None:
