@@ -43,9 +43,9 @@ class Limit(NamedTuple):
     ) -> None:
         """Fail the flight at this limit, unless it or the branch that asks for it is over by then.
 
-        `watched` are the limits of the app by length, `number` is this one's place in its branch. Most flights end long before their
-        limits, and those of one length that begin now expire in the order in which they began: they
-        share one timer.
+        `watched` are the limits of the app by length, `number` is this one's place in its branch.
+        Most flights end long before their limits, and those of one length that begin now expire in
+        the order in which they began: they share one timer.
         """
         equal = watched.get(self.span)
         if self.since != kernel.now or flight.launched_at != kernel.now:
