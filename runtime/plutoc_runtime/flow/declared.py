@@ -1,4 +1,4 @@
-"""Blocks of other packages are held to what they declare: the checks of a graph rest on it."""
+"""Checks that a block of another package returns a status that it declares: the graph's checks rely on it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from ..domain.status import Status
 
 
 def declared(block: str, status: object, statuses: tuple[Status, ...]) -> Status:
-    """Return what a block has given; raise `MissionFailed` if it is none of what it declares."""
+    """Return the status a block returned; raise `MissionFailed` if it does not declare it."""
     for one in statuses:
         if status is one:
             return one

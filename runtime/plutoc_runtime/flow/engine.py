@@ -1,4 +1,4 @@
-"""The engine: starts missions, takes each through its graph, and sees it to its end."""
+"""The engine: starts missions, runs each through its graph, and handles its end."""
 
 from __future__ import annotations
 
@@ -35,23 +35,23 @@ class Engine:
     def __init__(self, core: Core) -> None:
         self._core = core
         self._living = 0
-        """How many missions are in their graphs."""
+        """How many missions have not ended."""
         self.done: Future[None] = Future()
         """Set when the last mission has ended."""
 
     def start(self, missions: Sequence[Mission[Any]]) -> None:
-        """Set the missions on their way, all at once."""
+        """Start the missions, all at the same instant."""
         for mission in missions:
             self._enter(self.new_state(mission), UNEXECUTED)
 
     def new_state(self, mission: Mission[Any]) -> MissionState:
-        """Return the state of a mission, of which nothing is remembered as yet."""
+        """Return the initial state of a mission."""
         if self._core.recorder is not None:
             self._core.recorder.missions[mission.name] = mission
         return MissionState(self._core, mission, self)
 
     def _enter(self, state: MissionState, status: Status) -> None:
-        """Send a mission into its graph, at its beginning or where it can go on."""
+        """Start a mission's flow, at its beginning or at the block where it resumes."""
         core, mission, key = self._core, state.mission, mission_key(state.mission.index)
         run = Run(mission, state, key)
         run.at, run.status = state.at, status
@@ -60,19 +60,19 @@ class Engine:
         self._living += 1
 
     def doomed(self, state: MissionState) -> None:
-        """End a doomed mission, once the coroutine that found out has finished its turn."""
+        """Cancel a mission that must end, once the coroutine that found out has finished its turn."""
         mission = state.mission
         self._core.kernel.spawn(
             self._call_off(state), mission_key(mission.index), f"{mission.name} is doomed"
         )
 
     async def _call_off(self, state: MissionState) -> None:
-        """Take its turn among the coroutines of this instant: before those that are woken later."""
+        """Cancel it in a task of its own, before coroutines that are woken later at this instant."""
         if state.task is not None:
             state.task.cancel()
 
     def ended(self, state: MissionState, task: Task[Status]) -> None:
-        """A mission's coroutine is over: see how it ended."""
+        """End a mission by the outcome of its coroutine."""
         self._living -= 1
         error, reason = task.error, ""
         if error is None:
@@ -95,7 +95,7 @@ class Engine:
         self._end(state, status, reason)
 
     def _wrong(self, mission: Mission[Any]) -> str | None:
-        """Return what a hook has left that a block could not go by; None: it is the block's mistake."""
+        """Return the invalid value that a hook left in the mission; None: the block itself is wrong."""
         fields, names = self._core.app.fields, self._core.app.evaluators
         for trip in mission.trips:
             wrong = wrong_field(fields, Entity.TRIP, trip, names)
@@ -105,12 +105,12 @@ class Engine:
         return None if wrong is None else f"its {wrong}"
 
     def _tell(self, fault: HookFault, mission: Mission[Any]) -> None:
-        """Log where a hook failed, and by which block it was called."""
+        """Log where a hook failed, and which block called it."""
         block = blamed(fault, self._core.app.flow)
         self._core.log(fault.detail + (f"\nin block {block}" if block else ""), mission.name)
 
     def look_for_the_end(self) -> None:
-        """See whether there is nothing left to do."""
+        """Set `done` if every mission has ended."""
         if not self._living:
             self.done.set(None)
 
@@ -133,7 +133,7 @@ Listener = Callable[[Event], object]
 
 
 class Session:
-    """One running app: its engine, over any navigation, on any kernel."""
+    """One running app: its engine, with a navigation and a kernel."""
 
     def __init__(
         self,
@@ -183,27 +183,27 @@ class Session:
         self.engine = kind_of_engine(self.core)
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
-        """Set the missions on their way; the task gives the time at which the last one ended.
+        """Start the missions; the task returns the time at which the last one ended.
 
-        It is done when every drone is down as well.
+        The task ends when every drone has landed as well.
         """
         self.set_out(missions)
         return self._kernel.spawn(self.see_through(), FLEET, "the session")
 
     def set_out(self, missions: Sequence[Mission[Any]]) -> None:
         """Start the missions."""
-        # All this lives until the end: the garbage collector need not look at it again and again,
-        # neither at what has been given while all set out, nor at that afterwards.
+        # All this lives until the end: the garbage collector need not traverse it each time, neither
+        # while the missions start nor afterwards.
         freeze()
         self.engine.start(missions)
         freeze()
 
     async def see_through(self) -> float:
-        """Wait until the last mission has ended and every drone is down; return when it ended."""
+        """Wait until every mission has ended and every drone has landed; return when the last one ended."""
         engine = self.engine
         while True:
             await engine.done
             ended = self._kernel.now
             await self.core.fleet.all_down()
-            if engine.done.is_set:  # and no mission has been let go on meanwhile
+            if engine.done.is_set:  # no mission has been resumed meanwhile
                 return ended

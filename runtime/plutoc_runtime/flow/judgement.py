@@ -1,4 +1,4 @@
-"""What becomes of an evaluator's verdict."""
+"""Applying an evaluator's verdict."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:
-    """Do as the verdict says; one that cannot be followed is a fault of the evaluator."""
+    """Apply a verdict; an invalid one is a fault of the evaluator."""
     mission, core = run.mission, run.core
     name = hook_name(hook)
     wrong = unsound_mission(core.app, mission)
@@ -31,7 +31,7 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     if not issubclass(type(verdict), Verdict):
         what = class_of(verdict)
         raise HookFault(f"evaluator {name} must return a Verdict, not {what}")
-    verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # its class may change facts
+    verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # a subclass may lie
     if type(mission.trips) is not list or mission.trips:
         raise HookFault(f"evaluator {name} changed the mission's trips: that is what `add` is for")
     if verdict.ok is True and verdict.fail is None and verdict.asks_nothing:
@@ -79,12 +79,12 @@ def _listed(evaluator: str, field: str, value: object) -> Sequence[Any]:
 
 
 def _once_each(trips: Sequence[Any]) -> list[Any]:
-    """Leave out what is asked for twice; what is no trip at all need not be hashable."""
+    """Remove duplicates by identity: what is not a trip need not be hashable."""
     return list({id(trip): trip for trip in trips}.values())
 
 
 def _accepted(core: Core, mission: Mission[Any], evaluator: str, trip: Trip) -> Trip:
-    """Make a new trip complete, or say why it cannot be flown."""
+    """Fill in a new trip's default parameters; raise `HookFault` if it cannot be flown."""
     problem = _problem(core, mission, trip)
     if problem is not None:
         raise HookFault(f"evaluator {evaluator} adds a trip that cannot be flown: {problem}")
@@ -95,7 +95,7 @@ def _accepted(core: Core, mission: Mission[Any], evaluator: str, trip: Trip) -> 
 
 
 def _name(mission: Mission[Any], added: Sequence[Trip]) -> None:
-    """Give each new trip a name of its own: it tells its flights and results from all others."""
+    """Give each new trip a unique name: flights and results are identified by it."""
     taken = {known.name for known in (*mission.trips, *mission.completed_trips)}
     for trip in added:
         name, number = trip.name, 1

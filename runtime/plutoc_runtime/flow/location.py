@@ -1,4 +1,4 @@
-"""In which block an error arose: `flow.py` quotes a block's declaration above each call of it."""
+"""The block in which an error arose: `flow.py` quotes a block's declaration above each call of it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def blame(error: BaseException, flow: Callable[..., Any]) -> None:
 
 
 def as_crash(error: BaseException) -> Exception:
-    """Return an error that ends the app as a mistake: a block's `SystemExit` would pass for an end."""
+    """Return an error that ends the app as a bug: a block's `SystemExit` would pass for a normal end."""
     if isinstance(error, Exception):
         return error
     return RuntimeError(f"it raised {said(error)}").with_traceback(error.__traceback__)

@@ -1,4 +1,4 @@
-"""One living mission: what is remembered of it, and what becomes of its trips."""
+"""One running mission: its state, and the outcome of its trips."""
 
 from __future__ import annotations
 
@@ -28,41 +28,41 @@ if TYPE_CHECKING:
 
 
 class Recorder(Protocol):
-    """Writes down what happens, so that the app can go on from there after any end."""
+    """Records what happens, so that the app can resume after any end."""
 
     missions: dict[str, Mission[Any]]
-    """The missions by name, as soon as they exist."""
+    """The missions by name, from their creation on."""
     trace: Trace | None
     results: ResultStore | None
 
     async def on_record(self) -> None:
-        """Wait until all that has happened up to now is durable."""
+        """Wait until everything up to now is durable."""
         ...
 
     def look(self, mission: Mission[Any]) -> None:
-        """A hook has had this mission in its hands: if it changed its trips, that is an event."""
+        """Record it as an event if a hook that was given this mission has changed its trips."""
         ...
 
 
 class MissionSupervisor(Protocol):
-    """What sees missions to their ends: the engine."""
+    """Ends missions: the engine."""
 
     def ended(self, state: MissionState, task: Task[Status]) -> None:
-        """Hear that a mission's coroutine is over."""
+        """Called when a mission's coroutine has ended."""
         ...
 
     def doomed(self, state: MissionState) -> None:
-        """Hear that a mission must end, even if its graph would go on."""
+        """Called when a mission must end, even if its graph would continue."""
         ...
 
 
 FailLater = Callable[["MissionState", "Flight", str], object]
-"""Fails the trip of a flight that was broken off, once it is known that its action was not done."""
+"""Fails the trip of an aborted flight, once it is known that its action was not done."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Core:
-    """The parts of one running app, which all its missions share."""
+    """The parts of a running app that all its missions share."""
 
     app: App
     kernel: Kernel
@@ -76,9 +76,9 @@ class Core:
     limits: dict[float, Any] = field(default_factory=dict)
     """The limits on flights that are watched, by length (trips/deadlines.py)."""
     fail_later: FailLater | None = None
-    """None: drones are in this process, and what was not reported was not done."""
+    """None: the drones are in this process, so what was not reported was not done."""
     recorder: Recorder | None = None
-    """Writes down what happens; None: nothing will ever go on from here."""
+    """None: this run is never resumed."""
 
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console."""
@@ -90,31 +90,31 @@ Delay = tuple[str, str, int, int]
 """A delay: block, trip, round, attempt."""
 
 MOST_CALLS = 100_000
-"""Between two launches: a mission that calls its hooks so often is in a loop that it never leaves,
-whether they answer at once or sleep in between."""
+"""Calls of hooks between two launches; a mission with more is in an endless loop, whether its hooks
+return at once or sleep."""
 
 
 @dataclass(slots=True, eq=False)
 class MissionState:
-    """What is remembered of a mission while it lives, beside what its user sees."""
+    """The state of a running mission, beside what hooks see of it."""
 
     core: Core
     mission: Mission[Any]
     supervisor: MissionSupervisor
     task: Task[Status] | None = None
-    """The coroutine that takes it through its graph."""
+    """The coroutine that runs its flow."""
     at: str | None = None
-    """The last block it has met at which it can go on when it is interrupted."""
+    """The last block reached at which it can resume after an interruption."""
     goes_on: bool = False
-    """It was interrupted after a launch: until it is back there, it is given no drone."""
+    """It was interrupted after a launch: until it is back there, it is allocated no drone."""
     interrupted: bool = False
     """A flight of it was interrupted and does not count."""
     allocated: Drone | None = None
-    """The drone that waits to be launched."""
+    """The drone that was allocated and is not launched yet."""
     flight: Flight | None = None
-    """The flight that was launched last."""
+    """The latest flight."""
     carrier: Drone | None = None
-    """The drone that the mission keeps while it carries an item."""
+    """The drone that carries the mission's item, and stays with the mission."""
     carries: Item | None = None
     """The item aboard `carrier`, from `pick_item` to `release_item`."""
     last_action_end: float | None = None
@@ -122,26 +122,26 @@ class MissionState:
     calls: int = 0
     """How often its hooks were called since its last launch."""
     delay: tuple[Delay, float, float] | None = None
-    """Where it waits, when its delay is over, and its round begins."""
+    """The delay that it waits for, when that is over, and when its round begins."""
     waited: set[Delay] | None = None
     """Every delay that is over."""
     first_start: float | None = None
-    """When its first trip was let go."""
+    """When its first trip passed a clock."""
     doom: str | None = None
-    """Why it must end at once: a failure that no retry can mend."""
+    """Why it must end at once: a failure that no retry can repair."""
 
     def __call__(self, task: Task[Status]) -> None:
-        """Hear that its coroutine is over."""
+        """Called when its coroutine has ended."""
         self.supervisor.ended(self, task)
 
     def end(self, reason: str) -> None:
-        """Take it out of its graph, FAILED; only the first reason counts."""
+        """End it as FAILED, wherever it is in its graph; only the first reason counts."""
         if self.doom is None:
             self.doom = reason
             self.supervisor.doomed(self)
 
     def calls_too_often(self) -> bool:
-        """Count a call of a hook; say whether the mission goes round and round without a launch."""
+        """Count a call of a hook; return whether the mission loops without ever launching."""
         self.calls += 1
         return self.calls > MOST_CALLS
 
@@ -172,9 +172,9 @@ class MissionState:
         return Flight(self.mission, trip, drone, action, now, retry, self.reported)
 
     def reported(self, flight: Flight, result: object) -> None:
-        """Hear what navigation reports of a flight: that it has arrived, is done, or has failed."""
+        """Called by navigation when a flight has arrived, is done, or has failed."""
         if self.flight is not flight or flight.trip.status is not _EXECUTING:
-            return  # it was called off meanwhile
+            return  # it was aborted meanwhile
         if isinstance(result, FlightFailed):
             self.fail(flight, str(result))
         elif flight.hook is None:
@@ -187,14 +187,14 @@ class MissionState:
             )
 
     def break_off(self, flight: Flight) -> None:
-        """Stop a flight where it is; what it has done is still heard, and nothing more begins."""
+        """Stop a flight where it is; a report of what it has done still counts, and nothing more begins."""
         flight.called_off = True
         if flight.own_action is not None:
             flight.own_action.cancel()
         self.core.navigation.break_off(flight.flier.id)
 
     def complete(self, flight: Flight, value: object) -> None:
-        """A trip is over, and went well; its drone is free to go, unless it carries an item."""
+        """Complete a flight's trip; its drone is free, unless it carries an item."""
         if flight.trip not in self.mission.trips:
             self.fail(flight, "a hook took it from the mission's trips", mends=False)
             return
@@ -206,7 +206,7 @@ class MissionState:
         flight.set(self.mission.status)
 
     def record_done(self, flight: Flight, value: object) -> None:
-        """A trip's action was done; what becomes of its drone is not said yet."""
+        """Complete a trip and its item; the drone is left as it is."""
         trip = flight.trip
         if trip.item is not None:
             if trip.action == PICK:
@@ -217,19 +217,19 @@ class MissionState:
         self.core.transitions.complete(self.mission, trip, value)
 
     def keep_carrier(self, drone: Drone) -> None:
-        """Its item is aboard a drone: that waits for the mission, which loses both together."""
+        """Reserve the drone that has the item aboard; if it is lost, so is the item."""
         self.core.fleet.keep(drone, self._lose)
 
     def _lose(self, reason: str) -> None:
-        """The drone that the mission keeps cannot fly on; neither it nor the item is the mission's."""
+        """End the mission: the drone that carries its item cannot fly on."""
         if self.carries is not None:
             reason = f"{reason}, with {self.carries.name} aboard"
         self.carries = self.carrier = self.allocated = None
         self.end(reason)
 
     def fail(self, flight: Flight, reason: str, *, mends: bool = True) -> None:
-        """A trip is over, and went wrong. With an item aboard, no retry can mend it."""
-        of_drone = reason  # why it is lost, if it is, has nothing to do with what it carries
+        """Fail a flight's trip; with an item aboard, or unless it `mends`, the mission ends as well."""
+        of_drone = reason  # a drone's own trouble does not depend on what it carries
         if self.carries is not None:
             reason = f"{reason}, with {self.carries.name} aboard"
             mends = False
@@ -242,10 +242,10 @@ class MissionState:
             self.end(reason)
 
     def abort(self, reason: str) -> None:
-        """Fail the trip that flies now: its time is up, or a hook wants it so.
+        """Fail the trip in flight: it has timed out, or a hook asks for it.
 
-        Elsewhere an action may be done by the time that its drone hears of it: one that must not be
-        repeated is looked up first.
+        A drone in another process may have done the action by the time that it is told: an action
+        that is not safe to repeat is looked up first.
         """
         core, flight = self.core, self.in_flight
         if flight is None or flight.called_off:

@@ -1,4 +1,4 @@
-"""What becomes of the status that a modifier returns."""
+"""Applying the status that a modifier returns."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def context_of(run: Run[Any]) -> Context:
-    """Return what a modifier gets of the running app."""
+    """Return the context that a modifier gets."""
     core, state = run.core, run.state
     return Context(core.kernel, core.results, core.log, run.mission, lambda: state.flight)
 
@@ -30,7 +30,7 @@ Standing = tuple[Sequence[tuple["Trip", str, int]], int]
 
 
 def standing(mission: Mission[Any]) -> Standing:
-    """Return the trips still to do, with what they are known by, and how many the mission has in all."""
+    """Return the open trips, with their names and attempts, and how many trips there are in all."""
     to_do = [(trip, trip.name, trip.attempt) for trip in mission.trips]
     return to_do, len(to_do) + len(mission.completed_trips)
 
@@ -43,7 +43,7 @@ async def settle(
     returned: object,
     before: Standing,
 ) -> Status:
-    """Return the status with which the mission goes on; one that cannot be is a fault."""
+    """Return the status with which the mission continues; an impossible one is a fault."""
     name = hook_name(hook)
     wrong = unsound_mission(run.core.app, run.mission)
     if wrong is not None:
@@ -76,7 +76,7 @@ async def settle(
 
 
 def _check_trips(run: Run[Any], name: str) -> None:
-    """A modifier may change what is still to do; what comes of it must be trips."""
+    """Raise `HookFault` if the modifier left trips that cannot be flown."""
     mission, flying = run.mission, run.state.in_flight
     if type(mission.trips) is not list:
         raise HookFault(f"modifier {name} made mission.trips {class_of(mission.trips)}, not a list")
@@ -98,7 +98,7 @@ def _check_trips(run: Run[Any], name: str) -> None:
 
 
 def _note_change(core: Core, before: Standing, mission: Mission[Any]) -> None:
-    """Note it if the hook has changed the trips; that some have flown meanwhile is no such change."""
+    """Record that the hook has changed the trips; those completed meanwhile do not count."""
     to_do, trips = before
     left = [known for known in to_do if known[0].status is not TripStatus.COMPLETED]
     if core.trace.live and standing(mission) != (left, trips):
@@ -106,7 +106,7 @@ def _note_change(core: Core, before: Standing, mission: Mission[Any]) -> None:
 
 
 def _contradiction(state: MissionState, status: Status) -> str | None:
-    """Return why the mission cannot stand so, or None."""
+    """Return why the mission cannot have this status, or None."""
     mission = state.mission
     flying = state.in_flight
     if status is Status.RUNNING:
@@ -131,4 +131,4 @@ def _shown(value: object) -> str:
 
 
 _LONGEST = 200
-"""Characters of a value that is no status."""
+"""Characters shown of a value that is not a status."""

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OwnAction(Action):
-    """An action that the app's developer wrote: its hook does it."""
+    """An action of the app's own, done by its hook."""
 
     async def act(self, state: MissionState, flight: Flight) -> None:
-        """Do it, and tell the mission what comes of it."""
+        """Call the hook, and complete or fail the flight by its outcome."""
         try:
             value = await self._value(state, flight)
         except FlightFailed as error:
@@ -37,7 +37,7 @@ class OwnAction(Action):
             state.complete(flight, keepable(value))
 
     async def _value(self, state: MissionState, flight: Flight) -> object:
-        """Return what the hook gives; raise `FlightFailed` where it or the drone fails."""
+        """Return the hook's result; raise `FlightFailed` if it or the drone fails."""
         core, mission, trip, drone, hook = (
             state.core,
             state.mission,

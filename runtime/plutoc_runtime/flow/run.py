@@ -1,4 +1,4 @@
-"""A mission on its way through its graph, as the blocks' steps get it."""
+"""A running mission, as the blocks' steps get it."""
 
 from __future__ import annotations
 
@@ -34,21 +34,21 @@ class Run(Generic[M]):
         self.task: Task[Status] | None = None
         """The coroutine of this branch."""
         self.at: str | None = None
-        """The block at which a mission that was interrupted goes on; None: it begins."""
+        """The block at which an interrupted mission resumes; None: it begins."""
         self.status = UNEXECUTED
-        """How it stands when it begins, or goes on."""
+        """Its status when it begins, or resumes."""
 
     def meets(self, block: str) -> None:
-        """A block that waits or allocates: the mission can go on here when it is interrupted.
+        """Note a block that waits or allocates: here the mission can resume after an interruption.
 
-        Not within a fork, and not with a drone in hand: an interruption takes both away.
+        Not within a fork, and not with a drone allocated: an interruption takes both away.
         """
         state = self.state
         if not self._depth and state.allocated is None and block in self.core.app.resumes:
             state.at = block
 
     async def hook(self, hook: Callable[..., object], *args: object) -> object:
-        """Call a hook of the app's with these arguments; its faults end the mission."""
+        """Call one of the app's hooks; its faults end the mission."""
         if self.state.calls_too_often():
             raise MissionFailed(
                 f"it goes round in its graph for ever: its hooks were called {MOST_CALLS:,} times "
@@ -78,18 +78,18 @@ class Run(Generic[M]):
 
     @property
     def trip(self) -> Any:
-        """The mission's trip that flies now, or flies next: of the app's own class."""
+        """The mission's trip in flight, or the next one; of the app's own class."""
         trips = self.mission.trips
         return trips[0] if trips else self.mission.current
 
     def abort(self, reason: str) -> None:
-        """Fail the trip that flies now."""
+        """Fail the trip in flight."""
         self.state.abort(reason)
 
     def fork(
         self, status: Status, branches: Sequence[Callable[[Run[M], Status], Way]]
     ) -> list[Task[Status]]:
-        """Send a clone of the mission into each branch; the gate that calls this closes them."""
+        """Start a task for each branch of a fork; the gate that calls this ends them."""
         return [self._branch(status, branch, number) for number, branch in enumerate(branches)]
 
     def _branch(
@@ -104,10 +104,10 @@ class Run(Generic[M]):
 
 
 def watch(run: Run[Any], *limits: Limit | None) -> Flight:
-    """Return the flight, to be awaited: its end is how the mission stands then.
+    """Return the flight, to be awaited: it gives the mission's status at its end.
 
-    A limit fails the trip; a trip that ends at that very instant has ended first. Nothing is watched
-    any longer once the branch that asked for it is over.
+    A limit fails the trip; a trip that ends at that very instant has ended first. A limit is void
+    once the branch that set it has ended.
     """
     core, flight = run.core, run.state.flight
     if flight is None:
@@ -119,4 +119,4 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
 
 
 Branch = Callable[[Run[M], Status], Way]
-"""One way through a fork; it gives the status with which its clone arrives at the gate."""
+"""A branch of a fork; it returns the status with which it arrives at the gate."""

@@ -1,4 +1,4 @@
-"""What an evaluator says of a mission."""
+"""The verdict of an evaluator on a mission."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 class Verdict(NamedTuple):
-    """An evaluator's judgement. It never sets a status: the runtime does, from this."""
+    """An evaluator's verdict; the runtime sets the mission's status from it."""
 
     ok: bool = True
     """False with nothing to redo and nothing to add: the mission has FAILED."""
@@ -24,7 +24,7 @@ class Verdict(NamedTuple):
 
     @property
     def asks_nothing(self) -> bool:
-        """Whether there is nothing to fly and nothing to write: by far the most frequent."""
+        """Whether there is nothing to fly and nothing to log: by far the most frequent case."""
         return self.redo is _NOTHING and self.add is _NOTHING and self.log is _NOTHING
 
 

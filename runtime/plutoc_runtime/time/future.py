@@ -1,4 +1,4 @@
-"""A value or an error that comes once, and what waits for it."""
+"""A value or an error that is set once, and what waits for it."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from typing import Any, Generic, Protocol, TypeVar
 T = TypeVar("T")
 
 Watcher = Callable[[Any], object]
-"""What is called, with the future, when it has happened."""
+"""Called with the future when it is set."""
 
 
 class Waiter(Protocol):
-    """What awaits a future: a task."""
+    """Something that awaits a future: a task."""
 
     def wake(self, _: object = None) -> None:
-        """It has happened: go on."""
+        """Resume: the future is set."""
         ...
 
 
 class Future(Generic[T]):
-    """A value that comes once. Await it; any number of coroutines may."""
+    """A value that is set once; any number of coroutines may await it."""
 
     __slots__ = ("_value", "_watchers", "error", "is_set", "waiter")
 
@@ -28,12 +28,12 @@ class Future(Generic[T]):
         self.is_set = False
         self.error: BaseException | None = None
         self.waiter: Waiter | None = None
-        """Who awaits it; most futures are awaited by one task, and the others watch."""
+        """The first task that awaits it, usually the only one; further ones watch."""
         self._value: Any = None
         self._watchers: list[Watcher] | None = None
 
     def set(self, value: T) -> None:
-        """It happened. Only the first time counts."""
+        """Set the value; only the first call counts."""
         if not self.is_set:
             self.is_set, self._value = True, value
             if self.waiter is not None:
@@ -42,7 +42,7 @@ class Future(Generic[T]):
                 self._tell()
 
     def fail(self, error: BaseException) -> None:
-        """It will never happen: its waiters get the error."""
+        """Set an error, which is raised wherever it is awaited; only the first call counts."""
         if not self.is_set:
             self.is_set, self.error = True, error
             if self.waiter is not None:
@@ -56,7 +56,7 @@ class Future(Generic[T]):
             watcher(self)
 
     def watch(self, watcher: Watcher) -> None:
-        """Call this with the future when it happens; at once if it has."""
+        """Call this with the future when it is set; at once if it is."""
         if self.is_set:
             watcher(self)
         elif self._watchers is None:
@@ -65,7 +65,7 @@ class Future(Generic[T]):
             self._watchers.append(watcher)
 
     def unwatch(self, watcher: Watcher) -> None:
-        """Do not call this after all."""
+        """Remove a watcher; one that is not there is ignored."""
         if self._watchers is not None and watcher in self._watchers:
             self._watchers.remove(watcher)
 

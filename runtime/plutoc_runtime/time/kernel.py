@@ -1,11 +1,12 @@
-"""Coroutines and time: one small kernel, driven by the wall's clock or by a virtual one.
+"""Coroutines and time: one small event loop, driven by the real clock or by a virtual one.
 
-Everything that happens is an event, ordered by (time, kind, key): simultaneous events are taken in
-declared order, never by the accident of which task ran. Both drivers (`virtual.py`, `realtime.py`)
-take events by the same `drain`, so the same coroutines run in simulation and for real.
+Everything that happens is an event, ordered by (time, kind, key), so simultaneous events are
+processed in a declared order, whichever task ran first. Both drivers (`virtual.py` and the library's
+`realtime.py`) process events with the same `drain`: the same coroutines run in simulation and for
+real.
 
-Coroutines that go on and the queue for drones are by far the most frequent events, and they belong
-to the instant that is being taken: they need not pass through the heap of all that is to come.
+Resumed coroutines and the queue for drones are by far the most frequent events, and they belong to
+the current instant: they bypass the heap of future events.
 """
 
 from __future__ import annotations
@@ -22,48 +23,48 @@ from .future import Future
 T = TypeVar("T")
 
 Key = int
-"""Who an event belongs to: the mission's place, then the branches'. Drones come after missions.
+"""The owner of an event: the mission's index, then the branches'. Drones come after missions.
 
 A number and not a tuple: events are compared all the time.
 """
 
 _BRANCH, _DEPTH = 10, 4
-"""Bits for a branch's number, and how deep forks may nest before branches share their places."""
+"""Bits for a branch's number, and how deep forks may nest before branches share a key."""
 
 FLEET: Key = 1 << 96
-"""The key of what belongs to the fleet and to no mission."""
+"""The key of events that belong to the fleet and not to a mission."""
 
 
 def mission_key(index: int) -> Key:
-    """Return the key of the mission with this place in its file."""
+    """Return the key of the mission with this index in its file."""
     return index << (_BRANCH * _DEPTH)
 
 
 def branch_key(key: Key, number: int, depth: int) -> Key:
-    """Return the key of a branch, at a depth of forks, of what has this key."""
+    """Return the key of a branch below this key; `depth` counts the forks around it."""
     room = (1 << _BRANCH) - 1
     return key + (min(number + 1, room) << (_BRANCH * (_DEPTH - depth))) if depth <= _DEPTH else key
 
 
 class EventKind(IntEnum):
-    """What is taken first of all that happens at one instant."""
+    """The order in which simultaneous events are processed."""
 
-    READY = 0  # a coroutine goes on: what has begun is finished first
-    FLIGHT = 1  # navigation: at one instant the trip's own end comes before its timer
+    READY = 0  # a coroutine resumes: what has begun is finished first
+    FLIGHT = 1  # navigation: a trip that ends at its time-out has ended first
     TIMER = 2  # limits on flights
     CLOCK = 3  # delays and other waits
     ALLOCATE = 4  # last: all requests and all free drones of the instant are known
 
 
 class ForeignAwait(RuntimeError):
-    """A coroutine awaited what this kernel does not know."""
+    """A coroutine awaited something other than a `Future` of this kernel."""
 
 
 Call = Callable[[], object]
 
 
 class Timer:
-    """A call at a time to come that can still be cancelled."""
+    """A scheduled call that can be cancelled."""
 
     __slots__ = ("_call",)
 
@@ -80,12 +81,12 @@ class Timer:
         return self._call is None
 
     def cancel(self) -> None:
-        """Do not call after all."""
+        """Cancel the call; after it was made this does nothing."""
         self._call = None
 
 
 class Task(Future[T]):
-    """A coroutine on its way; it is set when the coroutine ends."""
+    """A running coroutine; as a future it is set when the coroutine ends."""
 
     __slots__ = (
         "_coroutine",
@@ -105,25 +106,25 @@ class Task(Future[T]):
         self._kernel, self._coroutine = kernel, coroutine
         self._waits_for: Future[Any] | None = None
         self.turn = 0
-        """The number of its next turn; another one is not its any longer. 0: it waits for none."""
+        """The number of the wake-up that may resume it; older ones are ignored. 0: none is pending."""
         self.key, self.name = key, name
         self.over: Callable[[Task[T]], None] | None = None
-        """Told when it has ended, however it has; without a listener an error stops the run."""
+        """Called when it has ended, in any way; without it, an unobserved error stops the run."""
         kernel.tasks[self] = None
 
     @property
     def coroutine(self) -> Coroutine[Any, Any, T]:
-        """What it is that goes on: to see where it waits."""
+        """The coroutine itself, to inspect where it waits."""
         return self._coroutine
 
     def wake(self, _: object = None) -> None:
-        """Go on, when its turn comes."""
+        """Resume at the current instant, in order of key."""
         kernel = self._kernel
         kernel.count = self.turn = turn = kernel.count + 1
         heappush(kernel.ready, (self.key, turn, self))
 
     def step(self) -> None:
-        """Let the coroutine run up to its next wait."""
+        """Run the coroutine up to its next `await`."""
         try:
             waits_for = self._coroutine.send(None)
         except StopIteration as end:
@@ -146,7 +147,7 @@ class Task(Future[T]):
         self._returned(returned)
 
     def _throw(self, error: BaseException) -> None:
-        """Let the coroutine run on from an error."""
+        """Raise an error in the coroutine, and run it up to its next `await`."""
         try:
             waits_for = self._coroutine.throw(error)
             while not isinstance(waits_for, Future):
@@ -184,7 +185,7 @@ class Task(Future[T]):
         self._kernel.tasks.pop(self, None)
 
     def cancel(self) -> None:
-        """Stop it where it waits, now."""
+        """Raise `Cancelled` where it waits, at once."""
         if not self.is_set:
             self._wait_no_longer()
             self._throw(Cancelled())
@@ -195,10 +196,10 @@ class Task(Future[T]):
             waits_for.unwatch(self.wake)
             if waits_for.waiter is self:
                 waits_for.waiter = None
-        self.turn = 0  # it may wait once more, to clean up: not for this any longer
+        self.turn = 0  # while cleaning up it may wait again, for something else
 
     async def ended(self) -> None:
-        """Wait until it is over, even if it is cancelled."""
+        """Wait until it has ended; a cancellation is no error here."""
         over: Future[None] = Future()
         self.watch(lambda _: over.set(None))
         await over
@@ -206,35 +207,35 @@ class Task(Future[T]):
             self.result()
 
     def drop(self) -> None:
-        """Forget it where it waits: the run is over, for it at least."""
+        """Close the coroutine where it waits, without waking anything: the run is over."""
         self._wait_no_longer()
         self._kernel.tasks.pop(self, None)
         self._coroutine.close()
 
 
 class Kernel:
-    """The events to come, and the coroutines that wait for them."""
+    """The future events, and the coroutines that wait for them."""
 
     def __init__(self) -> None:
         self.now = 0.0
-        """Seconds since the start, of the instant whose events are being taken."""
+        """The current instant, in seconds since the start."""
         self.tasks: dict[Task[Any], None] = {}
-        """The coroutines that have not ended, in the order in which they set out."""
+        """The coroutines that have not ended, in the order in which they were started."""
         self.crashed: BaseException | None = None
         self.over = False
-        """What is run for is done, or something crashed: no further event is taken."""
+        """The run's goal is reached, or something crashed: no further event is processed."""
         self.count = 0
-        """How many events there were: what is asked for first comes first, all else being equal."""
+        """How many events were scheduled; it breaks ties: first scheduled, first processed."""
         self.ready: list[tuple[Key, int, Task[Any]]] = []
-        """The coroutines that go on at this instant, with the number of their turn."""
+        """The coroutines to resume at this instant, with the number of their wake-up."""
         self.last: Callable[[], object] | None = None
-        """What is called when all else of this instant is done: the fleet's queue is served."""
+        """Called when all else of this instant is done: serves the fleet's queue."""
         self.settled: Callable[[], object] | None = None
-        """What is called when all of an instant has been taken: its events are written down."""
+        """Called when an instant has been processed: writes its events to the journal."""
         self._heap: list[tuple[float, int, Key, int, Call]] = []
 
     def time(self) -> float:
-        """Return the seconds since the start; asked between events it is later than `now`."""
+        """Return the seconds since the start; between events it is later than `now`."""
         return self.now
 
     @property
@@ -243,32 +244,32 @@ class Kernel:
         raise NotImplementedError
 
     def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
-        """Call this at a time, unless it is cancelled; a time that has passed means now."""
+        """Schedule a call that can be cancelled; a time in the past means now."""
         timer = Timer(call)
         self.schedule(when, kind, key, timer)
         return timer
 
     def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
-        """Call this at a time, in any case; a time that has passed, or is none, means now."""
+        """Schedule a call; a time in the past, or not a number, means now."""
         self.count = count = self.count + 1
         if not when > self.now:
             when = self.now
         heappush(self._heap, (when, kind, key, count, call))
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
-        """Set a coroutine on its way; it begins when its turn comes."""
+        """Start a coroutine; it runs for the first time at this instant, in order of key."""
         task = Task(self, coroutine, key, name)
         task.wake()
         return task
 
     def under_way(self) -> Sequence[Task[Any]]:
-        """Return the coroutines that have not ended, in the order in which they set out."""
+        """Return the coroutines that have not ended, in the order in which they were started."""
         return tuple(self.tasks)
 
     async def sleep(
         self, seconds: float, kind: EventKind = EventKind.CLOCK, key: Key = FLEET
     ) -> None:
-        """Wait for so many seconds."""
+        """Wait this many seconds."""
         over: Future[None] = Future()
         timer = self.at(self.now + seconds, kind, key, lambda: over.set(None))
         try:
@@ -277,7 +278,7 @@ class Kernel:
             timer.cancel()
 
     async def within(self, future: Future[Any], until: float, kind: EventKind, key: Key) -> bool:
-        """Wait until it happens or the time comes; say whether it has happened."""
+        """Wait until the future is set or the time comes; return whether it was set."""
         either: Future[None] = Future()
 
         def over(_: object = None) -> None:
@@ -295,31 +296,31 @@ class Kernel:
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
-        """Run a hook of the app's, `def` or `async def`, and return what it returns."""
+        """Call one of the app's hooks, `def` or `async def`, and return its result."""
         raise NotImplementedError
 
     def offer(self, future: Future[T]) -> Coroutine[Any, Any, T]:
-        """Return what a hook may await for this future."""
+        """Wrap a future so that a hook can await it."""
         raise NotImplementedError
 
     def post(self, call: Callable[..., object], *args: object) -> None:
-        """Tell the kernel something: an answer of a drone, of a hook, of a person."""
+        """Deliver something from outside: an answer of a drone, a hook or a person."""
         call(*args)
 
     def crash(self, error: BaseException) -> None:
-        """Remember an error that no coroutine caught: the driver stops and raises it."""
+        """Stop the run with an error that no coroutine has caught; the driver raises it."""
         if self.crashed is None:
             self.crashed = error
         self.over = True
 
     def close(self) -> None:
-        """Drop what still waits; nothing of it runs on."""
+        """Close all coroutines that still wait."""
         for task in self.under_way():
             task.drop()
         unfreeze()
 
     def next_time(self) -> float | None:
-        """Return the time of the next event to come; None: nothing will ever happen."""
+        """Return the time of the next event; None: there will be none."""
         if self.ready or self.last is not None:
             return self.now
         heap = self._heap
@@ -328,7 +329,7 @@ class Kernel:
         return heap[0][0] if heap else None
 
     def drain(self) -> None:
-        """Take all events of this instant, in order, and those that come of them."""
+        """Process all events of this instant in order, also those that they cause."""
         heap, ready, now = self._heap, self.ready, self.now
         while not self.over:
             if ready:

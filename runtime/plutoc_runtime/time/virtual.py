@@ -1,4 +1,4 @@
-"""Virtual time: the clock jumps to the next event. Nothing sleeps, and a day takes a moment."""
+"""Virtual time: the clock jumps to the next event, so a day is simulated in a moment."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 
 class Stuck(RuntimeError):
-    """Nothing will ever happen again, and coroutines still wait."""
+    """Deadlock: no event is scheduled, and coroutines still wait."""
 
 
 class VirtualTime(Kernel):
@@ -28,7 +28,7 @@ class VirtualTime(Kernel):
         return self.now % 86_400
 
     def run(self, done: Future[T], until: float | None = None) -> bool:
-        """Go on until it is done, or until a time; say whether it is done."""
+        """Run until this future is set, or until a time; return whether it was set."""
         done.watch(self._stop)
         while not done.is_set and self.crashed is None:
             self.over = False
@@ -53,13 +53,13 @@ class VirtualTime(Kernel):
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
-        """Run a hook here and now; an `async def` may await only what its context offers."""
+        """Call a hook; an `async def` may await only what its context offers."""
         result = guarded(partial(hook, *args, **named))
-        if not issubclass(type(result), CoroutineType):  # it is asked nothing: it may be anything
+        if not issubclass(type(result), CoroutineType):  # a hook's result may lie about its class
             return result
         waiting = cast("Coroutine[Any, Any, object]", result)
         try:
-            return await _called_off_for_good(waiting)
+            return await _run_cancellable(waiting)
         except RuntimeError as error:
             if isinstance(error, ForeignAwait) or "no running event loop" in str(error):
                 raise RuntimeError(
@@ -74,8 +74,8 @@ class VirtualTime(Kernel):
 
 
 @coroutine
-def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
-    """Let a hook run inside this coroutine; one that is called off cannot hold on, or go on."""
+def _run_cancellable(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
+    """Run a hook inside this coroutine; a cancelled one cannot catch that and run on."""
     step: Callable[[], object] = partial(hook.send, None)
     while True:
         try:
@@ -92,7 +92,7 @@ def _called_off_for_good(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]
             for call in (partial(hook.throw, error), hook.close):
                 try:
                     call()
-                except ANY_ERROR as its_own:  # it is not wanted any longer
+                except ANY_ERROR as its_own:  # its result is not wanted any more
                     if by_a_person(its_own):
                         raise
             raise

@@ -1,4 +1,4 @@
-"""Time-outs of trips: each fails the trip that takes longer."""
+"""Time-outs of trips: a trip that takes longer fails."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 
 class LimitOwner(Protocol):
-    """The branch of a mission that asks for a limit; the limit is void once the branch is over."""
+    """The branch of a mission that sets a limit; the limit is void once the branch has ended."""
 
     key: Key
     task: Task[Any] | None
 
     def abort(self, reason: str) -> None:
-        """Fail the trip that flies now."""
+        """Fail the trip in flight."""
         ...
 
 
 class Limit(NamedTuple):
-    """How long a trip may take, from when on, and what is said of trip and time if it takes longer."""
+    """How long a trip may take, from when on, and the reason that is given if it takes longer."""
 
     since: float
     span: float
@@ -41,9 +41,9 @@ class Limit(NamedTuple):
         flight: Flight,
         number: int,
     ) -> None:
-        """Fail the flight at this limit, unless it or the branch that asks for it is over by then.
+        """Fail the flight at this limit, unless it or the branch that sets it has ended by then.
 
-        `watched` are the limits of the app by length, `number` is this one's place in its branch.
+        `watched` are the app's limits by length, `number` counts this branch's limits.
         Most flights end long before their limits, and those of one length that begin now expire in
         the order in which they began: they share one timer.
         """
@@ -62,8 +62,8 @@ class Limit(NamedTuple):
             equal.waiting.append((flight, branch))
 
     def schedule(self, kernel: Kernel, branch: LimitOwner, flight: Flight, number: int) -> None:
-        """Let it expire in its own place among the events of that instant."""
-        # behind a hook of the mission's at that instant, as if it stood in a branch of its own
+        """Schedule its end with a timer of its own."""
+        # after a hook of the mission at that instant, as if it were in a branch of its own
         key, call = branch.key + number, partial(self._expire, branch, flight)
         kernel.schedule(self.since + self.span, EventKind.TIMER, key, call)
 
@@ -73,7 +73,7 @@ class Limit(NamedTuple):
 
 
 class EqualLimits:
-    """Limits of one length that say the same, of flights that were launched one after the other."""
+    """Limits of one length and one reason, of flights launched one after the other: one timer."""
 
     def __init__(
         self, kernel: Kernel, watched: dict[float, EqualLimits], limit: Limit, number: int
@@ -82,7 +82,7 @@ class EqualLimits:
         self.waiting: deque[tuple[Flight, LimitOwner]] = deque()
 
     def arm(self) -> None:
-        """Look again when the first of them is due."""
+        """Set the timer to the first of them."""
         until = self.waiting[0][0].launched_at + self.limit.span
         self._kernel.schedule(until, EventKind.TIMER, -1, self._due)
 

@@ -1,4 +1,4 @@
-"""One trip's flight by one drone: what its navigation may ask of it, and how it tells its end."""
+"""One trip's flight by one drone: the job that navigation is given, and its outcome."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Flight(Future[Status]):
-    """The job that navigation gets; it is set when the trip is over, to how the mission stands then."""
+    """A job for navigation; as a future it is set to the mission's status when the trip has ended."""
 
     __slots__ = (
         "_action",
@@ -44,20 +44,20 @@ class Flight(Future[Status]):
         self.error = self.waiter = self._value = self._watchers = None
         self.mission, self.trip, self.flier, self._action = mission, trip, flier, action
         self.hook = action.hook
-        """The action of the app's own; None: it is one of ours."""
+        """The hook of an action of the app's own; None: a built-in action."""
         self.launched_at = launched_at
         self.retry = retry
-        """The mission's flight before this one was of the same trip, and failed."""
+        """The mission's previous flight was of the same trip, and failed."""
         self._reported = reported
-        """Told what navigation reports."""
+        """Called with what navigation reports."""
         self.own_action: Task[None] | None = None
-        """What does an action of the app's own, once it has begun."""
+        """The task of an action of the app's own, once it has begun."""
         self.called_off = False
-        """It was broken off, and its drone is asked what it has done."""
+        """It was aborted, and its drone is asked what it has done."""
 
     @property
     def id(self) -> str:
-        """`mission/trip/round/attempt`: the same flight has the same id in every run."""
+        """`mission/trip/round/attempt`: a flight has the same id in every run."""
         mission, trip = self.mission, self.trip
         return f"{mission.name}/{trip.name}/{mission.round}/{trip.attempt}"
 
@@ -68,38 +68,38 @@ class Flight(Future[Status]):
 
     @property
     def stops(self) -> tuple[Point, ...]:
-        """Where to fly, in order."""
+        """The points to fly to, in order."""
         source, target = self.trip.source, self.trip.target
         return (target,) if source is None else (source, target)
 
     @property
     def action(self) -> str | None:
-        """What to do at the last stop; None: hover, for an action of the app's own."""
+        """The action at the last stop; None: hover, for an action of the app's own."""
         return self.trip.action if self.hook is None else None
 
     @property
     def seconds(self) -> float:
-        """How long the action is expected to take."""
+        """The expected duration of the action."""
         return self._action.seconds
 
     @property
     def parameters(self) -> Mapping[str, Plain]:
-        """How to do it."""
+        """The parameters of the action."""
         return self.trip.parameters
 
     @property
     def item(self) -> Item | None:
-        """What to pick or to release."""
+        """The item to pick or release."""
         return self.trip.item
 
     @property
     def failed(self) -> bool:
-        """Whether it is over and went wrong."""
+        """Whether it has ended, and failed."""
         return self._value is FAILED
 
     def begins(self) -> None:
-        """Hear that the action is about to be done."""
+        """Called right before the action is done."""
 
     def report(self, result: object) -> None:
-        """Hear that the job is done and what it gave, or the `FlightFailed` that ended it."""
+        """Called with the action's result, or with the `FlightFailed` that ended the job."""
         self._reported(self, result)

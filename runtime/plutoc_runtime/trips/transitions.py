@@ -1,4 +1,4 @@
-"""The one place where a mission or a trip changes its status; each change is an event."""
+"""The only place where a mission or a trip changes its status; each change is an event."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ if TYPE_CHECKING:
 
 
 LONGEST = 3_000
-"""Characters of a reason: more than one of a hook's, and than any of ours."""
+"""Characters of a reason; longer than any that a hook may give."""
 
 
 class Transitions:
-    """Every change of status there is."""
+    """All changes of status."""
 
     def __init__(self, kernel: Kernel, trace: Trace, results: ResultStore) -> None:
         self._kernel, self._trace, self._results = kernel, trace, results
         self._time = kernel.time
 
     def create(self, mission: Mission[Any]) -> None:
-        """A mission of the user's trips exists."""
+        """Create a mission with the user's trips."""
         mission.status = UNEXECUTED
         time = self._time
         for trip in mission.trips:
@@ -46,7 +46,7 @@ class Transitions:
     def allocate(
         self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: str
     ) -> None:
-        """A trip has its drone; `at` is the block where it goes on if it is interrupted."""
+        """Give a trip its drone; `at` is the block where it resumes after an interruption."""
         trip.drone = drone
         if self._trace.live:
             self._trace.note(
@@ -59,7 +59,7 @@ class Transitions:
             )
 
     def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
-        """A trip's drone leaves for it."""
+        """Launch a trip."""
         trip.status, trip.now = _EXECUTING, self._time
         trip.start_time, trip.end_time, trip.reason = self._kernel.now, None, ""
         mission.status, mission.reason = RUNNING, ""
@@ -76,7 +76,7 @@ class Transitions:
             )
 
     def complete(self, mission: Mission[Any], trip: Trip, value: object) -> None:
-        """A trip has ended well."""
+        """Complete a trip, and store its result."""
         trip.status, trip.end_time = _COMPLETED, self._kernel.now
         trips = mission.trips
         trips.remove(trip)
@@ -87,7 +87,7 @@ class Transitions:
             self._ended(mission, trip, "trip.completed", {"value": shown(value)})
 
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
-        """A trip has failed: it stays first in the list."""
+        """Fail a trip: it stays first in the list."""
         reason = bounded(reason, LONGEST)
         trip.status, trip.end_time, trip.reason = _FAILED, self._kernel.now, reason
         mission.status, mission.reason = FAILED, reason
@@ -108,7 +108,7 @@ class Transitions:
         )
 
     def put_back(self, mission: Mission[Any]) -> None:
-        """The trip that failed will be tried again; one that has not flown since keeps its attempt."""
+        """Reset the failed trip for a retry; one that has not flown since keeps its attempt."""
         trip = mission.current
         trip.reset()
         self._standby(mission)
@@ -118,7 +118,7 @@ class Transitions:
             )
 
     def redo(self, mission: Mission[Any], trips: tuple[Trip, ...], added: tuple[Trip, ...]) -> None:
-        """A finished mission has trips again: some once more, some new ones."""
+        """Give a finished mission trips to repeat, and new ones."""
         for trip in trips:
             mission.completed_trips.remove(trip)
             trip.reset()
@@ -135,7 +135,7 @@ class Transitions:
             )
 
     def begin_again(self, mission: Mission[Any]) -> None:
-        """A finished mission starts a further round with the user's own trips."""
+        """Start a further round of a finished mission, with the user's own trips."""
         mission.round += 1
         for trip in mission.completed_trips:
             if not trip.added:
@@ -149,20 +149,20 @@ class Transitions:
             self._trace.note("mission.repeated", mission=mission.name, round=mission.round)
 
     def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
-        """An action of the app's own is about to begin: from now on it may have been done."""
+        """Record that an action of the app's own begins: from now on it may have been done."""
         if self._trace.live:
             self._trace.note("action.begun", mission=mission.name, trip=trip.name, drone=drone.id)
 
     def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
-        """A modifier says how a mission stands."""
+        """Set the status that a modifier returned."""
         self._stands(mission, status, reason, "mission.modified")
 
     def end(self, mission: Mission[Any], status: Status, reason: str) -> None:
-        """A mission has come to its end."""
+        """End a mission."""
         self._stands(mission, status, reason, "mission.ended")
 
     def judge_failed(self, mission: Mission[Any], reason: str) -> None:
-        """A finished mission was judged and found wanting."""
+        """Fail a finished mission that its evaluator did not accept."""
         reason = bounded(reason, LONGEST)
         mission.status, mission.reason = FAILED, reason
         if self._trace.live:
