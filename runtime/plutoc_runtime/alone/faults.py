@@ -1,4 +1,4 @@
-"""What goes wrong in a simulation: drawn for each flight when it begins, from its name alone."""
+"""Faults in a simulation, drawn for each flight at its start from its id alone."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ if TYPE_CHECKING:
     from ..domain.model import Point
 
 OUTAGE = 20.0
-"""Seconds until a drone that lost its link can be reached again."""
+"""Seconds until a lost link is restored."""
 CARRYING_HOME = 300.0
-"""Seconds until a person has carried a drone home."""
+"""Seconds until someone has carried a drone home."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Order:
-    """The flight that a take-off begins. The same flight has the same id in every run."""
+    """A flight about to take off. It has the same id in every run."""
 
     id: str
     """`mission/trip/round/attempt`."""
     seconds: float
-    """How long the flight is expected to take until its action is done."""
+    """The expected seconds until its action is done."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Faults:
-    """How likely each thing is to go wrong on a flight, from 0 to 1."""
+    """The probability of each fault on a flight, from 0 to 1."""
 
     crash: float = 0.0
     link: float = 0.0
@@ -41,7 +41,7 @@ class Faults:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drawn:
-    """What goes wrong on one flight, and when: seconds from take-off."""
+    """The faults of one flight, in seconds from take-off."""
 
     crash: float | None = None
     link: float | None = None
@@ -49,7 +49,7 @@ class Drawn:
     action: bool = False
 
     def moments(self, began: float) -> list[tuple[float, Failure | None]]:
-        """Return when, on a flight that began then, what comes to pass."""
+        """Return the faults with their times, for a flight that took off at this time."""
         drawn = (
             (self.crash, Failure.CRASH),
             (self.link, Failure.LINK),
@@ -59,13 +59,13 @@ class Drawn:
 
 
 def draw(faults: Faults, seed: int, order: Order | None) -> Drawn:
-    """Draw what goes wrong on a flight. The way home, which has no order, goes well."""
+    """Draw the faults of a flight. The way home, which has no order, has none."""
     if order is None:
         return Drawn()
     chance = Random(f"{seed}/{order.id}")
 
     def moment(probability: float) -> float | None:
-        # Both numbers are drawn in any case: no probability changes what another one brings.
+        # Both numbers are drawn in any case, so one probability does not change the other's outcome.
         happens, when = chance.random() < probability, chance.random() * order.seconds
         return when if happens else None
 
@@ -78,7 +78,7 @@ def draw(faults: Faults, seed: int, order: Order | None) -> Drawn:
 
 
 def befell(drone: str, what: Failure, at: Point) -> FlightFailed:
-    """Return how everything fails that a drone does after this has happened to it."""
+    """Return the failure of every command after a fault."""
     return FlightFailed(what, f"{drone} {_SAID[what]} at {place(at)}")
 
 
@@ -95,7 +95,7 @@ _SAID = {
 
 
 FAULTS = ("crash", "link", "action", "battery")
-"""What `--fail` can make go wrong."""
+"""The faults of `--fail`."""
 
 
 def shares(text: str) -> dict[str, float]:

@@ -28,14 +28,14 @@ if TYPE_CHECKING:
     from ..domain.model import Mission, Point, Trip
 
 HOME_SIZE = 0.1
-"""Metres that a drone takes up where it stands."""
+"""The diameter of a drone on the ground, in metres."""
 
 _Read = Callable[[Any], Any]
-"""Converts a value; or raises a `ValueError` that goes on after the key and the value."""
+"""Converts a value; raises a `ValueError` whose text continues after the key and the value."""
 
 
 def load_fleet(path: Path, app: App) -> FleetData:
-    """Return what a fleet file says, but for what only real flights need."""
+    """Return a fleet file's data, without what only real flights need."""
     schema = "map:table? fleet:table? drone:tables world:table? navigation:any? localization:any?"
     top = _table(_read_toml(path), f"{path}", schema)
     schema = "size:size? image:any? cruise_height:height? ceiling:height? no_fly:areas?"
@@ -69,7 +69,7 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
 
 
 def _table(data: object, who: str, schema: str, **kinds: _Read) -> dict[str, Any]:
-    """Return what a table holds: `key:kind` for each, with `?` if it may be missing."""
+    """Return the values of a table: `key:kind` for each, with `?` if it may be missing."""
     if not isinstance(data, dict):
         raise BadInput(f"{who}: is not a table")
     values, keys = dict[str, Any](), dict(one.split(":") for one in schema.split())
@@ -95,7 +95,7 @@ def _differ(who: str, names: Iterable[str]) -> None:
 
 def _drones(entries: list[Any], who: str, app: App, airspace: Airspace) -> list[DroneData]:
     names = [category.name for category in app.categories]
-    only = {"category": names[0]} if len(names) == 1 else {}  # then there is nothing to choose
+    only = {"category": names[0]} if len(names) == 1 else {}  # the only category is the default
     schema = f"id:name category:category{'?' if only else ''} home:point uri:any? navigation:any?"
     kinds = {"category": _one_of(names), "point": _point(airspace, 0.0)}
     drones = [
@@ -221,7 +221,7 @@ _KINDS: dict[str, _Read] = {
 
 
 def _first_crowded(places: Sequence[Point], apart: float) -> int | None:
-    """Return which place is the first that is too near to one before it; None: there is none."""
+    """Return the index of the first point too near to an earlier one, or None."""
     cells: dict[tuple[int, int], list[Point]] = {}
     for index, place in enumerate(places):
         x, y = int(place[0] // apart), int(place[1] // apart)
@@ -240,7 +240,7 @@ _LONG_KEY = re.compile(r"""(?<![\w"'-])(?:[\w"'-]+[ \t]*\.[ \t]*){100}""")
 
 
 def _read_toml(path: Path) -> dict[str, Any]:
-    """Return what a plan file says; raise `BadInput` if it is no TOML text of a sane size."""
+    """Parse a plan file; raise `BadInput` if it is not TOML of a sane size."""
     try:
         with path.open("rb") as file:
             content = file.read(_LARGEST + 1)

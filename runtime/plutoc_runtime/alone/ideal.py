@@ -1,6 +1,6 @@
-"""Drones that fly alone: each has the air for itself, and several pass through each other.
+"""Ideal drones: each has the air to itself, so several may pass through each other.
 
-Nothing ticks: what has gone wrong is applied, at its moment, the next time a drone is looked at.
+There is no tick: what was due is applied, at its own time, the next time a drone is looked at.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """A straight way from one place, left at a time, to another, reached at a time."""
+    """A straight leg between two points, with the times at its ends."""
 
     start: Point
     end: Point
@@ -37,7 +37,7 @@ class Leg:
     arrives: float
 
     def at(self, now: float) -> Point:
-        """Return the place at a time; before and after it, nothing moves.
+        """Return the position at a time; before and after the leg, nothing moves.
 
         A leg of no duration may be asked for a moment before it: sums of floats are not exact.
         """
@@ -50,18 +50,18 @@ class Leg:
         return ax + part * (bx - ax), ay + part * (by - ay), az + part * (bz - az)
 
     def length(self, now: float) -> float:
-        """Return how many metres of it are behind at a time."""
+        """Return the metres flown at a time."""
         return dist(self.start, self.at(now))
 
 
 def standing(place: Point, now: float) -> Leg:
-    """Return the leg of who goes nowhere."""
+    """Return a leg that stays in one place."""
     return Leg(place, place, now, now)
 
 
 @dataclass(frozen=True, slots=True)
 class Charge:
-    """A battery: what was in it at a time, from 0 to 1, and how that changes each second."""
+    """A battery: its level at a time, from 0 to 1, and its change per second."""
 
     level: float
     since: float
@@ -76,16 +76,16 @@ class Charge:
 
     @property
     def empty_at(self) -> float:
-        """When nothing is left; infinite if that never comes."""
+        """When it will be empty; infinite: never."""
         return self.since - self.level / self.rate if self.rate < 0 else inf
 
     def changing(self, now: float, rate: float) -> Charge:
-        """Return the battery that changes otherwise from now on."""
+        """Return the battery with another rate from now on."""
         return Charge(self.at(now), now, rate)
 
 
 class IdealDrone:
-    """The state of one drone, which begins in its dock. It is its own telemetry."""
+    """The state of one drone, initially in its dock. It is its own telemetry."""
 
     silence = 0.0
 
@@ -93,13 +93,13 @@ class IdealDrone:
         self.id, self.home, self.category, self.key = entry.id, entry.home, category, key
         self._kernel = kernel
         self.down: FlightFailed | None = None
-        """Why it takes no commands, if it takes none."""
+        """The failure for which it takes no commands, if any."""
         self.reachable_at = 0.0  # where its link is lost: not before it has landed
         self.carries: Item | None = None
         self.settings: dict[str, float] = {}
         self.drawn = Drawn()
         self.over: Future[None] | None = None
-        """Is set when what it does is done, and fails if that is broken off."""
+        """Set when its command is done; fails if the command is aborted."""
         self.job: Task[None] | None = None
         self._began = self._flown = 0.0
         self._charge, self._leg = Charge(1.0, kernel.now), standing(entry.home, kernel.now)
@@ -112,7 +112,7 @@ class IdealDrone:
 
     @property
     def battery_level(self) -> float:
-        """What is left in its battery, from 0 to 1."""
+        """The charge of its battery, from 0 to 1."""
         return self._charge.at(self.settle())
 
     @property
@@ -128,59 +128,59 @@ class IdealDrone:
 
     @property
     def failure(self) -> Failure | None:
-        """What has gone wrong with it, if it takes no commands."""
+        """The failure for which it takes no commands, if any."""
         self.settle()
         return None if self.down is None else self.down.failure
 
     def settle(self) -> float:
-        """Let everything come to pass that was due by now, and return what time that is."""
+        """Apply everything that was due by now, and return the time."""
         now = self._kernel.now
         while (due := self.next_due)[0] <= now:
             self._happen(*due)
         return now
 
     def check(self) -> None:
-        """Raise why it takes no commands, if it takes none."""
+        """Raise its failure, if it takes no commands."""
         if self.failure is not None:
             raise FlightFailed(self.failure, str(self.down))
 
     def begin(self, drawn: Drawn) -> None:
-        """Begin a flight, with what will go wrong on it."""
+        """Begin a flight, with its faults."""
         self.check()
         self.drawn, self._began = drawn, self._kernel.now
 
     def lift_off(self) -> None:
-        """Leave the ground: from now on the battery drains, and things go wrong."""
+        """Leave the ground: the battery drains from now on, and faults are due."""
         self._charge = self._charge.changing(self._kernel.now, -1.0 / self.category.flight_time)
         self._landed = False
 
     def turn(self, leg: Leg, now: float) -> None:
-        """Go another way from now on."""
+        """Fly another leg from now on."""
         self._flown += self._leg.length(now)
         self._leg = leg
 
     def halt(self) -> None:
-        """Hover where it is, unless it is past that."""
+        """Hover where it is, if it still takes commands."""
         now = self.settle()
         if self.down is None and not self._landed:
             self.turn(standing(self._leg.at(now), now), now)
 
     def touch_down(self, now: float) -> None:
-        """Stand on the ground, below where it is; in its dock it is charged."""
+        """Put it on the ground below; in its dock it is charged."""
         self.turn(standing((*self._leg.at(now)[:2], 0.0), now), now)
         self._landed = True
         charges = docked(self._leg.end, self.home)
         self._charge = self._charge.changing(now, charges / self.category.charge_time)
 
     def dock(self) -> None:
-        """Stand in its dock, switched off and on by a person, and take commands again."""
+        """Put it into its dock, restarted, so that it takes commands again."""
         self.down, self.settings, now = None, {}, self._kernel.now
         self.turn(standing(self.home, now), now)
         self.touch_down(now)
 
     @property
     def next_due(self) -> tuple[float, Failure | None]:
-        """What comes to pass next by itself, and of equals the worst; None: it touches down."""
+        """The next thing that happens by itself, of simultaneous ones the worst; None: it touches down."""
         if self._landed:
             return inf, None
         comes = self.drawn.moments(self._began)
@@ -204,7 +204,7 @@ class IdealDrone:
 
 
 class IdealNavigation:
-    """The `Navigation` of such drones: a fleet of one flies exactly as it does with traffic."""
+    """The `Navigation` of ideal drones; a fleet of one flies exactly as it does with traffic."""
 
     def __init__(
         self, kernel: Kernel, app: App, fleet: FleetData, faults: Faults, seed: int
@@ -218,7 +218,7 @@ class IdealNavigation:
         }
 
     def telemetry(self, drone: str) -> IdealDrone:
-        """Return what is known of a drone; the value stays current."""
+        """Return a drone's telemetry, which is always current."""
         return self.drones[drone]
 
     def fly(self, job: Flight, report: Callable[[object], None]) -> None:
@@ -267,7 +267,7 @@ class IdealNavigation:
             one.over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
 
     async def hold(self, drone: str) -> None:
-        """Hover until something goes wrong or it is cancelled."""
+        """Hover until a fault occurs or it is cancelled."""
         one = self.drones[drone]
         one.check()
         if one.drawn.action:
@@ -275,19 +275,19 @@ class IdealNavigation:
         await self._pass(one, inf)
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what was written under this name, or else what is measured here by this name."""
+        """Return the value that was written under this name, or else what is measured here."""
         one = self.drones[drone]
         one.check()
         measured = self._world.measure(name, one.location, self._kernel.now)
         return one.settings.get(name, measured)
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Keep a value under this name."""
+        """Store a value under this name."""
         self.drones[drone].check()
         self.drones[drone].settings[name] = value
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise to a height; does nothing for a drone that flies."""
+        """Take off to a height; does nothing for a drone that flies."""
         one = self.drones[drone]
         one.begin(Drawn())
         await self._follow(one, [(*one.location[:2], height)])
@@ -315,7 +315,7 @@ class IdealNavigation:
             one.down = None  # the link is back
         try:
             await self._fly_home(one)
-        except FlightFailed:  # then a person carries it
+        except FlightFailed:  # someone carries it home
             await self._wait(one, self._kernel.now + CARRYING_HOME)
             one.dock()
         one.carries = None
@@ -334,7 +334,7 @@ class IdealNavigation:
         return x, y, self._airspace.cruise_height if drone.landed else z
 
     async def _follow(self, drone: IdealDrone, way: Sequence[Point]) -> None:
-        """Fly a way whose first point is above a drone that stands, or where one in the air is."""
+        """Fly a route whose first point is above the drone's place on the ground, or where it hovers."""
         if drone.landed:
             drone.lift_off()
             await self._move(drone, way[0], CLIMB_SPEED)
@@ -342,7 +342,7 @@ class IdealNavigation:
             await self._move(drone, point, drone.category.speed)
 
     async def _move(self, drone: IdealDrone, target: Point, speed: float) -> None:
-        drone.check()  # what goes wrong at once leaves it on the ground
+        drone.check()  # a fault at take-off leaves it on the ground
         now, start = self._kernel.now, drone.location
         seconds = dist(start, target) / speed
         drone.turn(Leg(start, target, now, now + seconds), now)

@@ -1,7 +1,7 @@
-"""An app in virtual time, over drones that fly alone.
+"""Simulation of an app in virtual time, with ideal drones.
 
-It comes to an end even where a graph tries for ever what can never succeed: flights are counted, not
-hours, as a plan may well last for months.
+It ends even if a graph retries for ever what cannot succeed. The bound is on flights and not on
+hours, as a plan may last for months.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SimulationResult:
-    """What came of a flown plan."""
+    """The outcome of a simulation."""
 
     duration: float
     """Seconds, until the last mission ended."""
@@ -42,7 +42,7 @@ class SimulationResult:
 
     @property
     def crashed(self) -> int:
-        """How many drones have crashed: none is brought back in a simulation."""
+        """How many drones have crashed; in a simulation none is repaired."""
         return sum(drone.status is DroneStatus.LOST for drone in self.drones)
 
     @property
@@ -61,7 +61,7 @@ class SimulationResult:
 
 
 def default_fleet(app: App) -> FleetData:
-    """Return the fleet where there is no file: five drones on an empty plain."""
+    """Return the fleet that is used without a file: five drones on an empty map."""
     kinds = [category.name for category in app.categories] * 5
     drones = [
         DroneData(id=f"cf{place}", category=kind, home=(float(place), 0.5, 0.0))
@@ -82,7 +82,7 @@ def simulate(
 ) -> SimulationResult:
     """Fly the missions until the last one has ended or a time is reached.
 
-    Without such a time it is given up where missions set out again and again for nothing.
+    Without such a time it is given up if missions fly again and again without success.
     """
     kernel, bound = VirtualTime(), Bound(missions)
     navigation = IdealNavigation(kernel, app, fleet, faults, seed)
@@ -108,29 +108,29 @@ def simulate(
 
 
 FLIGHTS = 1_000
-"""So many flights a planned trip, in one planned round of its mission, and no more."""
+"""The most flights for each planned trip in one round of its mission."""
 IDLE = 366 * 86_400.0
-"""Seconds for which nothing at all sets out."""
+"""The longest time without a launch, in seconds."""
 MORE = "to fly on, say how long with --until, such as --until 2h"
 
 
 class Enough(Exception):
-    """The simulation is given up; the message says why."""
+    """Raised to give up a simulation; the message says why."""
 
 
 class Bound:
-    """Counts the flights of each mission, and says when it is enough."""
+    """Limits the flights of each mission."""
 
     def __init__(self, missions: Sequence[Mission[Any]]) -> None:
         self._most = {one.name: FLIGHTS * max(1, len(one.trips)) for one in missions}
         self._flights = dict.fromkeys(self._most, 0)
         self._rounds = {one.name: getattr(one, "repeat", 0) for one in missions}
-        """How many are planned; a hook may ask for more, again and again."""
+        """How many rounds are planned; a hook may ask for more."""
         self.last = 0.0
-        """When the last flight set out, or is to do so after a delay."""
+        """When the last flight was launched, or will be after a delay."""
 
     def look(self, event: Event) -> Enough | None:
-        """Hear of an event; return why there is no end to be expected, once there is none."""
+        """Count an event; return why the simulation would not end, if it would not."""
         what = event["event"]
         if what == "trip.launched":
             name = str(event["mission"])
@@ -151,7 +151,7 @@ class Bound:
         return None
 
     def idle(self) -> str:
-        """Return what is said where nothing has set out for too long."""
+        """Return the reason given when nothing has been launched for too long."""
         return f"nothing has set out for {IDLE / 86_400:.0f} days, and missions are not at their end; {MORE}"
 
 

@@ -1,6 +1,6 @@
-"""Keys of TOML that are too long: `tomllib` copies all that stands before each part of `a.b.c`.
+"""Finds TOML keys with too many parts, for which `tomllib` takes quadratic time.
 
-For the compiler and the library; an app does not carry it.
+For the compiler and the library; apps do not carry it.
 """
 
 from __future__ import annotations

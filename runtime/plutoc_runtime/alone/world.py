@@ -1,4 +1,4 @@
-"""What the drones of a simulation would see and measure. The same seed is the same world."""
+"""The simulated world: what drones see and measure. The same seed gives the same world."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _AT_MOST = 10_000
 
 
 class World:
-    """What there is to see and to measure on a map; without data, one made up from the seed."""
+    """What can be seen and measured on a map; without data it is made up from the seed."""
 
     def __init__(
         self,
@@ -52,7 +52,7 @@ class World:
     def gives(
         self, action: str, parameters: Mapping[str, Plain], point: Point, time: float
     ) -> object:
-        """Return what a built-in action gives that is done at a point."""
+        """Return the result of a built-in action at a point."""
         if action == MEASURE:
             quantity = parameters.get("quantity", BUILT_IN[MEASURE].parameters[0].default)
             return self.measure(str(quantity), point, time)
@@ -72,7 +72,7 @@ class World:
         return take_photo(point, self._by_x, self._random("photo", point, time))
 
     def _random(self, what: str, point: Point, time: float) -> Random:
-        """Chance that depends on what happens, where and when, and on nothing that went before."""
+        """Randomness that depends on the event, its place and its time, and not on earlier draws."""
         x, y, z = point
         return Random(f"{self._seed}/{what}/{x:.3f}/{y:.3f}/{z:.3f}/{time:.3f}")
 
@@ -112,8 +112,8 @@ def invented(seed: int, airspace: Airspace) -> WorldData:
 _WIDTH, _HEIGHT = 1.6, 1.2
 
 _DRIFT = 0.05
-"""How far, in metres, a drone is from where it should be, as a standard deviation. The plan only:
-its height it measures to a centimetre."""
+"""The standard deviation of a drone's horizontal position, in metres; its height is exact to a
+centimetre."""
 
 _BLURRED = 0.1
 """The share of photos that are not sharp."""

@@ -1,1 +1,1 @@
-"""What the app and its user speak of: missions, trips, drones, the map; numbers, fields and words."""
+"""The domain model: missions, trips, drones, the map; numbers with units, fields and text."""

@@ -1,4 +1,4 @@
-"""What a drone can do at the end of a trip: four actions of ours, and the app's own (thesis 4.1)."""
+"""What a drone can do at the end of a trip: four built-in actions, and the app's own (thesis 4.1)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Action:
-    """An action, ours or the app's own."""
+    """An action, built-in or the app's own."""
 
     name: str
     parameters: tuple[Parameter, ...] = ()
@@ -34,7 +34,7 @@ class Action:
     """The app's own code; None: the drone's navigation knows how."""
 
     def act(self, state: Any, flight: Any) -> Coroutine[Any, Any, None]:
-        """Do it by its hook; only an action of the app's own can be done so (flow/own_action.py)."""
+        """Call its hook; only an action of the app's own has one (flow/own_action.py)."""
         raise NotImplementedError(f"{self.name} is done by the drone's navigation")
 
 

@@ -94,7 +94,7 @@ class Airspace:
         return x, y, z
 
     def route(self, start: Point, end: Point) -> tuple[Point, ...] | None:
-        """Return the shortest permitted way, the end included and the start not, or None.
+        """Return the shortest permitted route, with the end and without the start, or None.
 
         It is straight wherever it can be. Around corners its height changes evenly along the way.
         """
@@ -106,7 +106,7 @@ class Airspace:
 
 
 class _Ways:
-    """What can be seen from where, found as it is needed."""
+    """The visibility graph of the map, computed as it is needed."""
 
     def __init__(self, airspace: Airspace) -> None:
         self._airspace = airspace
@@ -115,10 +115,10 @@ class _Ways:
         self._seen: dict[int, list[tuple[int, float]]] = {}
         self._found: dict[tuple[Point, Point], tuple[Point, ...] | None] = {}
         self.permitted: set[Point] = set()
-        """Points of which it is known that a drone may be there."""
+        """Points that are known to be permitted."""
 
     def between(self, start: Point, end: Point) -> tuple[Point, ...] | None:
-        """Return the shortest way with both its ends."""
+        """Return the shortest route with both its ends."""
         pair = start, end
         if pair not in self._found:
             if len(self._found) >= _REMEMBERED:
@@ -138,7 +138,7 @@ class _Ways:
         return not any(enters(a, b, area) for area in self.areas)
 
     def _shortest(self, start: Corner, end: Corner) -> list[Corner] | None:
-        """Dijkstra's way over the corners, those nearer the end first; of equals the first."""
+        """Search with A* over the corners; of equally short routes the first found."""
         turns = self._corners()
         last = len(turns)
         rest = [*(dist(turn, end) for turn in turns), 0.0]
@@ -214,7 +214,7 @@ def permitted_way(airspace: Airspace, drone: str, start: Point, end: Point) -> t
 
 
 def way_from(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
-    """Return such a way; one that begins where no drone may be leads back in first."""
+    """Return such a route; one that begins outside the permitted area leads back in first."""
     if airspace.problem(start) is None or airspace.problem(end) is not None:
         return permitted_way(airspace, drone, start, end)
     back = airspace.way_back(start)

@@ -1,4 +1,4 @@
-"""What a generated package says about itself: its words, its fields and its flow."""
+"""The description of an app by its generated package: its fields, actions, hooks and flow."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Flow = Callable[[Any], Coroutine[Any, Any, Status]]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class App:
-    """An app: everything that its command line and its engine need to know of it."""
+    """An app: everything that its command line and its engine need to know."""
 
     name: str
     title: str
@@ -30,8 +30,8 @@ class App:
     """The fields that exist besides the basic ones, missions' before trips'."""
     categories: tuple[Category, ...]
     actions: Mapping[str, Action]
-    """Every action there is, ours before the app's own."""
+    """All actions, the built-in ones before the app's own."""
     evaluators: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
     """The app's evaluators, by name."""
     resumes: tuple[str, ...] = ()
-    """The blocks at which an interrupted mission can go on: `flow` can be entered there."""
+    """The blocks at which an interrupted mission can resume: `flow` can be entered there."""

@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class PlutoError(Exception):
-    """Something that the user of an app can mend; the message says where and how."""
+    """An error that the user of an app can fix; the message says where and how."""
 
 
 class BadInput(PlutoError):
@@ -14,7 +14,7 @@ class BadInput(PlutoError):
 
 
 class Failure(Enum):
-    """Why a flight did not succeed."""
+    """Why a flight failed."""
 
     CRASH = "crash"
     LINK = "link"
@@ -25,7 +25,7 @@ class Failure(Enum):
 
 
 class FlightFailed(PlutoError):
-    """A drone could not finish what it was told: raised by navigation."""
+    """A drone could not finish its job: raised by navigation."""
 
     def __init__(self, failure: Failure, reason: str) -> None:
         super().__init__(reason)
@@ -37,18 +37,18 @@ class ActionFailed(PlutoError):
 
 
 class MissionFailed(PlutoError):
-    """A failure that no retry can mend: the mission ends at once, even if its graph would go on."""
+    """A failure that no retry can repair: the mission ends at once, even if its graph would continue."""
 
 
 def nothing_to_fly(reason: str) -> MissionFailed:
-    """Return the error of a mission that shall fly on, and has no trip left; it may have failed before."""
+    """Return the error of a mission that is to fly and has no trip left; it may have failed before."""
     return MissionFailed(
         f"{reason}; no trip is left to fly" if reason else "no trip is left to fly"
     )
 
 
 class HookFault(MissionFailed):
-    """A hook raised what it may not, or returned what it did not declare."""
+    """A hook raised an error, or returned what it did not declare."""
 
     def __init__(self, reason: str, detail: str = "") -> None:
         super().__init__(reason)
@@ -56,8 +56,8 @@ class HookFault(MissionFailed):
 
 
 class Cancelled(BaseException):
-    """Thrown into a coroutine that is no longer wanted."""
+    """Raised in a coroutine that is cancelled."""
 
 
 ANY_ERROR: tuple[type[BaseException], ...] = (BaseException,)
-"""To catch all that a coroutine or a hook may end with, and hand it on to those who wait for it."""
+"""Catches everything with which a coroutine or a hook may end, to pass it on to its waiters."""

@@ -50,7 +50,7 @@ class Field:
     on: Entity
     type: FieldType
     label: str
-    """As a screen asks for it."""
+    """Its label on a screen."""
     doc: str = ""
     """A sentence for pages. In a generated package it stands beside the attribute instead."""
     default: int | float | None = None
@@ -59,7 +59,7 @@ class Field:
 def wrong_field(
     fields: Iterable[Field], entity: Entity, of: object, evaluators: Container[str]
 ) -> str | None:
-    """Return what a hook has put into a field that no block can go by; None: all is well."""
+    """Return what is wrong with a field that a hook has set, or None."""
     for field in fields:
         value = getattr(of, field.name, None) if field.on is entity else None
         if value is None or (type(value) is bool and field.type is FieldType.ROUNDS):
@@ -75,7 +75,7 @@ def wrong_field(
 
 
 def number_of(value: object) -> float | None:
-    """Return a number that is finite and not too large, as one of Python's own; None: it is none."""
+    """Return a finite number of bounded size as a plain `int` or `float`; None: it is not one."""
     kind, number = type(value), nan
     try:
         if kind is not bool and hasattr(kind, "__index__"):

@@ -1,4 +1,4 @@
-"""A fleet as its file describes it: the map, the drones, and the world that a simulation shows them."""
+"""A fleet as its file describes it: the map, the drones, and the world that is simulated."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .model import AfterTrip, Point
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Feature:
-    """Something on the ground that a photo can show."""
+    """An object on the ground that a photo can show."""
 
     kind: str
     at: Corner
@@ -31,7 +31,7 @@ class Source:
     """Metres within which most of it stays: the standard deviation of a bell curve."""
 
     def at_distance(self, x: float, y: float) -> float:
-        """Return what there is of it so many metres away, however narrow or wide it is."""
+        """Return its contribution at a distance in metres."""
         away, spread = x * x + y * y, 2 * self.radius * self.radius
         if away == 0.0 or spread == inf:
             return self.peak
@@ -50,7 +50,7 @@ class WorldData:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneData:
-    """A drone as the fleet file has it."""
+    """A drone as the fleet file describes it."""
 
     id: str
     category: str
@@ -60,7 +60,7 @@ class DroneData:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FleetData:
-    """What the brain must know of a fleet."""
+    """What the brain needs to know about a fleet."""
 
     airspace: Airspace
     drones: Sequence[DroneData]

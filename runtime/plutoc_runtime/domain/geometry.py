@@ -23,7 +23,7 @@ _SHARP = 0.5
 
 
 def covers_ground(corners: Sequence[Corner]) -> bool:
-    """Say whether these corners are those of an area, and do not all lie on one line."""
+    """Return whether these corners enclose an area, and are not all on one line."""
     turns = pairwise([*corners, *corners[:1]])
     return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in turns)) >= 1e-9
 
@@ -44,7 +44,7 @@ def _apart(a: Corner, b: Corner) -> bool:
 
 
 def inside(point: Corner, polygon: Polygon) -> bool:
-    """Say whether a point is inside a polygon, and not merely on its edge."""
+    """Return whether a point is inside a polygon, and not merely on its edge."""
     x, y = point
     within = False
     for (ax, ay), (bx, by) in zip(polygon, polygon[1:] + polygon[:1], strict=True):
@@ -70,7 +70,7 @@ def edge_points(point: Corner, polygon: Polygon, margin: float) -> list[Corner]:
 
 
 def distance(point: Corner, a: Corner, b: Corner) -> float:
-    """Return how far a point is from the nearest of a straight leg."""
+    """Return the distance of a point from a straight leg."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     square = dx * dx + dy * dy
     along = ((point[0] - a[0]) * dx + (point[1] - a[1]) * dy) / square if square else 0.0
@@ -96,7 +96,7 @@ def outlined(corners: Sequence[Corner]) -> Area:
 
 
 def enters(start: Corner, end: Corner, area: Area) -> bool:
-    """Say whether a straight leg goes through an area's inside, be it ever so concave."""
+    """Return whether a straight leg crosses the inside of an area, concave ones included."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     if len(area.corners) < 3 or _passes_by(start, dx, dy, area):
         return False

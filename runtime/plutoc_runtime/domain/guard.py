@@ -1,7 +1,7 @@
-"""How the code of the app's developer is called: what it raises is its own fault.
+"""How hooks are called: an error that they raise is theirs.
 
-Alone, the brain takes every `KeyboardInterrupt` for a person's Ctrl-C. A library that runs an app in a
-process knows more of that process and its signals, and puts a guard of its own here.
+Alone, the brain takes every `KeyboardInterrupt` for the user's Ctrl-C. The library handles the signals
+of its process, and installs a guard of its own here.
 """
 
 from __future__ import annotations
@@ -14,53 +14,53 @@ from .errors import Cancelled
 T = TypeVar("T")
 
 NOT_ITS_OWN = (Cancelled, GeneratorExit, KeyboardInterrupt)
-"""What ends coroutines, or the whole app, when it is not a hook that raises it."""
+"""What ends a coroutine, or the whole app, unless it is a hook that raises it."""
 
 
 class Guard:
-    """Calls hooks, and knows of their errors only what they are."""
+    """Calls hooks, and tells their errors from the user's Ctrl-C by the type alone."""
 
     def call(self, code: Callable[[], T]) -> T:
-        """Call a hook, or go on with it; it raises nothing that would end more than itself."""
+        """Call a hook, or resume it; its errors end nothing but the hook."""
         try:
             return code()
         except NOT_ITS_OWN as error:
             raise as_a_fault(error) from error.__cause__
 
     def by_a_person(self, error: BaseException) -> bool:
-        """Say whether this is a person's Ctrl-C, or, where that cannot be told, may be."""
-        return issubclass(type(error), KeyboardInterrupt)  # it is asked nothing: it may be anything
+        """Return whether this is the user's Ctrl-C, or may be."""
+        return issubclass(type(error), KeyboardInterrupt)  # not `isinstance`: a class may lie
 
 
 _guard = Guard()
 
 
 def put(guard: Guard) -> None:
-    """Have all hooks called by this guard from now on."""
+    """Install this guard for all hooks."""
     global _guard
     _guard = guard
 
 
 def guarded(code: Callable[[], T]) -> T:
-    """Call a hook, or go on with it, so that its errors end nothing else."""
+    """Call a hook, or resume it, with the installed guard."""
     return _guard.call(code)
 
 
 def by_a_person(error: BaseException) -> bool:
-    """Say whether this is a person's Ctrl-C and no error of a hook."""
+    """Return whether this is the user's Ctrl-C and not an error of a hook."""
     return _guard.by_a_person(error)
 
 
 def as_a_fault(error: BaseException) -> BaseException:
-    """Return what those who called a hook get for what it raised: nothing that would end them."""
+    """Return the error that a hook's caller gets for what it raised: one that does not end the caller."""
     if issubclass(type(error), NOT_ITS_OWN) and not by_a_person(error):
-        name: str = type.__dict__["__name__"].__get__(type(error))  # a class may refuse to say it
+        name: str = type.__dict__["__name__"].__get__(type(error))  # a metaclass may hide it
         return RuntimeError(f"it may not raise {name[:_LONGEST]}")
     return error
 
 
 def unless_by_a_person(error: BaseException) -> None:
-    """Raise a person's Ctrl-C on; all else is an error of the object that was asked something."""
+    """Raise the user's Ctrl-C again; any other error belongs to the object that was inspected."""
     if by_a_person(error):
         raise error
 

@@ -1,4 +1,4 @@
-"""Missions and trips as plain data: how they are now that a hook has changed them."""
+"""Missions and trips as plain data, after a hook has changed them."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ Data = dict[str, Any]
 
 
 def fields_of(app: App, entity: Entity, of: object) -> Data:
-    """Return what is filled in of the fields that the app's graph adds to missions or to trips."""
+    """Return the filled-in fields that the app's graph adds to missions or to trips."""
     given = {field: getattr(of, field.name) for field in app.fields if field.on is entity}
     return {f.name: _plain(value) for f, value in given.items() if value is not f.default}
 
 
 def change_data(app: App, mission: Mission[Any]) -> Data:
-    """Return how a mission is now that a hook has changed it."""
+    """Return the state of a mission that a hook has changed."""
     return {
         "mission": mission.name,
         "todo": [trip_data(app, trip) for trip in mission.trips],
@@ -35,7 +35,7 @@ def change_data(app: App, mission: Mission[Any]) -> Data:
 
 
 def trip_data(app: App, trip: Trip) -> Data:
-    """Return a trip as it stands; what is as with every new trip is left out."""
+    """Return a trip without the values that every new trip has."""
     data: Data = {
         "name": _plain(trip.name),
         "action": _plain(trip.action),
@@ -63,7 +63,7 @@ def trip_data(app: App, trip: Trip) -> Data:
 
 
 def _plain(value: object) -> object:
-    """Return what its user or a hook gave a field, as text if a hook gave it something odd."""
+    """Return a field's value, as text if a hook set it to something that is not plain data."""
     kind = type(value)
     if kind in _SIMPLE:
         return value
@@ -78,11 +78,11 @@ def _plain(value: object) -> object:
 
 _SIMPLE = (type(None), bool, float, str)
 MOST_BITS = int(MOST_DIGITS / log10(2))
-"""A number with more is kept as text."""
+"""Bits of a number; a longer one is kept as text."""
 
 
 def _place(point: Sequence[float]) -> list[object]:
-    """Return a place, which a hook may have made of anything; TypeError: it is no place at all."""
+    """Return a point, which a hook may have made of anything; raise `TypeError` if it is not one."""
     if not issubclass(type(point), (tuple, list)) or len(point) > _COORDINATES:
         raise TypeError(f"a place is (x, y, z), not {shown(point)[:_COORDINATES * 20]}")
     return [_plain(number) for number in point]

@@ -23,7 +23,7 @@ Point = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Category:
-    """A shape category: what drones of one kind carry and do (thesis 4.1). SI units."""
+    """A shape category: what drones of one kind can carry and do (thesis 4.1). SI units."""
 
     name: str
     payload: float = 0.010
@@ -38,13 +38,13 @@ class Category:
     """The most that it may fly at; None: `speed`, which is the mean over a way."""
 
     def can(self, action: str) -> bool:
-        """Say whether drones of this category do the action."""
+        """Return whether drones of this category can do the action."""
         return self.actions is None or action in self.actions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Item:
-    """What `pick_item` takes along and `release_item` puts down; kilograms."""
+    """What `pick_item` picks and `release_item` puts down; kilograms."""
 
     name: str
     mass: float
@@ -52,7 +52,7 @@ class Item:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Photo:
-    """A photo straight down: what `take_photo` gives."""
+    """A photo straight down, the result of `take_photo`."""
 
     position: Point
     """Where the camera really was."""
@@ -68,7 +68,7 @@ class Photo:
 
 
 class AfterTrip(Enum):
-    """Where a drone goes when its trip is over."""
+    """Where a drone goes after a trip."""
 
     HOME = "home"
     STAY = "stay"
@@ -76,7 +76,7 @@ class AfterTrip(Enum):
 
 
 class Telemetry(Protocol):
-    """What navigation knows of a drone now."""
+    """The current state of a drone, as its navigation knows it."""
 
     @property
     def location(self) -> Point:
@@ -85,17 +85,17 @@ class Telemetry(Protocol):
 
     @property
     def battery_level(self) -> float:
-        """What is left in the battery, from 0 to 1."""
+        """The charge of the battery, from 0 to 1."""
         ...
 
     @property
     def landed(self) -> bool:
-        """Whether it stands still on the ground or in its dock."""
+        """Whether it stands on the ground or in its dock."""
         ...
 
     @property
     def silence(self) -> float:
-        """Seconds since it last told anything of itself; infinite: it never has."""
+        """Seconds since its last message; infinite: it has sent none."""
         ...
 
 

@@ -18,7 +18,7 @@ T = TypeVar("T")
 
 
 class Type(Enum):
-    """What a parameter or a field holds. The names are those of the language."""
+    """The type of a parameter or a field, named as in the language."""
 
     INT = "int"
     FLOAT = "float"
@@ -102,13 +102,13 @@ def parse_quantity(text: str, kind: Type) -> float:
 
 
 LARGEST = 1e9
-"""No plan needs more, and nothing that is computed from less overflows: 30 years, for a time."""
+"""The largest number in a plan: 30 years, for a time; nothing computed from it overflows."""
 
 
 def number_from(
     kind: Type, least: float = -LARGEST, most: float = LARGEST, *, or_none: bool = False
 ) -> Callable[[object], float]:
-    """Return what reads a number of a plan, with a unit or in SI units, within limits.
+    """Return a reader for a number of a plan, with a unit or in SI units, within limits.
 
     `or_none`: 0 is as good.
     """
@@ -126,7 +126,7 @@ def number_from(
 
 
 def time_from(text: str) -> float:
-    """Read a time that is more than nothing: 7200, "2 h"."""
+    """Read a positive time: 7200, "2 h"."""
     try:
         seconds = parse_quantity(text, Type.TIME)
     except ValueError as error:
@@ -137,7 +137,7 @@ def time_from(text: str) -> float:
 
 
 def typed(read: Callable[[str], T]) -> Callable[[str], T]:
-    """Return the same for argparse, which then says what is wrong as it was said."""
+    """Wrap a reader for argparse, so that argparse shows its message."""
     from argparse import ArgumentTypeError
 
     def converted(text: str) -> T:

@@ -1,4 +1,4 @@
-"""The central store of what actions gave (thesis 6.1.3): append-only, across missions."""
+"""The central store of the actions' results (thesis 6.1.3): append-only, across missions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ T = TypeVar("T", bound=Trip)
 
 
 class Result(NamedTuple, Generic[M, T]):
-    """What one action gave; (mission, trip, round, attempt) tells it from all others."""
+    """The result of one action, identified by (mission, trip, round, attempt)."""
 
     mission: M
     trip: T
@@ -22,7 +22,7 @@ class Result(NamedTuple, Generic[M, T]):
 
 
 class View(Sequence[Result[Any, Any]]):
-    """Some of the results, by their numbers: a list of its own would be copied for each evaluation."""
+    """A read-only view of some results, by their numbers: nothing is copied for each evaluation."""
 
     __slots__ = ("_numbers", "_results")
 
@@ -49,21 +49,21 @@ class View(Sequence[Result[Any, Any]]):
 
 
 class Results(NamedTuple, Generic[M, T]):
-    """What an evaluator gets to judge."""
+    """The results that an evaluator gets."""
 
     new: Sequence[Result[M, T]]
-    """The mission's results since its evaluator was last asked."""
+    """The mission's results since its last evaluation."""
     all: Sequence[Result[M, T]]
-    """Every result of the app, of all missions."""
+    """The results of all missions."""
 
 
 class ResultStore:
-    """Where results are kept; those of one mission are a chain that `mission.last_result` begins."""
+    """Stores the results; those of one mission are a linked list, headed by `mission.last_result`."""
 
     def __init__(self) -> None:
         self._results: list[Result[Any, Any]] = []
         self._before: list[int] = []
-        """The number of the result before each in its mission's chain."""
+        """For each result, the number of the previous one of its mission."""
 
     def __len__(self) -> int:
         return len(self._results)
@@ -71,18 +71,18 @@ class ResultStore:
     def add(
         self, mission: Mission[Any], trip: Trip | None, round_: int, attempt: int, value: object
     ) -> int:
-        """Keep what an action gave, and return its number."""
+        """Store the result of an action, and return its number."""
         self._results.append(Result(mission, trip, round_, attempt, value))
         self._before.append(mission.last_result)
         return len(self._results) - 1
 
     @property
     def newest(self) -> object:
-        """What the action gave that was done last."""
+        """The value of the latest result."""
         return self._results[-1].value
 
     def so_far(self) -> View:
-        """Return every result there is by now."""
+        """Return all results up to now."""
         return View(self._results, range(len(self._results)))
 
     def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:

@@ -1,4 +1,4 @@
-"""Where a mission, a trip and a drone stand (thesis 4.1, and what it left open)."""
+"""The statuses of missions, trips and drones (thesis 4.1, and what it left open)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class Status(Enum):
-    """Where a mission stands. Blocks see the first five; the others exist outside the graph."""
+    """The status of a mission. Blocks see the first five; the others exist outside the graph."""
 
     UNEXECUTED = "UNEXECUTED"
     RUNNING = "RUNNING"
@@ -22,7 +22,7 @@ class Status(Enum):
 
 
 class TripStatus(Enum):
-    """Where a trip stands. SKIPPED exists outside the graph."""
+    """The status of a trip. SKIPPED exists outside the graph."""
 
     WAITING = "WAITING"
     EXECUTING = "EXECUTING"
@@ -32,7 +32,7 @@ class TripStatus(Enum):
 
 
 class DroneStatus(Enum):
-    """Where a drone stands. It is FREE only when landed, healthy and above its reserve."""
+    """The status of a drone. It is FREE only when landed, healthy and above its reserve."""
 
     FREE = "FREE"
     BUSY = "BUSY"
@@ -51,4 +51,4 @@ IN_GRAPH = (UNEXECUTED, RUNNING, STANDBY, COMPLETED, FAILED)
 """The statuses that edges carry, in declared order."""
 
 WORST_FIRST = (FAILED, STANDBY, COMPLETED, RUNNING, UNEXECUTED)
-"""What a gate that waits for all passes on: the worst of what arrived."""
+"""The order in which a gate that waits for all chooses the status that it passes on."""

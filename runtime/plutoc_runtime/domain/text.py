@@ -1,4 +1,4 @@
-"""How numbers, places and names are written for people."""
+"""Formatting numbers, places and names for people."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ LONGEST = 60
 
 
 def quoted(text: str) -> str:
-    """Put a user's word in quotes; nothing in it can command a terminal."""
+    """Quote a user's text, with control characters escaped."""
     return f'"{printable(cut_off(text, LONGEST))}"'
 
 
 def in_shell(text: object) -> str:
-    """Write a word of a command line so that a shell takes it as it is, and runs nothing of it."""
-    from shlex import quote  # only who is told what to type needs it
+    """Quote a word of a command line for a shell."""
+    from shlex import quote  # rarely needed
 
     word = str(text)
     if word.isprintable():
@@ -30,18 +30,18 @@ def in_shell(text: object) -> str:
 
 
 def number(value: float) -> str:
-    """Write a number with three decimals at most: 2, 0.5, 1.333."""
+    """Format a number with up to three decimals: 2, 0.5, 1.333."""
     text = f"{value:.3f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 
 
 def place(point: Sequence[float]) -> str:
-    """Write where something is on the map."""
+    """Format a point of the map."""
     return f"({number(point[0])}, {number(point[1])})"
 
 
 def duration(seconds: float) -> str:
-    """Write a time: 42.5 s, 3 min 20 s, 2 h 5 min."""
+    """Format a duration: 42.5 s, 3 min 20 s, 2 h 5 min."""
     if seconds < 60:
         return f"{number(round(seconds, 1))} s"
     whole = round(seconds)
@@ -52,52 +52,52 @@ def duration(seconds: float) -> str:
 
 
 def mass(kilograms: float) -> str:
-    """Write a mass: 8 g, 1.5 kg."""
+    """Format a mass: 8 g, 1.5 kg."""
     if kilograms < 1:
         return f"{number(kilograms * 1000)} g"
     return f"{number(kilograms)} kg"
 
 
 def percent(share: float) -> str:
-    """Write a share: 20 %."""
+    """Format a share: 20 %."""
     return f"{share * 100:.0f} %"
 
 
 def counted(count: int, one: str, many: str | None = None) -> str:
-    """Write how many there are: 1 trip, 2 trips."""
+    """Format a count: 1 trip, 2 trips."""
     return f"{count} {one if count == 1 else many or one + 's'}"
 
 
 def of(drone: str, reason: str) -> str:
-    """Say of which drone a reason speaks, if it does not say so itself."""
+    """Add the drone to a reason that does not name it."""
     return reason if reason.startswith(f"{drone} ") else f"{drone}: {reason}"
 
 
 def printable(text: str) -> str:
-    """Escape what a terminal would take as a command."""
+    """Escape control characters."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def cut_off(text: str, longest: int) -> str:
-    """Write no more of a text than so many characters."""
+    """Truncate a text to a number of characters."""
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
 def bounded(text: str, longest: int) -> str:
-    """Write no more of a text than so many characters, and how long it is."""
+    """Truncate a text to a number of characters, and add its length."""
     if len(text) <= longest:
         return text
     return f"{text[:longest]}… ({len(text):,} characters in all)"
 
 
 def text_of(value: object, otherwise: str = "") -> str:
-    """Return what an object says of itself, or something else where it cannot be asked."""
+    """Return `str(value)`, or a default if that raises."""
     kind = type(value)
     if kind is str:
         return cast("str", value)
     try:
         if issubclass(kind, BaseException) and kind.__str__ in (_AN_ERRORS, KeyError.__str__):
-            given = cast("BaseException", value).args  # which may be anything, and are asked alike
+            given = cast("BaseException", value).args  # which may be anything
             if len(given) != 1:
                 return shown(given) if given else ""
             return text_of(given[0], otherwise) if kind.__str__ is _AN_ERRORS else shown(given[0])
@@ -113,7 +113,7 @@ _AN_ERRORS = BaseException.__str__
 
 
 def shown(value: object) -> str:
-    """Write any value so that it is the same text in every run, and no longer than a page or two."""
+    """Format any value as a bounded text that is the same in every run."""
     try:
         if value is None or type(value) in (bool, float):
             return repr(value)
@@ -124,7 +124,7 @@ def shown(value: object) -> str:
 
 
 def class_of(value: object) -> str:
-    """Return the name of a value's class, which may be of a class of its own and refuse to say it."""
+    """Return the name of a value's class, even if its metaclass hides it."""
     name: str = type.__dict__["__name__"].__get__(type(value))
     return bounded(str.__str__(name), LONGEST)
 
@@ -140,7 +140,7 @@ _HOLDING: tuple[Any, ...] = (list, tuple, dict)
 
 
 class _Everything(Repr):
-    """Like `repr`, but sets are sorted, it comes to an end, and an object's error is no error here."""
+    """Like `repr`, but sorted, bounded, and safe against objects that raise."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -159,7 +159,7 @@ class _Everything(Repr):
         return super().repr1(x, level) if self._left >= 0 else "…"
 
     def repr_int(self, x: int, level: int) -> str:
-        """Write a number, which may have more digits than Python writes."""
+        """Format an integer, which may have more digits than Python allows."""
         digits = int(x.bit_length() * log10(2)) + 1
         return super().repr_int(x, level) if digits < MOST_DIGITS else f"<int of {digits:,} digits>"
 

@@ -1,4 +1,4 @@
-"""What happened, in order: every transition is one event, and nothing else tells what happened."""
+"""The trace: every transition is one event, in order, and the only record of a run."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ Event = Mapping[str, object]
 
 
 class Clock(Protocol):
-    """What tells the time of an event: the kernel."""
+    """The clock of the events: the kernel."""
 
     now: float
     """Seconds since the start."""
 
 
 class Trace:
-    """The events of one run, told to its listeners; without any, they cost nothing."""
+    """Sends the events of one run to its listeners; without any, events cost nothing."""
 
     def __init__(self, clock: Clock, listeners: Sequence[Callable[[Event], object]]) -> None:
         self.live = bool(listeners)
-        """Whether there is a listener: ask before you put an event together."""
+        """Whether there is a listener: check it before composing an event."""
         self._clock, self._listeners = clock, tuple(listeners)
         self._now = self._t = 0.0
-        """The instant of the last event, and how it is written: several happen at one."""
+        """The instant of the last event, and that instant rounded: several events share one."""
 
     def note(self, event: str, **facts: object) -> None:
-        """Something happened now."""
+        """Send an event, with the current time."""
         now = self._clock.now
         if now is not self._now:
             self._now, self._t = now, round(now, 6)
@@ -39,12 +39,12 @@ class Trace:
 
 
 def dumped(value: object) -> str:
-    """Write plain data as JSON on one line."""
+    """Return plain data as JSON on one line."""
     return json.dumps(rounded(value), allow_nan=False)
 
 
 def rounded(value: object) -> object:
-    """Return plain data with every number rounded to three decimals; what is no number is null."""
+    """Return plain data with every number rounded to three decimals; NaN and infinity become null."""
     match value:
         case float():
             return round(value, 3) + 0.0 if isfinite(value) else None  # + 0.0: never -0.0

@@ -1,1 +1,1 @@
-"""The drones: who is free, who can fly what, who gets one, and how they are commanded."""
+"""The drones: their statuses, what each can fly, their allocation, and how they are commanded."""

@@ -1,6 +1,6 @@
-"""The drones: who is free, who flies home, who charges, who is lost.
+"""The statuses of the drones: free, returning, charging, recovering, lost.
 
-The one place where a drone changes its status, but for the moment of its allocation.
+The only place where a drone's status changes, except at its allocation.
 """
 
 from __future__ import annotations
@@ -44,22 +44,22 @@ class Fleet:
         self._navigation, self._after_trip = navigation, after_trip
         self._stays = after_trip is AfterTrip.STAY
         self.errands: dict[Drone, Task[None]] = {}
-        """What drones do for themselves."""
+        """The tasks of drones that return, land, recover or charge."""
         self._change: Future[None] | None = None
-        """The next change of any drone, if it is waited for."""
+        """Set at the next change of any drone, if something waits for it."""
         self.unready: dict[Drone, str] = {}
-        """Those that are lost, or could not fly when they were asked, and why."""
+        """Drones that are lost, or not ready to fly, and why."""
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
-        """A drone is about to fly for a mission: what it was doing for itself is over."""
+        """End what a drone does by itself: it is about to fly for a mission."""
         self.unready.pop(drone, None)
         errand = self.errands.pop(drone, None)
         if errand is not None:
             errand.cancel()
 
     def keep(self, drone: Drone, lose: Callable[[str], None]) -> None:
-        """A drone with an item aboard lands where it is and waits for its mission.
+        """Land a drone with an item aboard where it is, to wait for its mission.
 
         If it cannot, its mission loses it: `lose` is told why.
         """
@@ -74,7 +74,7 @@ class Fleet:
         self._send(drone, DroneStatus.BUSY, land, "waits with its item")
 
     def dismiss(self, drone: Drone) -> None:
-        """A drone has done what it was allocated for."""
+        """Take a drone back whose trip has ended well."""
         telemetry = drone.telemetry
         if (
             telemetry.landed
@@ -89,20 +89,20 @@ class Fleet:
             self._send(drone, DroneStatus.RETURNING, self._stay, "lands")
 
     def send_home(self, drone: Drone) -> None:
-        """A drone goes home."""
+        """Send a drone home."""
         self._send(drone, DroneStatus.RETURNING, self._return, "returns")
 
     def recover(self, drone: Drone, reason: str = "") -> None:
-        """A drone's flight has failed, for this reason: it is not handed out before it is home."""
+        """Recover a drone whose flight has failed: it is not allocated again before it is home."""
         back = partial(self._bring_back, reason=reason)
         self._send(drone, DroneStatus.RECOVERING, back, "recovers")
 
     def never_flew(self, drone: Drone) -> None:
-        """A drone was allocated and is not needed after all."""
+        """Take a drone back that was allocated and not launched."""
         self._send(drone, DroneStatus.BUSY, self._stay, "is not needed")
 
     async def all_down(self) -> None:
-        """Wait until every drone has done what it does for itself: return, land, recover."""
+        """Wait until no drone is returning, landing or recovering."""
         while under_way := [task for task in self.errands.values() if not task.is_set]:
             await under_way[0].ended()
 
@@ -152,7 +152,7 @@ class Fleet:
             change.set(None)
 
     async def _land(self, drone: Drone) -> bool:
-        """Land a drone where it is, and say whether it could; it is brought home otherwise."""
+        """Land a drone where it is, and return whether it could; otherwise recover it."""
         try:
             await self._navigation.land(drone.id)
         except FlightFailed as error:
@@ -192,7 +192,7 @@ class Fleet:
             await self._settle(drone)
 
     async def _bring_back(self, drone: Drone, reason: str) -> None:
-        """Bring a drone home whose flight has failed for this reason, or give it up as lost."""
+        """Bring a drone home after a failed flight, or give it up as lost."""
         self._become(drone, DroneStatus.RECOVERING)
         if await self._navigation.recover(drone.id):
             self.unready.pop(drone, None)
@@ -202,17 +202,17 @@ class Fleet:
             self._become(drone, DroneStatus.LOST)
 
     async def _why_lost(self, drone: Drone, reason: str) -> str:
-        """Return why a drone is lost whose flight failed for this reason."""
+        """Return the reason for which a drone is lost after a failed flight."""
         return cut_off(printable(reason), LONGEST) or "it could not be brought home"
 
     async def _settle(self, drone: Drone) -> None:
-        """It stands on the ground, well: is there enough in its battery to be handed out?"""
+        """Free a healthy drone on the ground if its battery allows it, or charge it."""
         if not self._rests(drone):
             self._become(drone, DroneStatus.RETURNING)
             await self._return(drone)
 
     def _rests(self, drone: Drone) -> bool:
-        """Let it be handed out, or charge first; False: it must go home for that."""
+        """Free it, or charge it first; return False if it must go home for that."""
         missing = drone.category.reserve - drone.battery_level
         if missing < 0:
             self._become(drone, _FREE)
@@ -227,7 +227,7 @@ class Fleet:
         return True
 
     def _charged(self, drone: Drone) -> None:
-        """Its time is over; a real battery need not keep to that: then look again later."""
+        """Free a drone whose charging time is over; check again later if its battery is still low."""
         if drone.status is not DroneStatus.CHARGING:
             return
         if drone.battery_level > drone.category.reserve:
@@ -237,13 +237,13 @@ class Fleet:
             self._kernel.at(later, EventKind.CLOCK, self._key(drone), partial(self._charged, drone))
 
     def _fetch_what_is_low(self) -> None:
-        """Missions wait for drones that stand away from home with too little in their batteries."""
+        """Send home to charge the drones that missions wait for."""
         for drone in self.queue.too_low():
             if not self._is_docked(drone) and self.queue.room:
                 self.send_home(drone)
 
     def is_low(self, drone: Drone) -> bool:
-        """Whether there is little more in it than the way home takes."""
+        """Whether its battery holds little more than the way home takes."""
         return drone.battery_level < drone.category.reserve + 0.2
 
     def _is_stray(self, drone: Drone) -> bool:
@@ -259,10 +259,10 @@ class Fleet:
 _FREE = DroneStatus.FREE
 
 _LOOK_AGAIN = 10.0
-"""Seconds between two looks at a battery that should be full enough by now."""
+"""Seconds between two checks of a battery that should be charged by now."""
 
 LONGEST = 500
-"""Characters of why a drone is lost."""
+"""Characters of the reason why a drone is lost."""
 
 _EVENT = {status: f"drone.{status.value.lower()}" for status in DroneStatus}
-"""What the event is called in which a drone's status becomes this."""
+"""The name of the event for each new status of a drone."""

@@ -1,10 +1,9 @@
 """How drones are flown: the protocol between the fleet and what moves its drones (thesis 4.4).
 
-Metres, seconds. A trip is one job, given once and reported once. What a drone does for itself
-(return, land, recover) are single commands, which return when they are done: on arrival, when
-landed; they raise `FlightFailed` when the drone cannot finish. A command that is cancelled leaves
-the drone hovering where it is. The protocol knows no missions: a job's id only tells one flight
-from another.
+Metres, seconds. A trip is one job, given once and reported once. Returning, landing and recovering
+are single commands, which return when they are done: on arrival, when landed; they raise
+`FlightFailed` when the drone cannot finish. A cancelled command leaves the drone hovering where it
+is. The protocol knows no missions: a job's id only identifies a flight.
 """
 
 from __future__ import annotations
@@ -17,21 +16,21 @@ if TYPE_CHECKING:
 
 
 J_contra = TypeVar("J_contra", contravariant=True)
-"""What a drone is to do for a trip: the brain gives a `Flight`."""
+"""The job for a trip: a `Flight` of the brain."""
 
 
 class Navigation(Protocol[J_contra]):
-    """A team of drones that can be flown, by their ids."""
+    """Commands a team of drones, by their ids."""
 
     def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
+        """Return a drone's telemetry, an object that is always current."""
         ...
 
     def fly(self, job: J_contra, report: Callable[[object], None]) -> None:
         """Take off, fly to the job's stops and do its action.
 
-        `report` is told once, and never from within this call, what the action gave or the
-        `FlightFailed` that ended it; with no action to do, None on arrival. It must be told within
+        `report` is called once, and never from within this call, with the action's result or the
+        `FlightFailed` that ended it; with no action to do, with None on arrival. It must be called within
         the kernel: from one of its events or coroutines, or by `kernel.post(report, result)`.
         """
         ...
@@ -44,19 +43,19 @@ class Navigation(Protocol[J_contra]):
         ...
 
     async def hold(self, drone: str) -> None:
-        """Hover, for as long as an action of the app's own takes; never returns by itself."""
+        """Hover while an action of the app's own is done, until cancelled."""
         ...
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what a drone that hovers measures under this name."""
+        """Return the value of a hovering drone's sensor or variable."""
         ...
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone that hovers has under this name."""
+        """Set a parameter of a hovering drone."""
         ...
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise to a height; does nothing for a drone that flies."""
+        """Take off to a height; does nothing for a drone that flies."""
         ...
 
     async def go_to(self, drone: str, target: Point) -> None:

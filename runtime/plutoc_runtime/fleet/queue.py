@@ -1,4 +1,4 @@
-"""The fleet's one queue: missions wait in it for a drone.
+"""The queue in which missions wait for a drone.
 
 It is served at the end of every instant in which something changed, so that all requests and all
 free drones of the instant are known: by priority, higher first, then by arrival. A free drone that
@@ -31,20 +31,20 @@ _in_the_file = attrgetter("index")
 
 
 Able = Callable[["Drone"], bool]
-"""Says whether a drone may fly the trip now. It can take a route: ask it of as few as will do."""
+"""Returns whether a drone can fly the trip now. It may search a route: call it for few drones."""
 
 Choice = tuple["Drone", str]
 """The drone that gets a trip, and why it was chosen."""
 
 OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
-"""Chooses one of the free drones, which come in the fleet's order, for a trip; None: none of them."""
+"""Chooses one of the free drones, in the fleet's order, for a trip, or None."""
 
 AllAtOnce = Callable[[Sequence[tuple["Trip", Able]], Sequence["Drone"]], Sequence[Choice | None]]
-"""Chooses a free drone, or None, for each of the trips that wait with one priority; none twice."""
+"""Chooses a different free drone, or None, for each of the trips that wait with one priority."""
 
 
 class Batch:
-    """A policy that looks at all trips at once: what decorates the function that does."""
+    """Decorates a policy that chooses for all waiting trips at once."""
 
     def __init__(self, policy: AllAtOnce) -> None:
         self._policy = policy
@@ -74,7 +74,7 @@ def lowest(
 
 
 class Request(Future["Drone"]):
-    """A mission that waits for a drone; it is set to the one that it gets."""
+    """A mission's request for a drone; as a future it is set to the drone that it gets."""
 
     __slots__ = ("_demand", "_levels", "_reach", "_trips", "policy", "trip", "why")
 
@@ -83,20 +83,20 @@ class Request(Future["Drone"]):
         self.error = self.waiter = self._value = self._watchers = None
         self.trip, self.policy = trips[0], policy
         self.why = ""
-        """Why it got its drone."""
+        """Why its drone was chosen."""
         self._levels = reach.levels(self.trip)
         self._reach, self._trips = reach, trips
         self._demand: Demand | None = None
 
     @property
     def demand(self) -> Demand:
-        """What it asks of a drone, exactly."""
+        """The exact requirements on a drone."""
         if self._demand is None:
             self._demand = Demand(self._reach, self._trips)
         return self._demand
 
     def able(self, drone: Drone) -> bool:
-        """Say whether a drone can fly the trip now."""
+        """Return whether a drone can fly the trip now."""
         level = drone.telemetry.battery_level
         return level >= self._levels[drone.category] or level >= self.level(drone)
 
@@ -105,12 +105,12 @@ class Request(Future["Drone"]):
         return None if self._levels[drone.category] <= 1.0 else self.demand.never(drone)
 
     def level(self, drone: Drone) -> float:
-        """Return what it takes in a drone's battery, where it stands; never: infinite."""
+        """Return the battery level that a drone needs from where it stands; infinite: it never suffices."""
         return inf if self.never(drone) is not None else self.demand.battery(drone)
 
 
 class Queue:
-    """The missions that wait, and the drones that they wait for."""
+    """The waiting requests, and the free drones."""
 
     def __init__(
         self, kernel: Kernel, reach: Reach, drones: Sequence[Drone], max_airborne: int | None
@@ -118,23 +118,23 @@ class Queue:
         self._kernel, self._reach = kernel, reach
         self._drones, self._max_airborne = drones, max_airborne
         self._entries: list[tuple[int, int, Request]] = []
-        """All that wait, in order, the last is served first: priority; arrival, below 0; request."""
+        """Sorted, the last is served first: (priority, minus the arrival number, request)."""
         self._fresh: list[Request] = []
-        """Those that have not been served yet."""
+        """The requests that have not been looked at yet."""
         self._arrivals = 0
         self._ready = [drone for drone in drones if drone.status is _FREE]
         """The free drones that may be chosen, in the fleet's order."""
         self._low: dict[Drone, float] = {}
-        """The other free drones: too low for all that has waited so far, and until when they are."""
+        """The other free drones: too low for every request so far, and until when."""
         self._lost = self._lost_before = sum(drone.status is _LOST for drone in drones)
-        """How many are lost, and how many were when it was last asked who can be served at all."""
+        """How many drones are lost, and how many were when the requests were last checked."""
         self._recheck: Timer | None = None
         self._recheck_at = inf
         self.served: Callable[[], None] = lambda: None
         """Called after each serving, while some still wait."""
 
     def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
-        """Wait for a drone for the first trip; the answer comes at the end of this instant or later."""
+        """Request a drone for the first trip; it is given at the end of this instant or later."""
         rank = +priority  # raises here, in its mission, if a hook has left something odd there
         request = Request(self._reach, trips, policy)
         self._arrivals += 1
@@ -144,12 +144,12 @@ class Queue:
         return request
 
     def leave(self, request: Request) -> None:
-        """Do not wait any longer."""
+        """Withdraw a request."""
         self._drop(request)
         request.is_set = True
 
     def moved(self, drone: Drone, before: DroneStatus) -> None:
-        """A drone had another status, or the same: serve the queue at the end of this instant."""
+        """Called when a drone's status was set: serve the queue at the end of this instant."""
         after = drone.status
         if before is _FREE and self._low.pop(drone, None) is None:
             self._ready.remove(drone)
@@ -159,12 +159,12 @@ class Queue:
         self.changed()
 
     def changed(self) -> None:
-        """Something changed: serve the queue at the end of this instant."""
+        """Serve the queue at the end of this instant."""
         if self._entries:
             self._kernel.last = self._serve
 
     def prioritise(self, trip: Trip, priority: int) -> None:
-        """The request for this trip has another priority from now on."""
+        """Change the priority of the request for this trip."""
         for place, (_, arrival, request) in enumerate(self._entries):
             if request.trip is trip:
                 self._entries[place] = (priority, arrival, request)
@@ -178,7 +178,7 @@ class Queue:
         return bool(self._entries)
 
     def standing(self) -> str:
-        """Say what the drones are doing: why a mission waits."""
+        """Return a summary of what the drones are doing: why a mission waits."""
         count = Counter(drone.status for drone in self._drones)
         return ", ".join(f"{count[s]} {s.value.lower()}" for s in DroneStatus if count[s])
 
@@ -190,17 +190,17 @@ class Queue:
 
     @property
     def low(self) -> Collection[Drone]:
-        """The free drones that no request can use, as they are now."""
+        """The free drones whose batteries are too low for every request."""
         return self._low.keys()
 
     def too_low(self) -> Iterator[Drone]:
-        """Give the free drones that waiting missions could use if they were charged."""
+        """Yield the free drones that waiting missions could use if they were charged."""
         for drone in sorted(self._low, key=_in_the_file):
             if any(request.never(drone) is None for request in self.waiters()):
                 yield drone
 
     def waiters(self) -> Iterator[Request]:
-        """Give the requests that wait."""
+        """Yield the waiting requests."""
         return (request for _, _, request in reversed(self._entries))
 
     # Serving
@@ -234,9 +234,9 @@ class Queue:
                     self._give(request, choice)
 
     def _share_among(self, last: int, policy: Batch) -> int:
-        """Share out among the request at this place and all before it of its policy and priority.
+        """Serve together the request at this index and all before it of the same policy and priority.
 
-        Return the place of the first of them.
+        Return the index of the first of them.
         """
         first, priority = last, self._entries[last][0]
         while first and self._entries[first - 1][0] == priority:
@@ -269,7 +269,7 @@ class Queue:
         del self._entries[place]
 
     def _refuse_what_cannot_be(self) -> None:
-        """Refuse new requests, and after a loss all that wait, if no drone is able."""
+        """Refuse requests that no drone can serve: new ones, and all after the loss of a drone."""
         asked = self._fresh if self._lost == self._lost_before else list(self.waiters())
         self._lost_before = self._lost
         for request in asked:
@@ -292,7 +292,7 @@ class Queue:
     # Drones that are too low
 
     def _put_back_the_charged(self) -> None:
-        """Those that have charged, and those that are high enough for a new request."""
+        """Make drones ready again that have charged, or that suffice for a new request."""
         now = self._kernel.now
         fresh = [request for request in self._fresh if not request.is_set]
         for drone, until in list(self._low.items()):
@@ -304,9 +304,9 @@ class Queue:
                 self._low[drone] = min(until, now + _charging(drone, least))
 
     def _put_aside_the_low(self) -> None:
-        """A docked drone that is too low for what waits will be high enough at a known time.
+        """Put drones aside that are too low for every request; a docked one until it has charged.
 
-        One that is high enough and was not given (no more may fly, a policy wants it not) stays.
+        A drone that suffices and was not chosen (by a policy, or as no more may fly) stays ready.
         """
         for drone in tuple(self._ready):
             if not any(request.able(drone) for request in self.waiters()):
@@ -325,7 +325,7 @@ class Queue:
 
 
 def _charging(drone: Drone, level: float) -> float:
-    """Return the seconds until a drone has charged so far where it stands; never: infinite."""
+    """Return the seconds until a drone has charged to a level where it stands; infinite: it never will."""
     charges = level < inf and docked(drone.location, drone.home)
     missing = level - drone.battery_level
     return missing * drone.category.charge_time + 0.001 if charges else inf

@@ -1,6 +1,6 @@
-"""Whether a drone can fly a trip and come home: what it can do, how long that takes, and the battery for it.
+"""Whether a drone can fly a trip and come home: its abilities, its time and its battery.
 
-One arithmetic for plan, allocation and simulation. The ground is at height 0. A drone in the air drains
+The same arithmetic for plan, allocation and simulation. The ground is at height 0. A drone in the air drains
 its battery evenly, moving or not.
 """
 
@@ -30,7 +30,7 @@ DOCK_REACH = 0.2
 
 
 def docked(landed_at: Point, home: Point) -> bool:
-    """Say whether a drone that landed there stands in its dock."""
+    """Return whether a drone that landed there stands in its dock."""
     if landed_at == home:
         return True
     return hypot(landed_at[0] - home[0], landed_at[1] - home[1]) <= DOCK_REACH
@@ -43,7 +43,7 @@ def flight_seconds(
     points: Sequence[Point],
     action_seconds: float,
 ) -> float:
-    """Return how long it takes to fly through all points and to do the actions on the way.
+    """Return how long it takes to fly through all points and do the actions on the way.
 
     A start on the ground (z = 0) counts the take-off to cruise height; a last point on the ground
     counts the landing there, from the height flown before. Infinite where no route leads.
@@ -71,7 +71,7 @@ def length(start: Point, way: Sequence[Point]) -> float:
 
 
 def share(category: Category, seconds: float) -> float:
-    """Return the share of a full battery that so much flying takes."""
+    """Return the share of a full battery that this much flying takes."""
     return seconds / category.flight_time
 
 
@@ -94,7 +94,7 @@ def needed(
 
 
 class Lacks(IntEnum):
-    """What a drone lacks for a trip, the farthest from doing it first."""
+    """What a drone lacks for a trip, in order of severity."""
 
     ACTION = 0
     PAYLOAD = 1
@@ -103,7 +103,7 @@ class Lacks(IntEnum):
 
 
 class Miss(NamedTuple):
-    """How far a drone is from being able."""
+    """What a drone lacks, and by how much."""
 
     lacks: Lacks
     by: float
@@ -155,9 +155,9 @@ def miss_of(
 
 
 def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> list[tuple[Point, float]]:
-    """Return where a chain leads, with the seconds that the drone is busy there.
+    """Return the stops of a chain, with the seconds that the drone is busy at each.
 
-    Between two trips of a chain it lands with its item, and rises again.
+    Between two trips of a chain it lands with its item, and takes off again.
     """
     stops: list[tuple[Point, float]] = []
     for place_, trip in enumerate(chain, start=1):
@@ -184,7 +184,7 @@ def _no_way(
 def grip_problem(
     drone: str, category: Category, aboard: Item | None, action: str, item: Item | None
 ) -> str | None:
-    """Return why a drone with this aboard cannot pick or release an item, or None."""
+    """Return why a drone with this item aboard cannot pick or release an item, or None."""
     if action == PICK:
         if item is None:
             return "there is nothing to pick"
@@ -200,7 +200,7 @@ def grip_problem(
 
 
 def wrong_aboard(trips: Sequence[Trip]) -> tuple[int, str] | None:
-    """Return the first trip with an item that cannot be aboard then, and why; None: all is well."""
+    """Return the first trip that picks or releases in the wrong order, and why, or None."""
     aboard: Item | None = None
     for place_, trip in enumerate(trips):
         if trip.action == PICK and aboard is not None:
@@ -219,7 +219,7 @@ def problems(
 ) -> list[str]:
     """Return a sentence for each trip that no drone could ever fly.
 
-    Unless it may go on `forever`, there is one for each mission that would, too.
+    Unless `forever` is allowed, also one for each mission that repeats without end.
     """
     kinds = {category.name: category for category in app.categories}
     found: list[str] = []
@@ -242,13 +242,13 @@ def problems(
 
 
 NO_WAY = 2.0
-"""A battery level that no drone ever has."""
+"""A battery level that no drone has."""
 
 
 class Reach:
-    """What gets a drone anywhere on the map and home again: most that stand ready have more.
+    """A cheap upper bound of the battery for a trip: most free drones are above it.
 
-    So most questions need no exact answer, which takes a route.
+    So the exact answer, which takes a route search, is seldom needed.
     """
 
     def __init__(self, app: App, airspace: Airspace) -> None:
@@ -260,9 +260,9 @@ class Reach:
         self._unknown = dict.fromkeys(app.categories, NO_WAY)
 
     def levels(self, trip: Trip) -> Mapping[Category, float]:
-        """Return a battery level for each category with which the trip can surely be flown.
+        """Return for each category a battery level that surely suffices for the trip.
 
-        `NO_WAY` where that takes a closer look: at an item, or at a place that is not on the map.
+        `NO_WAY` where only the exact check can tell: an item, or a place that is not on the map.
         """
         problem, start = self.airspace.problem, trip.source or trip.target
         if trip.item is not None or problem(start) or problem(trip.target):
@@ -281,7 +281,7 @@ class Reach:
 
 
 class Demand:
-    """What the next trip asks of a drone: that one alone, or from a pick all to its release."""
+    """The requirements of the next trip on a drone; from a pick on, of all trips to its release."""
 
     def __init__(self, reach: Reach, trips: Sequence[Trip]) -> None:
         self._app, self._airspace, self._chain = reach.app, reach.airspace, chain_of(trips)
@@ -297,7 +297,7 @@ class Demand:
         return self._never[key]
 
     def battery(self, drone: Drone) -> float:
-        """Return the battery level that it takes, the way home and the reserve included."""
+        """Return the required battery level, with the way home and the reserve."""
         key = category, home, here = drone.category, drone.home, drone.location
         if key not in self._levels:
             part = needed(category, self._airspace, here, self._stops, home)

@@ -1,1 +1,1 @@
-"""Calls to the code that the app's developer wrote, and what it is given."""
+"""Calling the app's hooks, and what they are given."""

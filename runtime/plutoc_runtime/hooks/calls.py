@@ -1,4 +1,4 @@
-"""Calls to the code that the app's developer wrote, and what its faults become."""
+"""Calling the app's hooks, and turning their faults into errors."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: obj
 
 
 class ProtectedFacts:
-    """What the runtime knows things by, while a hook has them in its hands: it may not change that."""
+    """Attributes that a hook may not change, such as names: saved before the call."""
 
     def __init__(self, of: object, *facts: str) -> None:
         self._of, self._facts = of, {fact: getattr(of, fact) for fact in facts}
 
     def put_back(self) -> str:
-        """Make it as it was; return what had been changed, or nothing."""
+        """Restore them; return the name of one that was changed, or nothing."""
         changed = ""
         for fact, value in self._facts.items():
             if getattr(self._of, fact, None) is not value:
@@ -46,12 +46,12 @@ class ProtectedFacts:
 
 
 def changed(hook: Hook, what: str, fact: str) -> HookFault:
-    """A hook has changed what is not its own."""
+    """Return the fault of a hook that changed a protected attribute."""
     return HookFault(f"hook {hook_name(hook)} changed the {what}'s {fact}, by which it is known")
 
 
 def look(hook: Hook, note: Callable[[Mission[Any]], object], mission: Mission[Any]) -> None:
-    """Let it be noted what a hook has changed; what cannot be kept is a fault of the hook."""
+    """Record what a hook has changed; a change that cannot be stored is a fault of the hook."""
     try:
         note(mission)
     except ANY_ERROR as error:
@@ -62,9 +62,9 @@ def look(hook: Hook, note: Callable[[Mission[Any]], object], mission: Mission[An
 
 
 def fault_of(hook: Hook, error: BaseException) -> HookFault:
-    """Return what becomes of an error that a hook raised.
+    """Return the error for what a hook raised.
 
-    Even `SystemExit` is a fault: it would end the flights of all others. An interrupt is the user's.
+    Even `SystemExit` is a fault: it would end all flights. A `KeyboardInterrupt` is the user's.
     """
     if issubclass(type(error), ActionFailed):
         text = bounded(text_of(error), LONGEST_REASON)
@@ -75,13 +75,13 @@ def fault_of(hook: Hook, error: BaseException) -> HookFault:
 
 
 def said(error: BaseException) -> str:
-    """Return an error's type and its text, if it has any to give."""
+    """Return an error's type and text."""
     text = f"{class_of(error)}: {text_of(error)}".removesuffix(": ")
     return bounded(text, LONGEST_REASON)
 
 
 def hook_name(hook: Hook) -> str:
-    """Return a hook's name, as its declaration has it."""
+    """Return a hook's name, as declared."""
     inner = getattr(hook, "func", hook)  # functools.partial carries its function so
     return str(getattr(inner, "__name__", inner))
 
@@ -118,7 +118,7 @@ def loaded(load: Callable[[], App]) -> App:
 
 
 def _explained(error: BaseException) -> str | None:
-    """Return what is wrong with the hooks; None: something else is wrong."""
+    """Return the message for an error of the hooks' module; None: the error is elsewhere."""
     from traceback import extract_tb  # not needed by those who only declare blocks
 
     if isinstance(error, AttributeError) and isinstance(error.obj, ModuleType):

@@ -1,4 +1,4 @@
-"""What a hook gets to work with."""
+"""The context that a hook gets."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ if TYPE_CHECKING:
 
 
 class LatestFlight(Protocol):
-    """The mission's latest flight: a future that is set when its trip is over."""
+    """The mission's latest flight: a future that is set when its trip has ended."""
 
     trip: Trip
     is_set: bool
 
     def watch(self, watcher: Callable[[Any], object]) -> None:
-        """Call this when it is over."""
+        """Call this when it has ended."""
         ...
 
     def unwatch(self, watcher: Callable[[Any], object]) -> None:
-        """Do not call it after all."""
+        """Remove a watcher."""
         ...
 
 
 class Context:
-    """The running app, as an action or a modifier sees it. Times are seconds since the start."""
+    """The running app, for an action or a modifier. Times are seconds since the start."""
 
     __slots__ = ("_kernel", "_latest", "_live", "_log", "_mission", "_results")
 
@@ -55,7 +55,7 @@ class Context:
 
     @property
     def results(self) -> Sequence[Result[Any, Any]]:
-        """What every action of the app has given so far."""
+        """The results of all actions of the app so far."""
         return self._results.so_far()
 
     def log(self, text: str) -> None:
@@ -63,7 +63,7 @@ class Context:
         self._log(text_of(text, f"<{class_of(text)}>"), self._mission.name)
 
     def live(self, drone: Drone) -> LiveDrone:
-        """Return what the drone of this action can be asked, and set to, while it hovers here."""
+        """Return the drone of this action, whose sensors can be read and parameters set while it hovers."""
         live = self._live
         if live is None:
             raise RuntimeError("only an action that is an `async def` has a live drone")
@@ -72,7 +72,7 @@ class Context:
         return live
 
     async def sleep(self, seconds: float) -> None:
-        """Wait for so many seconds, simulated or real."""
+        """Wait this many seconds, simulated or real."""
         kernel, over = self._kernel, Future[None]()
         _must_be_finite(seconds)
         timer = kernel.at(
@@ -84,7 +84,7 @@ class Context:
             timer.cancel()
 
     async def trip_ended(self, trip: Trip, *, within: float | None = None) -> bool:
-        """Wait until a trip of this mission is over; say whether it is.
+        """Wait until a trip of this mission has ended; return whether it has.
 
         With `within`, wait no longer than so many seconds from the trip's start: False means that
         it is still flying. At the very same instant the trip's own end wins.

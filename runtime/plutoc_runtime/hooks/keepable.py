@@ -1,4 +1,4 @@
-"""What a hook gave, as it is taken in: what could not be kept as plain data is its text from then on."""
+"""Results of hooks as plain data: a value that cannot be stored as such is stored as its text."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from ..domain.text import shown
 _HARMLESS = (type(None), bool, float)
 
 _DEEPEST, _MOST, _LONGEST = 50, 300_000, 10_000_000
-"""Of one value: how deep lists may lie in lists, how many parts it has, how many characters."""
+"""Limits of one value: its depth, its number of parts, its characters."""
 
 
 def keepable(value: object) -> object:
-    """Return what a hook gave: itself, or its text if it is too large, too deep or goes in a circle."""
+    """Return a hook's result, or its text if it is too large, too deep or circular."""
     try:
         if type(value) not in _HARMLESS:
             _Measure().take(value)
@@ -29,18 +29,18 @@ def keepable(value: object) -> object:
 
 
 def are_named(items: Iterable[tuple[Any, Any]]) -> bool:
-    """Say whether all are values by their names, none of which begins as the journal's own do."""
+    """Return whether these are values by name, with no name reserved by the journal."""
     return all(issubclass(type(name), str) and not str.startswith(name, "$") for name, _ in items)
 
 
 class _Measure:
-    """Counts what one value is made of; its class may be any, and is asked nothing."""
+    """Measures the size and depth of a value without calling its methods."""
 
     def __init__(self) -> None:
         self._parts = self._characters = 0
 
     def take(self, value: Any, depth: int = 0) -> None:
-        """Count a part of it, and all that is in that; raise an error where it is too much."""
+        """Count a part and everything in it; raise an error beyond the limits."""
         self._parts += 1
         if depth > _DEEPEST or self._parts > _MOST:
             raise OverflowError

@@ -1,7 +1,7 @@
-"""The drone itself, for as long as an action of the app's own is being done with it.
+"""The drone itself, while it does an action of the app's own.
 
-It can be asked and set, never moved: it hovers until the action is over, and belongs to others
-afterwards.
+Its sensors can be read and its parameters set, but it cannot be moved: it hovers until the action
+has ended, and is free for others afterwards.
 """
 
 from __future__ import annotations
@@ -22,21 +22,21 @@ T = TypeVar("T")
 
 
 class Instruments(Protocol):
-    """What can be asked of a drone that hovers, and set on it: a part of its navigation."""
+    """The part of a navigation that reads and sets values of a hovering drone."""
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what it measures now under this name."""
+        """Return the value of a sensor or variable."""
         ...
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what it has under this name."""
+        """Set a parameter."""
         ...
 
 
 class LiveDrone:
-    """What an action gets of the drone that does it: its sensors, and what can be set on it.
+    """The drone of an action: its sensors, and the parameters that can be set.
 
-    A drone that has not what is asked for, or cannot be reached, raises `ActionFailed`.
+    Raises `ActionFailed` for a name that the drone does not have, or if it cannot be reached.
     """
 
     __slots__ = ("_drone", "_is_over", "_kernel", "_key", "_navigation")
@@ -52,16 +52,16 @@ class LiveDrone:
 
     @property
     def battery(self) -> float:
-        """What is left in its battery now, from 0 to 1."""
+        """The charge of its battery, from 0 to 1."""
         return self._now.battery_level
 
     async def read(self, name: str) -> float:
-        """Return what the drone measures now under this name, such as `range.front`."""
+        """Return the current value of a sensor or variable, such as `range.front`."""
         _must_be_a_name(name)
         return await self._asked(lambda drone: self._navigation.read(drone, name), name)
 
     async def write(self, name: str, value: float) -> None:
-        """Set what the drone has under this name; it returns when the drone has it."""
+        """Set a parameter; returns when the drone has it."""
         _must_be_a_name(name)
         number = float(value)
         if not isfinite(number):
@@ -69,11 +69,11 @@ class LiveDrone:
         await self._asked(lambda drone: self._navigation.write(drone, name, number), name)
 
     def release(self) -> None:
-        """The action is over: the drone is not the action's any more."""
+        """End the access to the drone: the action has ended."""
         self._is_over = True
 
     def is_of(self, drone: Drone) -> bool:
-        """Say whether it is this drone."""
+        """Return whether it is this drone."""
         return drone is self._drone
 
     @property
@@ -83,7 +83,7 @@ class LiveDrone:
         return self._drone
 
     async def _asked(self, ask: Callable[[str], Coroutine[Any, Any, T]], name: str) -> T:
-        """Ask within the kernel, and wait for the answer as a hook may."""
+        """Make the request within the kernel, and wait for the answer in a hook."""
         kernel, drone = self._kernel, self._now.id
         answer: Future[T] = Future()
         asking: list[Task[T]] = []
@@ -104,7 +104,7 @@ class LiveDrone:
 
 
 def can_wait(hook: Callable[..., object]) -> bool:
-    """Say whether this is an `async def`, decorated or not."""
+    """Return whether this is an `async def`, decorated or not."""
     inner = unwrap(getattr(hook, "func", hook))  # a partial carries its function
     return iscoroutinefunction(inner)
 

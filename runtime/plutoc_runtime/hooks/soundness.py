@@ -1,4 +1,4 @@
-"""Is what a hook made or changed a trip that a drone could be sent on, and a mission still?"""
+"""Validation of trips and missions that a hook has made or changed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
-    """Return what is wrong with a trip, or None; a place without a height gets the map's."""
+    """Return what is wrong with a trip, or None; a point without a height gets the map's default."""
     try:
         return _unsound(app, airspace, trip)
     except ANY_ERROR as error:  # what a hook has put there may be of any class
@@ -42,7 +42,7 @@ def _unsound(app: App, airspace: Airspace, trip: object) -> str | None:
 
 
 def unsound_mission(app: App, mission: Mission[Any]) -> str | None:
-    """Return what is wrong with what the runtime knows of a mission, and a hook has put there."""
+    """Return what is wrong with the mission's own attributes, or None."""
     try:
         wrong = None if _is_usual_mission(mission) else _wrong_facts(mission, _MISSION)
         if wrong is not None:
@@ -59,7 +59,7 @@ def unsound_mission(app: App, mission: Mission[Any]) -> str | None:
 
 
 def _is_usual(trip: Trip) -> bool:
-    """Say whether nothing of it need be looked at one by one: it is asked very often."""
+    """Return whether a trip is obviously valid: a shortcut for a check that runs very often."""
     return (
         type(trip.name) is type(trip.action) is type(trip.reason) is str
         and type(trip.status) is TripStatus
@@ -105,7 +105,7 @@ _MISSION: Mapping[str, tuple[type, ...]] = {
     "index": (int,),
     "last_result": (int,),
 }
-"""What the runtime itself goes by, and what it must be."""
+"""The attributes that the runtime relies on, and their types."""
 
 
 def _wrong_facts(of: object, facts: Mapping[str, tuple[type, ...]]) -> str | None:
@@ -119,7 +119,7 @@ def _wrong_facts(of: object, facts: Mapping[str, tuple[type, ...]]) -> str | Non
 
 
 _MOST = 1 << 31
-"""What is counted is kept in so many bits."""
+"""The bound of counters, which are stored in 31 bits."""
 
 
 def _wrong_action(app: App, trip: Trip) -> str | None:
