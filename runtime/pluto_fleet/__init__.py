@@ -1,4 +1,4 @@
-"""What flies a compiled app: real time, journal, gateway, drones, station and trials."""
+"""The library that flies compiled apps: real time, journal, gateway, drones, station and trials."""
 
 __version__ = "2.0.0"
 """Its first two numbers are the newest seam that it speaks."""

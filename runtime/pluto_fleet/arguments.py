@@ -1,4 +1,4 @@
-"""Readers of the values that command lines give; argparse says what is wrong with one."""
+"""Types for argparse: numbers within bounds."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from plutoc_runtime.domain.text import quoted
 
 
 def whole_number(least: int | None = None, most: int | None = None) -> Callable[[str], int]:
-    """Return what reads a whole number within bounds."""
+    """Return a type for a whole number within bounds."""
 
     def read(text: str) -> int:
         try:
@@ -28,7 +28,7 @@ def whole_number(least: int | None = None, most: int | None = None) -> Callable[
 
 
 def positive_number(most: float) -> Callable[[str], float]:
-    """Return what reads a number above 0, up to a bound."""
+    """Return a type for a positive number up to a bound."""
 
     def read(text: str) -> float:
         try:

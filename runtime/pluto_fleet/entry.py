@@ -1,4 +1,4 @@
-"""Where an app's program comes in: the app's brain hands over its command line."""
+"""The entry points of the library, called by an app's brain with its command line."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def start(name: str, load: Callable[[], App], *, brain: str, seam: Seam) -> int:
     """Run the command that an app's program was called with, and return its exit code.
 
-    `brain` is the name of the package that the app carries as its runtime, `seam` what that speaks.
+    `brain` is the name of the app's embedded runtime package, `seam` its seam.
     """
     from .seam import meet
 

@@ -1,4 +1,4 @@
-"""Scaffolding: flies an app of seam 1 with today's brain, under the names that its modules had then.
+"""Scaffolding: flies an app of seam 1 with today's brain, under its modules' former names.
 
 Seam 1 was the brain's modules themselves, all in one folder; the flow and the blocks that such an app
 carries import a few of them. All this goes with the scaffolding.
@@ -36,7 +36,7 @@ _ROOMS = {
     "trips": "flight watching:deadlines transitions",
     "flow": "engine state:mission core:mission run judgement verdict modification declared session:engine",
 }
-"""Which room a module went to, and as what."""
+"""The new names of former modules."""
 
 _RENAMED = {
     "Signal": "Future",
@@ -46,7 +46,7 @@ _RENAMED = {
 }
 
 _ELSEWHERE = ("domain.errors", "flow.run", "flow.mission")
-"""Where what left its module may be."""
+"""Modules that have taken over parts of former modules."""
 
 
 def _moved() -> dict[str, str]:
@@ -59,7 +59,7 @@ def _moved() -> dict[str, str]:
 
 
 def provide(brain: str) -> None:
-    """Give the app with this brain today's modules by their former names, from now on."""
+    """Make today's modules importable by their former names, for the app with this brain."""
     sys.meta_path.insert(0, _Former(brain))
     package = brain.rpartition(".")[0]
     kept = (f"{package}.__main__", brain, f"{brain}.command")
@@ -68,13 +68,13 @@ def provide(brain: str) -> None:
 
 
 def loaded_again(brain: str) -> App:
-    """Return the app that was loaded with the brain that it carries, with today's."""
+    """Return an app that was loaded with its own brain as an app of today's brain."""
     app: App = import_module(f"{brain.rpartition('.')[0]}.flow").APP
     return app
 
 
 def _of_former_blocks() -> dict[str, object]:
-    """Return what those blocks and flows call, and is called otherwise today."""
+    """Return the functions of former blocks and flows under their former names."""
     from plutoc_runtime.flow.modification import context_of
     from plutoc_runtime.flow.own_action import OwnAction
     from plutoc_runtime.flow.run import Run
@@ -110,7 +110,7 @@ class _Former(MetaPathFinder, Loader):
         return ModuleSpec(fullname, self, is_package=old == "policies")
 
     def exec_module(self, module: ModuleType) -> None:
-        """Fill it with what it has today, and with what has left it."""
+        """Fill a former module with its present names, and those that have moved elsewhere."""
         old = module.__name__.removeprefix(self._brain)
         given: dict[str, object] = {}
         for home in (*_ELSEWHERE, self._moved[old]):

@@ -1,8 +1,8 @@
 """Scaffolding: gives the library the app's own brain under the name `plutoc_runtime`.
 
 The library says `from plutoc_runtime.time.kernel import Kernel`; in an app's process that is the very module
-`<app>._runtime.time.kernel`. What an app does not carry, because its graph needs none of it, comes from the
-library's copy. All this goes once the seam is plain data.
+`<app>._runtime.time.kernel`. Modules that an app does not carry come from the library's copy.
+All this goes once the seam is plain data.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ BRAIN = "plutoc_runtime"
 
 _HERE = Path(__file__).parent
 _COPY = _HERE / "_brain"
-"""The brain that the library is built with; an editable install has it beside itself instead."""
+"""The library's copy of the brain; an editable install has it beside itself instead."""
 
 _bound = BRAIN
 
 
 def bind(brain: str, *, carries: bool = True) -> None:
-    """Let the library use this brain from now on: an app's `_runtime`; once a process.
+    """Make the library use an app's `_runtime` as its brain; once per process.
 
     An app that carries an older one gets the library's copy in its place.
     """
@@ -44,12 +44,12 @@ def bind(brain: str, *, carries: bool = True) -> None:
 
 
 def app_package() -> str:
-    """Return the package whose program this is: the app's; the library itself where there is none."""
+    """Return the package of the running program: the app's, or the library's if there is none."""
     return __package__ if _bound == BRAIN else _bound.rpartition(".")[0]
 
 
 class _Brain(MetaPathFinder):
-    """Finds the library's `plutoc_runtime` where the app has it."""
+    """Finds `plutoc_runtime` in the app's package."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -61,7 +61,7 @@ class _Brain(MetaPathFinder):
 
 
 class _Copy(MetaPathFinder):
-    """Finds what the app does not carry; asked last."""
+    """Finds modules that the app does not carry; the last finder."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -80,7 +80,7 @@ class _Copy(MetaPathFinder):
 
 
 class _SameModule(Loader):
-    """Gives a module that has another name, as it is."""
+    """Loads a module that is already loaded under another name."""
 
     def __init__(self, name: str) -> None:
         self._module = import_module(name)

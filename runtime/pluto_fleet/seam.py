@@ -1,6 +1,6 @@
-"""Where an app and this library meet: which seams are spoken, and whose brain it is.
+"""The versions of the seam between an app and this library.
 
-The seam's first number changes when what was would be misread; the second when more is said. A library
+The seam's first number changes when earlier data would be misread, the second when data is added. A library
 speaks the newest first number and the one before.
 """
 
@@ -16,13 +16,13 @@ from .scaffolding import bind
 Seam = tuple[int, int]
 
 OLDEST, NEWEST = (1, 0), (2, 0)
-"""What this library speaks, and all between."""
+"""The range of seams that this library supports."""
 
 _met: Seam | None = None
 
 
 def meet(app: str, brain: str, seam: Seam) -> bool:
-    """Take an app's brain as this process's; False: they do not speak alike, and it was said why."""
+    """Use an app's brain in this process; return False, after a message, if the seams do not match."""
     global _met
     why = problem(app, seam)
     if why is not None:
@@ -46,17 +46,17 @@ def problem(app: str, seam: Seam) -> str | None:
 
 
 def spoken() -> str:
-    """Return the seams that this library speaks, as a person reads them."""
+    """Return the seams that this library supports, for a message."""
     return written(NEWEST) if OLDEST == NEWEST else f"{written(OLDEST)} to {written(NEWEST)}"
 
 
 def written(seam: Seam) -> str:
-    """Return a seam as it is written: `1.4`."""
+    """Format a seam: `1.4`."""
     return ".".join(map(str, seam))
 
 
 def versions(app: str) -> str:
-    """Return in one line which app this is, which seam it speaks, and by which library it flies."""
+    """Return the versions of the app, its seam and this library in one line."""
     try:
         number = version(app.rstrip("_"))
     except PackageNotFoundError:
@@ -65,5 +65,5 @@ def versions(app: str) -> str:
 
 
 def met() -> str | None:
-    """Return the seam that this process's app speaks; None where it has met none."""
+    """Return the seam of this process's app; None: there is no app."""
     return None if _met is None else written(_met)

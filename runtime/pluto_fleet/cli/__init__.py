@@ -18,16 +18,16 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
 _WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
-"""Commands that need nothing of an app but its name: a Stop must work though hooks.py does not."""
+"""Commands that need only an app's name: a Stop must work even if hooks.py does not."""
 
 
 def start(name: str, load: Callable[[], App]) -> int:
     """Load an app and run the command that the program was called with."""
-    if sys.argv[1:2] == ["gateway"]:  # it must not fall with the app's own code
+    if sys.argv[1:2] == ["gateway"]:  # it must not depend on the app's own code
         from ..gateway.process import main as gateway
 
         return gateway(sys.argv[2:])
-    if sys.argv[1:2] == ["crtp"]:  # the drones must not fall with it, either
+    if sys.argv[1:2] == ["crtp"]:  # nor must the simulated drones
         from ..crtp.process import main as crtp
 
         return crtp(sys.argv[2:])
@@ -60,7 +60,7 @@ def start(name: str, load: Callable[[], App]) -> int:
 
 
 def _bare(name: str) -> App:
-    """Return an app of which nothing but the name is known, for commands that need no more."""
+    """Return an app with nothing but its name, for commands that need no more."""
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Mission, Trip
 
@@ -80,7 +80,7 @@ def _bare(name: str) -> App:
 
 
 def _heard(app: App) -> int:
-    """Run the program's command; hooks neither interrupt it for a person nor end it as if it were over."""
+    """Run the program's command, guarded against hooks that raise `KeyboardInterrupt` or exit."""
     from ..process.forked import instead_of, refused
     from ..process.signal_guard import interrupted_by_a_person
 
@@ -97,7 +97,7 @@ def _heard(app: App) -> int:
 
 
 def _ended_by_hooks(name: str, status: int) -> NoReturn:
-    """End as after a crash: drones may fly, and `--supervise` starts the app again."""
+    """Exit as after a crash: drones may be flying, and `--supervise` restarts the app."""
     from ..process.forked import leave
 
     output.tell(f"{name}: something in the app's own code ends it by os._exit({status})")

@@ -1,4 +1,4 @@
-"""A fleet file made of the drones that answer: a beginning, to be read by a person before anything flies."""
+"""Writing a fleet file with the drones that answer: a draft, to be checked before anything flies."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ if TYPE_CHECKING:
 
 
 _ORIGIN = 0.05
-"""Metres from (0, 0): that near says a drone that has just been switched on and knows of no other place."""
+"""Metres from (0, 0): a drone that reports to be so near has just been switched on, and has no fix."""
 
 
 def write_fleet(app: App, path: Path, told: Sequence[DroneAnswer], navigation: str | None) -> None:
-    """Write a fleet file of those that have answered; never over another file."""
+    """Write a fleet file of the drones that have answered; never overwrites a file."""
     there = [answer for answer in told if heard(answer) is not None]
     if not there:
         raise BadInput(f"{path}: not written, for no drone has answered")
     content = "\n".join(_file(app, path, there, navigation or CRAZYFLIE)) + "\n"
-    fleet_of(parsed(str(path), content), app)  # it is one that can be read
+    fleet_of(parsed(str(path), content), app)  # check that it is valid
     try:
         with path.open("x", encoding="utf-8") as file:
             file.write(content)
@@ -78,7 +78,7 @@ def _choice(app: App) -> str:
 
 
 class _Homes:
-    """Where drones stand, as they say; in a row where that cannot be."""
+    """The drones' homes: their reported positions, or places in a row."""
 
     def __init__(self, airspace: Airspace) -> None:
         self._airspace = airspace

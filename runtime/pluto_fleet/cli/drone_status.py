@@ -1,6 +1,6 @@
-"""Asks real drones how they are, all at once: none is armed, none moves, and a silent one delays no other.
+"""Queries the status of real drones, concurrently: none is armed, none moves, and a silent one delays no other.
 
-A drone that is in the air is not let go of either: for some, that would switch the motors off.
+The connection to a drone in the air is kept: for some, closing it would switch the motors off.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from ..files.options import Options
 
 CONNECT_WITHIN, ANSWER_WITHIN, CLOSE_WITHIN, SCAN_WITHIN = 15.0, 12.0, 10.0, 90.0
-"""Seconds that each may take."""
+"""Time-outs in seconds."""
 
 LOST = "it does not tell where it is"
 IN_THE_AIR = "it is in the air: nothing more was asked of it"
@@ -41,16 +41,16 @@ T = TypeVar("T")
 
 
 class Tells(Protocol):
-    """A navigation that knows more of its drone than the protocol asks."""
+    """A navigation that offers more facts about its drone than the protocol requires."""
 
     async def facts(self) -> Mapping[str, str]:
-        """Return what else there is to know, such as its firmware."""
+        """Return further facts, such as its firmware."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneQuery:
-    """A drone that is asked."""
+    """A drone to query."""
 
     id: str
     """Its name in the fleet file; where it has none, its uri."""
@@ -60,27 +60,27 @@ class DroneQuery:
     speed: float = 0.5
     options: Mapping[str, object] = field(default_factory=dict)
     known: bool = True
-    """Whether the fleet file has it."""
+    """Whether it is in the fleet file."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneAnswer:
-    """What came of it."""
+    """The outcome of a query."""
 
     asked: DroneQuery
     problems: tuple[str, ...] = ()
     """Why it may not fly now; nothing: it is ready."""
     telemetry: DroneTelemetry | None = None
-    """None: it has not told anything."""
+    """None: it has sent none."""
     facts: Mapping[str, str] = field(default_factory=dict)
 
 
 class _Silent(Exception):
-    """Something has not come in time."""
+    """A step has timed out."""
 
 
 async def found(navigation: str, options: Mapping[str, object]) -> list[str]:
-    """Return where drones answer; raise `BadInput` if they cannot be looked for."""
+    """Return the addresses at which drones answer; raise `BadInput` if a scan is not possible."""
     by = load_navigation(navigation)
     if not isinstance(by, Scannable):
         raise BadInput(
@@ -103,7 +103,7 @@ async def answers(
     localization: str = OWN,
     options: Options | None = None,
 ) -> list[DroneAnswer]:
-    """Return what each drone answers, told meanwhile where it is if the fleet has a localization."""
+    """Query the drones; meanwhile each is sent its position if the fleet has a localization."""
     navigations = {one.id: _made(one, folder) for one in asked}
     feeding: LocalizationFeed | None = None
     if localization != OWN:
@@ -119,7 +119,7 @@ async def answers(
 
 
 async def identified(asked: DroneQuery, folder: Path) -> None:
-    """Let a drone show which one it is; raise `BadInput` if it cannot."""
+    """Make a drone identify itself, by light or sound; raise `BadInput` if it cannot."""
     navigation = _made(asked, folder)
     if not isinstance(navigation, Identifiable):
         raise BadInput(f"{asked.id} has nothing by which it could show itself")
@@ -137,7 +137,7 @@ async def identified(asked: DroneQuery, folder: Path) -> None:
 
 def _made(asked: DroneQuery, folder: Path) -> DroneNavigation:
     how = RealDrone(
-        id=asked.id if asked.known else "it",  # so that sentences about it can be read
+        id=asked.id if asked.known else "it",  # for messages about it
         navigation=asked.navigation,
         uri=asked.uri,
         options=asked.options,
@@ -146,13 +146,13 @@ def _made(asked: DroneQuery, folder: Path) -> DroneNavigation:
 
 
 def no_answer(seconds: float) -> str:
-    """Return what is said of a drone that has not been there in time."""
+    """Return the message for a drone that did not answer in time."""
     return f"no answer in {number(seconds)} s"
 
 
 @dataclass(slots=True)
 class _Heard:
-    """What a drone has told so far."""
+    """The latest telemetry of a drone."""
 
     telemetry: DroneTelemetry | None = None
     problems: tuple[str, ...] = ()
@@ -169,7 +169,7 @@ async def _answer(
                 (end,) = await asyncio.gather(_ask(navigation, so_far), return_exceptions=True)
             finally:
                 await _let_go(navigation)
-    except DroneInUse as held:  # an app flies it, and alone may speak with it
+    except DroneInUse as held:  # an app flies it, and has exclusive access
         return DroneAnswer(asked=asked, problems=(str(held),))
     match end:
         case None:
@@ -183,7 +183,7 @@ async def _answer(
             problems = (no_answer(CONNECT_WITHIN if so_far.telemetry is None else ANSWER_WITHIN),)
         case Exception() if not isinstance(end, BadInput):
             problems = (_why(end),)
-        case _:  # something is missing that all of them need
+        case _:  # something that all drones need is missing
             raise end
     return DroneAnswer(
         asked=asked, problems=problems, telemetry=so_far.telemetry, facts=so_far.facts
@@ -204,9 +204,9 @@ async def _ask(navigation: DroneNavigation, so_far: _Heard) -> None:
 
 
 async def _let_go(navigation: DroneNavigation) -> None:
-    """Close the link to a drone that stands on the ground, or that has never answered."""
+    """Close the link to a drone on the ground, or one that has never answered."""
     flying = False
-    with suppress(Exception):  # a drone that fails now has been asked all there was
+    with suppress(Exception):  # everything has been queried by now
         flying = navigation.telemetry.flying
     if not flying:
         with suppress(Exception):
@@ -214,7 +214,7 @@ async def _let_go(navigation: DroneNavigation) -> None:
 
 
 async def _within(seconds: float, coroutine: Coroutine[object, object, T]) -> T:
-    """Return what comes of it, or raise `_Silent`; a call that does not end is left behind."""
+    """Await with a time-out, or raise `_Silent`; a call that ignores its cancellation is abandoned."""
     task = asyncio.ensure_future(coroutine)
     try:
         done, _ = await asyncio.wait({task}, timeout=seconds)
@@ -228,7 +228,7 @@ async def _within(seconds: float, coroutine: Coroutine[object, object, T]) -> T:
 
 
 def _why(error: Exception) -> str:
-    """Return what went wrong: in the world, or in the navigation itself."""
+    """Return the message for an error, of the drone or of the navigation itself."""
     said = printable(str(error))
     if hasattr(error, "failure"):
         return said
@@ -236,7 +236,7 @@ def _why(error: Exception) -> str:
 
 
 def heard(answer: DroneAnswer) -> DroneTelemetry | None:
-    """Return what a drone has told of itself, if it has told anything."""
+    """Return a drone's telemetry, if it has sent any."""
     telemetry = answer.telemetry
     if telemetry is None or not all(map(isfinite, (telemetry.time, *telemetry.position))):
         return None

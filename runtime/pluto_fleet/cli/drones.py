@@ -32,11 +32,11 @@ if TYPE_CHECKING:
     from .options import Options as Command
 
 NOT_READY = 1
-"""The exit code where a drone does not answer, or may not fly."""
+"""The exit code if a drone does not answer, or may not fly."""
 
 
 def drones(app: App, options: Command) -> int:
-    """Ask real drones how they are; nothing is armed, and nothing moves."""
+    """Query the status of real drones; nothing is armed, and nothing moves."""
     _refuse_what_does_not_go_together(options)
     fleet = None if options.fleet is None else _fleet(app, options.fleet)
     team = _Team(app, fleet, options.navigation)
@@ -68,7 +68,7 @@ def _refuse_what_does_not_go_together(options: Command) -> None:
 
 
 def _fleet(app: App, path: Path) -> FleetFile:
-    """Return a fleet whose drones can be reached, as far as the file is concerned."""
+    """Return the fleet, if its file has what is needed to reach the drones."""
     fleet = load_fleet(path, app)
     problems = not_real(fleet)
     if problems:
@@ -77,7 +77,7 @@ def _fleet(app: App, path: Path) -> FleetFile:
 
 
 class _Team:
-    """The drones of the fleet file, and how others are reached."""
+    """The drones of the fleet file, and the navigations for others."""
 
     def __init__(self, app: App, fleet: FleetFile | None, navigation: str | None) -> None:
         self.fleet, self._is_told = fleet, navigation is not None
@@ -86,7 +86,7 @@ class _Team:
 
     @property
     def navigations(self) -> list[str]:
-        """All by which these drones, and others, are reached."""
+        """The navigations of these drones and others."""
         return list(dict.fromkeys([self.others, *(asked.navigation for asked in self.known)]))
 
     def one(self, who: str) -> DroneQuery:
@@ -102,7 +102,7 @@ class _Team:
         raise BadInput(f"the fleet has no drone {quoted(who)}{hint}")
 
     async def all_found(self, addresses: Sequence[str]) -> list[DroneQuery]:
-        """Return what can be found by the navigation of this fleet, as the fleet knows it."""
+        """Scan with the navigations of this fleet; known drones have their names of the fleet file."""
         where = {"addresses": list(addresses)} if addresses else {}
         uris = await found(self.others, {**self._options(), **where})
         known = {which(asked.uri): asked for asked in self.known if asked.uri is not None}
@@ -168,7 +168,7 @@ def _say(told: Sequence[DroneAnswer]) -> None:
 
 
 def _folder(app: App) -> Path:
-    """Return where navigations may keep what they have learnt of drones."""
+    """Return the folder in which navigations may cache facts about drones."""
     folder = folder_of(app.name) / "drones"
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -178,10 +178,10 @@ def _folder(app: App) -> Path:
 
 
 ONLY_IN_JSON = ("protocol",)
-"""What a navigation tells besides, and a person need not know of a drone that answers."""
+"""Facts that are only in the JSON output."""
 
 LONGEST = 120
-"""Characters of a cell: what a drone says of itself may be anything."""
+"""Characters of a cell: a drone's texts may be of any length."""
 
 
 def drones_table(told: Sequence[DroneAnswer]) -> Iterator[str]:

@@ -1,7 +1,7 @@
-"""`fly --dry-run`: every command that the drones would be given, and what would be refused.
+"""`fly --dry-run`: every command that the drones would be given, and why `fly` would refuse.
 
-The missions are flown as `simulate` flies them, in virtual time, by the very code that flies real
-drones, and over simulated ones. No drone is reached, and nothing is written.
+The missions are flown in virtual time with simulated drones, as by `simulate`, and by the very code
+that flies real drones. No drone is reached, and nothing is written.
 """
 
 from __future__ import annotations
@@ -49,11 +49,11 @@ if TYPE_CHECKING:
 
 
 REFUSED = 2
-"""The exit code where `fly` would not begin, or not fly some drone."""
+"""The exit code if `fly` would refuse to begin, or to fly some drone."""
 
 
 def dry_run(app: App, options: Options) -> int:
-    """Print what every drone would be told, and what came of it."""
+    """Print the commands that each drone would be given, and the outcome."""
     _refuse_what_does_not_go_together(options)
     plan = load(app, options)
     given: list[CommandLog] = []
@@ -86,14 +86,14 @@ def dry_run(app: App, options: Options) -> int:
 
 
 def _refused(app: App, options: Options, plan: LoadedPlan) -> Iterator[str]:
-    """Yield what keeps `fly` from beginning, or a drone from being flown, as far as it is known."""
+    """Yield the known reasons why `fly` would not begin, or not fly some drone."""
     try:
         where = str(options.fleet or app.name)
         check_real(app, plan.fleet, where, stand_ins=options.crtp_sim is not None)
     except BadInput as error:
         yield f"{app.name} fly would not begin:\n{error}"
         return
-    if options.crtp_sim is not None:  # they are fitted with all that the plan asks for
+    if options.crtp_sim is not None:  # they have all the equipment that the plan needs
         return
     wanted = real_fleet(plan.fleet, plan.missions).wanted
     categories = {category.name: category for category in plan.app.categories}
@@ -105,14 +105,14 @@ def _refused(app: App, options: Options, plan: LoadedPlan) -> Iterator[str]:
 
 
 def _unfit(plan: LoadedPlan, drone: DroneEntry, wanted: Sequence[RequiredAction]) -> Iterator[str]:
-    """Yield what a drone's navigation says it cannot do, before there is any drone."""
+    """Yield what a drone's navigation says that it cannot do, before it is connected."""
     with TemporaryDirectory() as folder:
         navigation = made(plan.app, plan.fleet, drone, Path(folder))
         for one in wanted:
             if not isinstance(navigation, Acts):
                 yield f"{drone.id} has no action {one.action}"
                 continue
-            with suppress(Exception):  # it is only asked to know this once it is connected
+            with suppress(Exception):  # it need not know this before it is connected
                 why = navigation.why_not(one.action, one.parameters)
                 if why is not None:
                     yield str(why)
@@ -170,11 +170,11 @@ class LoggedCommand:
     what: str
     to: Point | None = None
     speed: float | None = None
-    """The most that it may fly, metres per second."""
+    """The maximum speed, in metres per second."""
 
 
 class CommandLog(ForwardingControls):
-    """Drones that can be told what others can; each command is kept, and handed on to those others."""
+    """Controls that log each command and forward it to the simulated drones."""
 
     def __init__(
         self, kernel: Kernel, drones: Controls, speeds: Mapping[str, float], climb: float
@@ -199,7 +199,7 @@ class CommandLog(ForwardingControls):
         return min(self._climb_limit, self._speeds[drone])
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise straight up to a height; does nothing for a drone that flies."""
+        """Take off straight up to a height; does nothing for a drone that flies."""
         if self._controls.telemetry[drone].landed:
             self._note(drone, "take off", self._here(drone, height), self._climb(drone))
         await self._controls.takeoff(drone, height)
@@ -228,19 +228,19 @@ class CommandLog(ForwardingControls):
         item: Item | None,
         job: str | None,
     ) -> object:
-        """Do one of the built-in actions here, and return what came of it."""
+        """Do a built-in action here, and return its result."""
         given = [f"{name} = {toml_value(one)}" for name, one in parameters.items()]
         what = [*([] if item is None else [toml_value(item.name)]), *given]
         self._note(drone, f"{action}, {', '.join(what)}" if what else action)
         return await self._controls.act(drone, action, parameters, item, job)
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what a drone measures under this name, for an action of the app's own."""
+        """Return a sensor or variable of a drone, for an action of the app's own."""
         self._note(drone, f"read {name}")
         return await self._controls.read(drone, name)
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone has under this name, for an action of the app's own."""
+        """Set a parameter of a drone, for an action of the app's own."""
         self._note(drone, f"set {name} = {value!r}")
         await self._controls.write(drone, name, value)
 
@@ -251,6 +251,6 @@ class CommandLog(ForwardingControls):
         self._controls.break_off(drone)
 
     async def cut(self, drone: str) -> None:
-        """Switch its motors off now, wherever it is: only ever because a person said just that."""
+        """Switch its motors off now, wherever it is; only ever on a user's explicit command."""
         self._note(drone, "cut the motors")
         await self._controls.cut(drone)

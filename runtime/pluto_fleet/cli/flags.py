@@ -1,4 +1,4 @@
-"""The flags of the commands that fly, go on, stop, decide, serve, and ask real drones."""
+"""The flags of the commands that fly, resume, stop, decide, serve, and query real drones."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ ACTIONS = (
     "bring-back",
     "cut-motors",
 )
-"""What a running app can be told."""
+"""The commands of `tell`."""
 
 ANSWERS = ("done", "not-done", "go-on", "cancel")
-"""What a person can decide for a mission that waits."""
+"""The answers of `decide` for a mission that waits."""
 
 FASTEST = 1000.0
 
@@ -80,7 +80,7 @@ def add_flights(command: Command) -> None:
 
 
 def how_it_flies(parser: ArgumentParser) -> None:
-    """Add what `fly` and `resume` share."""
+    """Add the flags that `fly` and `resume` share."""
     which = parser.add_mutually_exclusive_group()
     which.add_argument(
         "--sim", action="store_true", help="with simulated drones instead of the real ones"
@@ -145,7 +145,7 @@ def add_drones(command: Command) -> None:
 
 
 def add_dry_run(fly: ArgumentParser, time: Callable[[str], float]) -> None:
-    """Add the flags of `fly` that let it print what every drone would be told."""
+    """Add the flags of `fly --dry-run`."""
     fly.add_argument(
         "--dry-run",
         action="store_true",
@@ -163,7 +163,7 @@ HOST, PORT = "127.0.0.1", 8765
 
 
 def add_station(parser: ArgumentParser) -> None:
-    """Add what only `serve` takes."""
+    """Add the flags of `serve`."""
     parser.add_argument(
         "--missions",
         dest="plan",

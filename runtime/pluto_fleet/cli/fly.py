@@ -1,4 +1,4 @@
-"""`fly` and `resume`: missions in real time, until all is over or a person stops it."""
+"""`fly` and `resume`: missions in real time, until all have ended or the user stops them."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 
 
 def fly(app: App, options: Options) -> int:
-    """Fly the missions and say what came of them; an interrupt lands the drones."""
+    """Fly the missions and report the outcome; an interrupt lands the drones."""
     options.refuse_what_is_simulated()
     plan = load(app, options)
     if options.is_real:
@@ -105,7 +105,7 @@ def _words(options: Options, journal: Path) -> list[str]:
 
 
 def resume(app: App, options: Options) -> int:
-    """Go on with the missions of a journal, which says what was planned."""
+    """Resume the missions of a journal, which has the plan."""
     journal = options.journal or place.newest(app.name)
     taken = reopen(app, journal)
     store = taken.store
@@ -150,9 +150,9 @@ STOPPED = 130
 
 
 def see_through(flight: FlightSetup, store: Store, known: Recovered | None = None) -> int:
-    """Fly until all is over or it is stopped; say what came of it, and return the exit code.
+    """Fly until all have ended or it is stopped; report the outcome, and return the exit code.
 
-    `known` is what the journal says, if it has been read already.
+    `known` is the journal's content, if it has been read already.
     """
     stops = Stops()
     interrupts = Interrupts(stops, lambda: flight.journal, flight.how_to_go_on)
@@ -167,7 +167,7 @@ def see_through(flight: FlightSetup, store: Store, known: Recovered | None = Non
 
 
 def reported(app: App, journal: Path, records: Records, drones: Sequence[Drone] = ()) -> int:
-    """Say what came of a flight, and return the exit code for that."""
+    """Report the outcome of a flight, and return its exit code."""
     code, lines = report_of(app, journal, records, drones)
     for line in [*lines, *waiting_lines(app, journal, records)]:
         output.line(line)
@@ -181,13 +181,13 @@ async def _heard(
     interrupts: Interrupts,
     known: Recovered | None,
 ) -> FlightResult:
-    """Live, and hear interrupts."""
+    """Run a flight with its interrupt handlers."""
     interrupts.loop = asyncio.get_running_loop()
     return await run_flight(flight, store, stops, known, FlightObserver(tell=tell, say=output.tell))
 
 
 def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:
-    """Let another process fly, and start it again when it crashes; `first`: it has not begun."""
+    """Fly in another process, and restart it when it crashes; `first`: it has not begun."""
     speed = ["--speed", str(options.speed)] if options.speed else []
     on = again.command("resume", str(journal), *speed, "--supervised")
     return supervise(
@@ -203,7 +203,7 @@ def supervised(app: App, options: Options, journal: Path, first: Sequence[str] |
 
 
 def _is_over(app: App, journal: Path, code: int) -> bool:
-    """Say whether a flight has ended as this exit code says; the journal knows."""
+    """Return whether the journal confirms this exit code of a flight."""
     if not journal.exists():
         return code in STOPS  # before anything was flown
     if code in STOPS and pending_stop(Path(os.path.realpath(journal))):
@@ -218,6 +218,6 @@ def tell(event: Event) -> None:
     """Show an event on standard output."""
     line = line_of(event)
     if line is not None:
-        with suppress(output.ClosedPipe, output.CannotWrite):  # the reader has gone: fly on
+        with suppress(output.ClosedPipe, output.CannotWrite):  # the output is closed: fly on
             output.line(line)
             output.flush()

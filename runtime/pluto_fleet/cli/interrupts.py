@@ -1,7 +1,7 @@
-"""Ctrl-C and `kill` while drones fly: the first time they land, the second time the app is gone.
+"""Ctrl-C and `kill` while drones fly: the first lands them, the second ends the app at once.
 
-They are told to the app and not to the processes that its hooks fork: a copy of the app's handlers
-would land the fleet when such a child is ended.
+Processes forked by hooks do not inherit these handlers: else ending such a child would land the
+fleet.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ from ..journal.place import gateway_folder
 from ..process.forked import in_children, leave
 
 STOP_DIRECTLY_AFTER = 1.0
-"""Seconds that the app may take to stop its drones, before they are told without it."""
+"""Seconds that the app may take to stop its drones, before the gateway is told directly."""
 
 
 class Stoppable(Protocol):
-    """What can be brought to its end."""
+    """A flight that can be stopped."""
 
     asked: Down | None
-    """How, once that was asked for."""
+    """How to bring the drones down, once a stop was requested."""
 
     def stop(self, how: Down) -> None:
         """Bring all drones down; called in the loop's thread."""
@@ -41,7 +41,7 @@ class Stoppable(Protocol):
 
 
 class Interrupts:
-    """The signals that ask the app to end, and whether it has heard."""
+    """Handles the signals that ask the app to end."""
 
     def __init__(
         self,
@@ -50,12 +50,12 @@ class Interrupts:
         how_to_go_on: str,
         last: Callable[[], object] = lambda: None,
     ) -> None:
-        """Begin; `journal` says which one is being written then; None: nothing flies.
+        """`journal` returns the one that is being written; None: nothing flies.
 
-        `last` is called before the app leaves at once.
+        `last` is called before the app exits at once.
         """
         self.code: int | None = None
-        """The exit code of what has interrupted it."""
+        """The exit code for the signal that has interrupted it."""
         self.loop: asyncio.AbstractEventLoop | None = None
         self._stops, self._journal, self._how = stops, journal, how_to_go_on
         self._heard, self._last = False, last
@@ -63,7 +63,7 @@ class Interrupts:
 
     @contextmanager
     def listening(self) -> Iterator[None]:
-        """Hear signals for as long as this lasts."""
+        """Handle signals within this context."""
         before: dict[int, Callable[[int, FrameType | None], object] | int | None] = {}
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with suppress(ValueError):  # not in the main thread
@@ -82,7 +82,7 @@ class Interrupts:
             as_before()
 
     def _told(self, number: int, _: FrameType | None) -> None:
-        if os.getpid() != self._process:  # a child, in the moment before it has let go of this
+        if os.getpid() != self._process:  # a forked child that has not reset its handlers yet
             signal.signal(number, signal.SIG_DFL)
             os.kill(os.getpid(), number)
             return
@@ -108,7 +108,7 @@ class Interrupts:
         self._stops.stop(Down.LAND)
 
     def _go_past(self) -> None:
-        """A hook keeps the app from hearing: tell the drones without it."""
+        """Stop the drones by the gateway: a hook blocks the app."""
         if not self._heard:
             journal = self._journal()
             with suppress(BadInput):

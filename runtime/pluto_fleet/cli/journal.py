@@ -1,4 +1,4 @@
-"""`journal`: what happened, as it was written down."""
+"""`journal`: printing the events of a journal."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ if TYPE_CHECKING:
 DAMAGED = 1
 
 LOOK_EVERY = 0.2
-"""Seconds between two looks at a journal that is followed."""
+"""The polling interval of `--follow`, in seconds."""
 
 
 def journal(app: App, options: Options) -> int:
-    """Print the journal: all that can be read, and with `--follow` what comes as well."""
+    """Print the journal; with `--follow`, new events as well."""
     path = options.journal or place.newest(app.name)
     if options.mend:
         output.line(_mended(path))
@@ -66,7 +66,7 @@ def _mended(path: Path) -> str:
 
 
 def _follow(reader: Reader, printer: _Printer) -> None:
-    """Print what comes, until it is interrupted, or its output is closed."""
+    """Print new events until interrupted, or until the output is closed."""
     with suppress(KeyboardInterrupt):
         while reader.damaged is None:
             _wait(LOOK_EVERY)
@@ -74,10 +74,10 @@ def _follow(reader: Reader, printer: _Printer) -> None:
 
 
 def _wait(seconds: float) -> None:
-    """Wait, and notice when the output's reader has gone in the meantime."""
+    """Wait for the next poll; notice if the output is closed meanwhile."""
     try:
         watched = select.poll()
-        watched.register(sys.stdout.fileno(), 0)  # what is wrong is told in any case
+        watched.register(sys.stdout.fileno(), 0)  # errors and hang-ups are always reported
     except (AttributeError, OSError, ValueError):  # Windows; an output that is no file
         time.sleep(seconds)
         return
@@ -86,7 +86,7 @@ def _wait(seconds: float) -> None:
 
 
 class _Printer:
-    """Prints the events of rows; says where rows are left out."""
+    """Prints the events of rows, and notes gaps."""
 
     def __init__(self, lines: Callable[[dict[str, Any], float], Iterator[str]]) -> None:
         self._lines, self._next = lines, 0
@@ -106,12 +106,12 @@ class _Printer:
 
 
 def as_json(event: dict[str, Any], wall: float) -> Iterator[str]:
-    """Give an event as it was written, with the time of day at which that was."""
+    """Format an event as JSON, with the time at which it was written."""
     yield json.dumps({**event, "wall": wall})
 
 
 def as_text(event: dict[str, Any], wall: float) -> Iterator[str]:
-    """Give an event as people read it, behind the local time at which it was written."""
+    """Format an event as a sentence, after the local time at which it was written."""
     said = journal_sentence(event, wall)
     if said is not None:
         begin = time.strftime("%H:%M:%S", time.localtime(wall)) + "  "

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Options:
-    """What was asked for. No slots: argparse keeps what it does not know here, too."""
+    """The parsed command line. No slots: argparse sets further attributes."""
 
     command: str = ""
     missions: Path = field(default_factory=Path)
@@ -67,25 +67,25 @@ class Options:
 
     @property
     def the_journal(self) -> Path:
-        """The journal, where a command cannot be without."""
+        """The journal, for a command that requires one."""
         if self.journal is None:
             raise BadInput("name the journal")
         return self.journal
 
     @property
     def is_real(self) -> bool:
-        """Whether real drones are meant, or what stands in for them down to the radio."""
+        """Whether real drones are meant, or Crazyflies that are simulated down to the radio."""
         return self.command in ("fly", "serve") and not self.sim
 
     @property
     def drone_flags(self) -> list[str]:
-        """The flags that say which drones are meant, for a command line."""
+        """The flags that select the drones, for another process's command line."""
         if self.crtp_sim is not None:
             return ["--crtp-sim", str(self.crtp_sim)]
         return ["--sim"] if self.sim else []
 
     def refuse_what_is_simulated(self) -> None:
-        """Raise `BadInput` if real drones are meant, and flags that only simulated ones obey."""
+        """Raise `BadInput` if flags for simulated drones are combined with real ones."""
         given = {"--speed": self.speed, "--fail": self.fail, "--seed": self.seed}
         for flag, value in given.items():
             if value and self.crtp_sim is not None:
@@ -141,7 +141,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
 
 
 class _Version(Action):
-    """Says the versions, and looks them up only then: that takes a while."""
+    """Prints the versions, which are slow to look up."""
 
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
         from ..seam import versions

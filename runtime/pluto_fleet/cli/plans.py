@@ -1,4 +1,4 @@
-"""From the files that a command names to missions and a fleet that can fly them; `check` says so."""
+"""Loading the missions and the fleet of a command, and `check`."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedPlan:
-    """What shall be flown, by whom and where."""
+    """What is to be flown, with which fleet."""
 
     app: App
-    """As slow as its drones are."""
+    """With its categories' speeds adapted to the fleet's drones."""
     missions: list[Mission[Any]]
     fleet: FleetFile
     missions_text: str = ""
-    """The file, as it was read."""
+    """The file's text."""
     fleet_text: str | None = None
     """The same; None: there was none."""
 
 
 def load(app: App, options: Options) -> LoadedPlan:
-    """Return the plan of a command's files; raise `BadInput` where it cannot be flown."""
+    """Return the plan of a command's files; raise `BadInput` if it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
     if options.is_real:
         app = as_flown(app, fleet)
@@ -50,7 +50,7 @@ def load(app: App, options: Options) -> LoadedPlan:
         found += endless(missions, app)
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
-    if not options.supervised:  # then it has been said
+    if not options.supervised:  # its supervisor has said so
         for sentence in look_alikes(missions, fleet.drones):
             output.tell(f"{options.missions}: warning: {sentence}")
     return LoadedPlan(
@@ -76,7 +76,7 @@ FLEET = "fleet.toml"
 
 
 def take_fleet_beside(options: Options) -> None:
-    """Take the fleet file beside the missions where none is named; real drones need a named one."""
+    """Use the fleet file beside the missions if none is named; real drones need a named one."""
     missions = _missions(options)
     if missions is None or options.fleet is not None:
         return
@@ -89,7 +89,7 @@ def take_fleet_beside(options: Options) -> None:
 
 
 def _missions(options: Options) -> Path | None:
-    """Return the missions file of a command that flies nothing real; None: there is none."""
+    """Return the missions file of a command that flies nothing real, if any."""
     simulated = options.sim or options.crtp_sim is not None
     match options.command:
         case "simulate" | "check":
@@ -103,7 +103,7 @@ def _missions(options: Options) -> Path | None:
 
 
 def check(app: App, options: Options) -> int:
-    """Say that the fleet can fly the missions; where it cannot, loading has said why."""
+    """Confirm that the fleet can fly the missions; else loading has raised an error."""
     plan = load(app, options)
     for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")

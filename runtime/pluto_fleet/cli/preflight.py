@@ -1,4 +1,4 @@
-"""What can be known to be wrong with real drones before any is reached."""
+"""Checks of real drones before any is connected."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 
 
 def check_real(app: App, fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
-    """Raise `BadInput` if this fleet cannot be flown from here; nothing has started.
+    """Raise `BadInput` if this fleet cannot be flown from here; nothing is started.
 
-    `where` names its file, in messages. Navigations are made, and reach for nothing.
+    `where` names its file, in messages. Navigations are created, but not connected.
     """
     problems = [] if stand_ins else not_real(fleet)
     if problems:
@@ -58,7 +58,7 @@ def _check_options(app: App, fleet: FleetFile, where: str) -> None:
 
 
 def made(app: App, fleet: FleetFile, drone: DroneEntry, folder: Path) -> DroneNavigation:
-    """Return what flies one drone; nothing is reached yet. `BadInput`: its options are wrong."""
+    """Create a drone's navigation, not connected; raise `BadInput` if its options are wrong."""
     (category,) = (one for one in app.categories if one.name == drone.category)
     (how,) = (one for one in real_fleet(fleet, ()).drones if one.id == drone.id)
     return make_one(how, drone.home, top_speed(category), folder)

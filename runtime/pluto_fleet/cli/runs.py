@@ -1,4 +1,4 @@
-"""`simulate --runs N`: the same missions with many seeds, what the runs have in common, and a plot."""
+"""`simulate --runs N`: the same missions with many seeds, their statistics, and a plot."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     # was an import of itself
 
 BROKEN = 70
-"""The exit code of a run that did what no run may do: that is a mistake of ours."""
+"""The exit code of a run that violates an invariant, which is a bug of Pluto."""
 
 _MOST_VIOLATIONS = 10
 
@@ -48,10 +48,10 @@ _MOST_VIOLATIONS = 10
 def often(
     app: App, options: Options, count: int, plan: LoadedPlan, progress: Progress, fly: Fly
 ) -> int:
-    """Fly with one seed after the other; say what came of each, and of all."""
+    """Fly with one seed after the other; report each run, and all together."""
     if options.plot is not None:
         kind_of(options.plot)
-        drawing()  # said before anything flies
+        drawing()  # raises before anything flies
     runs: list[RunFigures] = []
     data: list[dict[str, object]] = []
     worst, items = 0, items_of(plan.missions)
@@ -92,7 +92,7 @@ def _said(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[st
 
 
 def _figures(runs: Sequence[RunFigures]) -> Iterator[str]:
-    """Yield a table of what the runs took; one run has no percentiles."""
+    """Yield a table of statistics; a single run has no percentiles."""
     if len(runs) == 1:
         return
     lines = (
@@ -117,7 +117,7 @@ def _whole(value: float) -> str:
 
 
 def _broken(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[str]:
-    """Yield what must never be, and how to see it again."""
+    """Yield the violations, and how to reproduce them."""
     found = [(run.seed, sentence) for run in runs for sentence in run.violations]
     for seed, sentence in found[:_MOST_VIOLATIONS]:
         yield f"seed {seed} did what no run may do: {printable(sentence)}"
@@ -152,12 +152,12 @@ Fly = Callable[[int], "SimulationResult"]
 
 MOST_SEEDS = 20
 ENOUGH = 20
-"""Of fewer runs, the fifth and the ninety-fifth percentile are next to the least and the most."""
+"""The runs needed for percentiles: with fewer, the 5th and 95th are nearly the minimum and maximum."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunFigures:
-    """What the summary needs to know of one run."""
+    """The figures of one run for the summary."""
 
     seed: int
     success: bool
@@ -168,13 +168,13 @@ class RunFigures:
     completed: int = 0
     """Missions that were completed."""
     battery: float | None = None
-    """The lowest level that any drone came down with; None: none flew."""
+    """The lowest battery level at a landing; None: no drone flew."""
     violations: tuple[str, ...] = ()
-    """What no run may ever do, and this one did."""
+    """The invariants that this run violated."""
 
 
 def run_of(seed: int, outcome: SimulationResult, items: Items) -> RunFigures:
-    """Return what the summary needs to know of an outcome."""
+    """Return the figures of a run."""
     trips = trips_data(outcome)
     invariants = Invariants(items)
     levels: list[float] = []
@@ -220,7 +220,7 @@ def summary(runs: Sequence[RunFigures]) -> dict[str, object]:
 
 
 def spread(values: Sequence[float]) -> dict[str, float] | None:
-    """Return how some numbers lie; None where there is none."""
+    """Return the distribution of some numbers; None if there are none."""
     if not values:
         return None
     ordered = sorted(values)
@@ -236,7 +236,7 @@ def spread(values: Sequence[float]) -> dict[str, float] | None:
 
 
 def percentile(ordered: Sequence[float], share: float) -> float:
-    """Return the number below which this share of some numbers lies, between two neighbours."""
+    """Return a percentile, interpolated between two neighbours."""
     place = share * (len(ordered) - 1)
     below, above = ordered[floor(place)], ordered[ceil(place)]
     return min(below + (above - below) * (place - floor(place)), above)
@@ -249,7 +249,7 @@ _INK = "#4c72b0"
 
 
 def kind_of(path: Path) -> str:
-    """Return which kind of picture a file's name asks for."""
+    """Return the image format of a file's name."""
     kind = path.suffix.lower()
     if kind not in KINDS:
         raise BadInput(f"{path}: a plot is an SVG or a PNG: give it a name that ends so")
@@ -257,7 +257,7 @@ def kind_of(path: Path) -> str:
 
 
 def drawing() -> Any:
-    """Return matplotlib, or say how to come by it: before anything flies."""
+    """Import matplotlib, or raise `BadInput` with how to install it."""
     try:
         return import_module("matplotlib")
     except ImportError:
@@ -268,7 +268,7 @@ def drawing() -> Any:
 
 
 def plot(path: Path, title: str, runs: Sequence[RunFigures]) -> None:
-    """Write the picture: the same runs give the same bytes."""
+    """Write the plot: the same runs give the same bytes."""
     kind = kind_of(path)
     matplotlib = drawing()
     shape = import_module("matplotlib.figure").Figure(figsize=(10, 3.2), layout="constrained")

@@ -50,9 +50,9 @@ HOW_TO_GO_ON = "serve shows what was interrupted, and Resume goes on with it"
 
 
 def serve(app: App, options: Options) -> int:
-    """Serve the station until it is interrupted; then all drones land first."""
+    """Serve the station until it is interrupted; then land all drones."""
     options.refuse_what_is_simulated()
-    serve_web = _web_server(app.name)  # before anything is kept or flown
+    serve_web = _web_server(app.name)  # before anything is written or flown
     config = _config(app, options)
     if options.is_real:
         where = str(options.fleet or app.name)
@@ -74,13 +74,13 @@ def serve(app: App, options: Options) -> int:
 
 
 def _web_server(app: str) -> Serve:
-    """Return what serves the pages, or say how to install it."""
+    """Import the web server, or raise `BadInput` with how to install it."""
     try:
         from ..station.web.server import serve
     except ImportError as error:
-        if (error.name or "").startswith("pluto"):  # a mistake of ours
+        if (error.name or "").startswith("pluto"):  # a bug
             raise
-        package = app.rstrip("_")  # no package's name ends so
+        package = app.rstrip("_")  # distribution names have no trailing underscore
         raise BadInput(
             "serve needs a web server, the extra `station` of this package:"
             f" pip install {in_shell(f'{package}[station]')}"
@@ -108,7 +108,7 @@ async def _serve(
             output.line(f"station: {address(guard)}")
             output.flush()
             if options.open:
-                import webbrowser  # few want it, and it is slow to import
+                import webbrowser  # rarely needed, and slow to import
 
                 webbrowser.open(address(guard))
 
@@ -119,7 +119,7 @@ async def _serve(
             server.cancel()
             with suppress(asyncio.CancelledError):
                 await server
-        else:  # it has ended by itself, which it should not
+        else:  # the server has ended by itself, which is a bug
             station.leave()
             await leaves
             await server
@@ -132,18 +132,18 @@ def _guard(options: Options, config: StationConfig, port: int) -> Guard:
 
 
 class _Leaving:
-    """What Ctrl-C stops: all that flies, and then the station."""
+    """Stops the flight, and then the station, on Ctrl-C."""
 
     def __init__(self, station: Station) -> None:
         self.asked: Down | None = None
         self._station = station
 
     def stop(self, _: Down) -> None:
-        """Let all drones land, and the station end."""
+        """Land all drones, and end the station."""
         self._station.leave()
 
     def journal(self) -> Path | None:
-        """Return which journal is being written."""
+        """Return the journal that is being written."""
         session = self._station.session
         return session.journal if session is not None and session.lives else None
 
@@ -171,12 +171,12 @@ def _config(app: App, options: Options) -> StationConfig:
 
 
 def _make_room(config: StationConfig) -> None:
-    """See to it that the station's folder is there."""
+    """Create the station's folder if needed."""
     folder = config.folder
     try:
         folder.mkdir(
             mode=0o700, parents=True, exist_ok=True
-        )  # for this user alone, and so all in it
+        )  # readable by this user only, with everything in it
         config.own_folder.mkdir(mode=0o700, exist_ok=True)
         if not os.access(config.own_folder, os.W_OK | os.X_OK):
             raise PermissionError(0, "it may only be read")
@@ -191,16 +191,16 @@ def _plan(app: App, options: Options, config: StationConfig) -> MissionPlan:
     if options.plan is not None:
         if plan.is_empty:
             plan.import_toml(text_of(options.plan), plan.revision, str(options.plan))
-        elif not options.going_on:  # after a crash that was said before
+        elif not options.going_on:  # after a crash it has been said already
             output.tell(f"the plan that was drawn here stays: {options.plan} is not read")
     return plan
 
 
 LEFT_FILE = "left"
-"""The file that is there once a station has ended as it was told to."""
+"""The file that marks a regular end of the station."""
 
 PORT_FILE = "port"
-"""The file that says where browsers look for the station: after a crash it is there again."""
+"""The file with the station's port, which is used again after a crash."""
 
 
 def _port(options: Options, config: StationConfig) -> int:
@@ -211,7 +211,7 @@ def _port(options: Options, config: StationConfig) -> int:
 
 
 def _token(config: StationConfig) -> str:
-    """Return the token: the same after a restart, so that no page is locked out in mid-flight."""
+    """Return the token, which is the same after a restart, so that open pages keep their access."""
     file = config.own_folder / "token"
     with suppress(OSError, ValueError):
         known = file.read_text(encoding="ascii").strip()
@@ -229,7 +229,7 @@ _TOKEN_BYTES = 32
 
 @contextmanager
 def _alone(config: StationConfig) -> Iterator[None]:
-    """Let no other station serve from this folder."""
+    """Lock the folder against other stations."""
     with (config.own_folder / "lock").open("a+", encoding="ascii") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -247,12 +247,12 @@ def _alone(config: StationConfig) -> Iterator[None]:
 
 
 def _supervised(app: App, options: Options, config: StationConfig) -> int:
-    """Let another process serve, and start it again, going on, when it crashes."""
+    """Serve in another process, and restart it when it crashes."""
     first = again.command(*_words(options))
 
     def done() -> int:
         journal = place.newest_in(config.folder)
-        with suppress(BadInput):  # it is damaged, or another app's: the station says so
+        with suppress(BadInput):  # damaged, or another app's: the station reports it
             return finished(records_in(app, journal)) if journal is not None else 0
         return 0
 

@@ -1,4 +1,4 @@
-"""What hooks have started and left behind neither ends the app nor keeps it from leaving."""
+"""Ending the process in time, whatever tasks, threads and processes hooks have left behind."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 HOOKS_END_WITHIN = 5.0
-"""Seconds that hooks' threads and processes get to end by themselves."""
+"""Seconds that hooks' threads and processes have to end by themselves."""
 
 _KILLED_AFTER = 1.0
-"""Seconds between asking a process to end and ending it."""
+"""Seconds between terminating a process and killing it."""
 
 
 _stubborn: list[asyncio.Task[Any]] = []
-"""The tasks that do not end when they are cancelled: Python would wait for them when it forgets them."""
+"""References to tasks that ignore their cancellation, so that they are not garbage-collected."""
 
 
 def run(main: Coroutine[Any, Any, T]) -> T:
-    """Do as `asyncio.run` does, which a hook's own tasks could end, or keep waiting for ever."""
+    """Like `asyncio.run`, but a hook's own tasks can neither end it nor block it for ever."""
     loop = asyncio.new_event_loop()
     asyncio.set_event_loop(loop)
     try:
@@ -51,7 +51,7 @@ def run(main: Coroutine[Any, Any, T]) -> T:
 
 
 def _through(loop: asyncio.AbstractEventLoop, main: Coroutine[Any, Any, T]) -> T:
-    """See this through: `SystemExit`, say, in a task that a hook has made, stops the loop."""
+    """Run to the end, even if an error such as `SystemExit` in a hook's own task stops the loop."""
     task = loop.create_task(main)
     while not task.done():
         try:
@@ -64,15 +64,15 @@ def _through(loop: asyncio.AbstractEventLoop, main: Coroutine[Any, Any, T]) -> T
 
 
 def leave_in_time(name: str, code: int) -> None:
-    """See to it that this process ends soon once Python begins to end it, with this exit code.
+    """Make this process exit soon, with this exit code, once Python begins to shut down.
 
-    Python waits for threads, for what `multiprocessing` has started, and for what is registered by
-    `atexit`, however long that takes.
+    Python would wait without limit for threads, for processes of `multiprocessing`, and for functions
+    registered with `atexit`.
     """
     if _stubborn:
-        _end(name, code)  # they had their time
+        _end(name, code)  # their time is over
     leaves = threading.Event()
-    # by `atexit` it would hear of that only when all threads of executors have ended
+    # `atexit` would run only after all threads of executors have ended
     getattr(threading, "_register_atexit", atexit.register)(leaves.set)
     threading.Thread(target=_watch, args=(name, code, leaves), daemon=True).start()
 
@@ -102,7 +102,7 @@ def _end(name: str, code: int) -> NoReturn:
 
 
 def _children() -> list[BaseProcess]:
-    """Return what `multiprocessing` has started, if anything of the app's uses it."""
+    """Return the child processes of `multiprocessing`, if it is used."""
     if "multiprocessing" not in sys.modules:
         return []
     from multiprocessing import active_children

@@ -33,7 +33,7 @@ Listener = Callable[[Event], None]
 
 
 class Halt(Interrupted):
-    """Stops a simulation from inside: neither the kernel nor a hook stands in an interrupt's way."""
+    """Stops a simulation from inside, so that an interrupt needs no cooperation of kernel or hooks."""
 
     def __init__(self, error: Exception) -> None:
         super().__init__()
@@ -41,13 +41,13 @@ class Halt(Interrupted):
 
 
 def simulate(app: App, options: Options) -> int:
-    """Simulate the missions, once or with many seeds, and say what came of them."""
+    """Simulate the missions, once or with many seeds, and report the outcome."""
     plan = load(app, options)
     progress = simulation_progress(quiet=options.json or options.runs is not None)
     try:
         if options.runs is None:
             return _once(app, options, plan, progress)
-        from .runs import often  # one run has no need of it
+        from .runs import often  # not needed for one run
 
         def again(seed: int) -> SimulationResult:
             return _fly(app, options, plan, seed, None)
@@ -121,7 +121,7 @@ def _tell(event: Event, progress: Progress) -> None:
 
 @contextmanager
 def trace_file(path: Path | None) -> Iterator[Callable[[Event], None]]:
-    """Give a function that keeps an event; the file gets its name once everything is in it."""
+    """Give a function that writes an event; the file gets its name when it is complete."""
     if path is None:
         yield _forget
         return
@@ -138,7 +138,7 @@ def _forget(event: Event) -> None:
 
 
 class _Trace:
-    """A trace on its way into a file."""
+    """Writes a trace into a file."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -146,7 +146,7 @@ class _Trace:
             self._whole = Path(os.path.realpath(path))  # a link stays a link
             if path.is_dir():
                 raise IsADirectoryError(0, "it is a folder")
-            # a pipe or a device cannot be replaced: it is written to as it is
+            # a pipe or a device cannot be replaced: write to it directly
             replaceable = path.is_file() or not path.exists()
             part = self._whole.with_name(f".{self._whole.name}.{os.getpid()}.part")
             self._part = part if replaceable else None
@@ -162,7 +162,7 @@ class _Trace:
             raise self._failed(error) from None
 
     def finish(self) -> None:
-        """Everything is written: now the file may be seen."""
+        """Give the complete file its name."""
         try:
             self._file.close()
             if self._part is not None:
@@ -171,7 +171,7 @@ class _Trace:
             raise self._failed(error) from None
 
     def drop(self) -> None:
-        """Leave nothing half-written behind; there is nothing left after `finish`."""
+        """Remove an incomplete file; does nothing after `finish`."""
         with suppress(OSError):
             self._file.close()
         if self._part is not None:

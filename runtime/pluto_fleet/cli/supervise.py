@@ -1,4 +1,4 @@
-"""`--supervise`: starts the app as another process, and again when it crashes."""
+"""`--supervise`: runs the app in another process, and restarts it when it crashes."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from dataclasses import dataclass
 from plutoc_runtime import output
 
 GIVES_UP_AFTER = 6
-"""Crashes in a row, with nothing finished in between."""
+"""Crashes in a row, with no progress in between, before it gives up."""
 
 LONG_LIFE = 60.0
-"""Seconds; who crashes later than that has got somewhere."""
+"""Seconds; a process that crashes later than that has made progress."""
 
 PAUSES = (0.0, 0.5, 1.0, 5.0, 15.0, 30.0)
-"""Seconds before each start in a row. The first is quick enough for drones to stay in the air."""
+"""Seconds before each restart in a row; after the first, drones can still be in the air."""
 
 INTERNAL = 70
 
 REFUSES = "PLUTO_REFUSES"
-"""Where a supervised app finds the number of the file in which it says that it refuses to go on.
+"""The environment variable with the descriptor on which a supervised app says that it refuses to resume.
 
-No exit code says so, for a hook can end the process with any; nor does a journal, for it may be the
-journal that cannot be written.
+An exit code cannot say so, as a hook can exit with any; nor can the journal, which may be what
+cannot be written.
 """
 
 BAD_INPUT = 2
@@ -36,28 +36,28 @@ BAD_INPUT = 2
 _SIGNALS = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
 
 ENDS, STOPS = (0, 1, 4), (*(128 + number for number in _SIGNALS), 141)
-"""Exit codes of an app that meant to end: because all is over, and because it was told to."""
+"""Exit codes of an app that ended regularly: because all missions have ended, or because it was stopped."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Supervised:
-    """What is started, and what to say of it."""
+    """The process to supervise."""
 
     name: str
     first: Sequence[str]
-    """The command that sets out."""
+    """The command of the first start."""
     again: Callable[[], Sequence[str] | None]
-    """The command that goes on; None: there is nothing yet to go on with."""
+    """Returns the command of a restart; None: there is nothing to resume yet."""
     finished: Callable[[], int]
-    """How many trips and missions have ended: if it grows, the app gets somewhere."""
+    """Returns how many trips and missions have ended: the measure of progress."""
     over: Callable[[int], bool]
-    """Whether it is true what an exit code says: a hook can end the process with any."""
+    """Returns whether an exit code is confirmed: a hook can exit with any."""
     how_to_go_on: str
     pauses: Sequence[float] = PAUSES
 
 
 def supervise(what: Supervised) -> int:
-    """Keep an app running until its flight has ended; return the exit code of its last life."""
+    """Keep an app running until its flight has ended; return the last process's exit code."""
     watch = _Watch()
     with watch.listening():
         command, crashes, finished = what.first, 0, what.finished()
@@ -83,20 +83,20 @@ def supervise(what: Supervised) -> int:
 
 @dataclass(slots=True)
 class _Watch:
-    """The process that runs now, and who asked that all shall end."""
+    """The running process, and the signals that ask for its end."""
 
     asked: int = 0
-    """The exit code for that; 0: it was not asked for."""
+    """The exit code for the signal received; 0: none."""
     refused: bool = False
-    """Whether the process that ran last has said that it refuses to go on."""
+    """Whether the last process has said that it refuses to resume."""
     _child: subprocess.Popen[bytes] | None = None
     _bell: int = -1
-    """A pipe's end: a byte in it wakes what waits at the other end."""
+    """The write end of a pipe that wakes up `pause`."""
     _door: int = -1
 
     @contextmanager
     def listening(self) -> Iterator[None]:
-        """Pass signals on, for as long as this lasts."""
+        """Forward signals to the process within this context."""
         before = {}
         self._door, self._bell = os.pipe()
         for number in _SIGNALS:
@@ -111,11 +111,11 @@ class _Watch:
             os.close(self._bell)
 
     def run(self, command: Sequence[str]) -> int:
-        """Run a process to its end; one that a signal killed gives 128 and its number."""
+        """Run a process to its end; for one killed by a signal return 128 plus the signal."""
         hears, says = os.pipe()
         os.set_blocking(hears, False)
         try:
-            # A group of its own: Ctrl-C at the terminal reaches it through us alone, and once.
+            # A process group of its own: Ctrl-C at the terminal reaches it once, through us.
             self._child = subprocess.Popen(
                 command,
                 stdin=subprocess.DEVNULL,
@@ -123,7 +123,7 @@ class _Watch:
                 pass_fds=[says],
                 env={**os.environ, REFUSES: str(says)},
             )
-            if self.asked:  # in the moment before there was a process to tell
+            if self.asked:  # just before there was a process to signal
                 self._pass_on(signal.SIGTERM)
             code = self._child.wait()
             self.refused = _was_written(hears)
@@ -134,7 +134,7 @@ class _Watch:
         return 128 - code if code < 0 else code
 
     def pause(self, seconds: float) -> None:
-        """Wait, unless all shall end."""
+        """Wait, unless the end is requested."""
         select.select([self._door], [], [], seconds)
 
     def _told(self, number: int, _: object) -> None:
@@ -149,7 +149,7 @@ class _Watch:
 
 
 def refuse() -> None:
-    """Say to this process's supervisor, if it has one, that it refuses to go on."""
+    """Tell this process's supervisor, if there is one, that it refuses to resume."""
     with suppress(KeyError, ValueError, OSError):
         os.write(int(os.environ[REFUSES]), b"!")
 

@@ -1,4 +1,4 @@
-"""`tell` and `decide`: commands for the app that runs, and what only a person can know."""
+"""`tell` and `decide`: commands for a running app, and answers to its questions."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ if TYPE_CHECKING:
     from .options import Options
 
 STOP_DIRECTLY_AFTER = 1.0
-"""Seconds until a Stop goes to the drones without the app."""
+"""Seconds until a Stop goes directly to the gateway."""
 
 ANSWER_WITHIN = 10.0
-"""Seconds until any other command is given up."""
+"""The time-out of any other command, in seconds."""
 
 
 def tell(app: App, options: Options) -> int:
-    """Say to the running app what it shall do, and say what it did."""
+    """Send a command to the running app, and print its answer."""
     request = _request(app, options)
     if options.action == "stop":
         output.line(_stop(app, options, request))
@@ -52,7 +52,7 @@ def tell(app: App, options: Options) -> int:
 
 
 def _bring_back(app: App, options: Options, request: Mapping[str, object]) -> str:
-    """Tell the running app, or its journal, that a person has looked after a drone."""
+    """Tell the running app, or its journal, that a drone has been repaired."""
     try:
         return asked(app, options, request)
     except NotRunning:
@@ -60,7 +60,7 @@ def _bring_back(app: App, options: Options, request: Mapping[str, object]) -> st
 
 
 def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
-    """Return what the running app says to a request."""
+    """Send a request to the running app, and return its answer."""
     journal = options.the_journal
     try:
         return ask(commands_note(journal), request, ANSWER_WITHIN)
@@ -83,7 +83,7 @@ def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
 
 
 def _request(app: App, options: Options) -> dict[str, object]:
-    """Return the request for what the command line says; raise `BadInput` if it makes no sense."""
+    """Return the request for a command line; raise `BadInput` if it is invalid."""
     action, mission, trip = options.action, options.mission, options.trip
     wrong = _wrong(options)
     if wrong:
@@ -103,7 +103,7 @@ def _request(app: App, options: Options) -> dict[str, object]:
 
 
 def _wrong(options: Options) -> str:
-    """Return what in a command makes no sense; empty: it does."""
+    """Return what is invalid in a command, or nothing."""
     action, mission, trip = options.action, options.mission, options.trip
     priority = options.priority is not None
     if action != "stop" and (options.land or options.rtl):
@@ -128,11 +128,11 @@ def _wrong(options: Options) -> str:
 
 
 def _stop(app: App, options: Options, request: dict[str, object]) -> str:
-    """Stop the app; if it says nothing, bring the drones down without it."""
+    """Stop the app; if it does not answer, stop the drones by the gateway."""
     journal, how = Path(os.path.realpath(options.the_journal)), Down(request["how"])
     again = f"{app.name} resume {in_shell(journal)}"
     if gateway_folder(journal).is_dir():
-        # If the app crashes meanwhile, the next one that is started shall land as well.
+        # If the app crashes meanwhile, its next process must land as well.
         offline.leave_stop(journal, how)
     until = time.monotonic() + ANSWER_WITHIN
     while True:
@@ -148,12 +148,12 @@ def _stop(app: App, options: Options, request: dict[str, object]) -> str:
             raise NotRunning(f"{journal}: {app.name} is not running, and no drone flies")
         if time.monotonic() > until:
             raise NoAnswer(f"{journal}: {app.name} runs, but has come to no drones: end it")
-        offline.leave_stop(journal, how)  # it has only just begun: it shall not fly
+        offline.leave_stop(journal, how)  # it has only just started, and must not fly
         time.sleep(0.1)
 
 
 def cut_motors(app: App, journal: Path, drone: str | None) -> str:
-    """Switch motors off without asking the app: nothing that it does may hold that up."""
+    """Switch motors off directly by the gateway, so that the app cannot delay it."""
     journal = Path(os.path.realpath(journal))
     until = time.monotonic() + STOP_DIRECTLY_AFTER
     while True:
@@ -167,7 +167,7 @@ def cut_motors(app: App, journal: Path, drone: str | None) -> str:
                 f"{journal}: what commands the drones does not answer, so it is not known whether"
                 " their motors are cut"
             ) from None
-        time.sleep(0.05)  # it may have died this moment, and be started again
+        time.sleep(0.05)  # it may have just died, and be restarting
     if not journal.exists():
         raise missing(journal)
     raise NotRunning(
@@ -177,7 +177,7 @@ def cut_motors(app: App, journal: Path, drone: str | None) -> str:
 
 
 def decide(app: App, options: Options) -> int:
-    """Settle what a mission waits for, in the running app or in its journal."""
+    """Answer the question that a mission waits for, in the running app or in its journal."""
     journal, mission, answer = options.the_journal, options.mission, options.answer
     records = records_in(app, journal)
     if mission is None:
@@ -185,7 +185,7 @@ def decide(app: App, options: Options) -> int:
         for line in listed or ["no mission waits for a person"]:
             output.line(line)
         return 0
-    # A mistaken answer may be changed for as long as nothing has come of it.
+    # A wrong answer can be changed until it takes effect.
     questions = {name: (what, why) for name, what, why in waiting(records, answered=True)}
     if mission not in questions:
         raise BadInput(_not_asked(journal, mission, records))

@@ -1,4 +1,4 @@
-"""A fleet of simulated Crazyflies in the place of the one that a fleet file describes."""
+"""A fleet of simulated Crazyflies instead of the one that a fleet file describes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def fleet_from(app: App, name: str, text: str | None, crtp_sim: int | None) -> FleetFile:
-    """Return the fleet of a file's text, or the default one; perhaps of simulated Crazyflies."""
+    """Return the fleet of a file's text, or the default fleet; optionally as simulated Crazyflies."""
     if text is None:
         return default_fleet(app, crtp_sim or DEFAULT_SIZE)
     fleet = fleet_of(parsed(name, text), app)
@@ -30,9 +30,9 @@ def fleet_from(app: App, name: str, text: str | None, crtp_sim: int | None) -> F
 
 
 def as_crtp_fleet(fleet: FleetFile, number: int) -> FleetFile:
-    """Return a fleet of so many drones, each a Crazyflie that is simulated down to its radio.
+    """Return a fleet of this many drones, each a Crazyflie that is simulated down to its radio.
 
-    They are the first of the fleet file; those that it lacks are like them, and stand beside them.
+    They are the first of the fleet file; further ones are copies of them, placed beside them.
     """
     drones = [_as_crazyflie(fleet, one) for one in fleet.drones[:number]]
     for place in range(len(drones), number):
@@ -62,7 +62,7 @@ def missing_categories(fleet: FleetFile, number: int) -> str | None:
 
 
 def _as_crazyflie(fleet: FleetFile, one: DroneEntry) -> DroneEntry:
-    """Return a Crazyflie in the place of a drone; what is said of another navigation is not for it."""
+    """Return a drone as a Crazyflie; options for another navigation are dropped."""
     options = one.options if navigation_of(fleet, one) == CRAZYFLIE else {}
     return replace(one, navigation=None, uri=None, options=options)
 
@@ -72,6 +72,6 @@ _APART = 0.7
 
 
 def _free_id(drones: Sequence[DroneEntry]) -> str:
-    """Return the first name of the usual ones that no drone has."""
+    """Return the first unused default name."""
     known = {one.id for one in drones}
     return next(id for number in count(1) if (id := f"cf{number}") not in known)

@@ -26,19 +26,19 @@ Cell = tuple[int, int]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneEntry(DroneData):
-    """A drone as the fleet file has it, with how a real one is flown."""
+    """A drone of the fleet file, with how a real one is flown."""
 
     uri: str | None = None
-    """Where a real one is reached; how that is written, its navigation says."""
+    """The address of a real one, in its navigation's format."""
     navigation: str | None = None
     """How it is flown; None: as the fleet is."""
     options: Options = field(default_factory=dict)
-    """For its navigation, on top of the fleet's."""
+    """Options for its navigation, which override the fleet's."""
     line: int | None = None
 
 
 def read_drones(top: Table, app: App, airspace: Airspace | None) -> tuple[DroneEntry, ...]:
-    """Return the drones that can be read."""
+    """Return the drones whose entries are valid."""
     drones: list[DroneEntry] = []
     ids: dict[str, Table] = {}
     uris: dict[str, Table] = {}
@@ -55,7 +55,7 @@ def read_drones(top: Table, app: App, airspace: Airspace | None) -> tuple[DroneE
 
 
 def named_navigations(top: Table, of_fleet: str) -> list[str]:
-    """Return by what drones are flown, those that have other mistakes included."""
+    """Return the navigations of all drones, also of entries with other mistakes."""
     tables = top.data.get("drone")
     entries = tables if isinstance(tables, list) else []
     own = [entry.get("navigation") for entry in entries if isinstance(entry, dict)]
@@ -98,7 +98,7 @@ def _drone(
 def _category(table: Table, app: App) -> str | None:
     names = [category.name for category in app.categories]
     if "category" not in table.data:
-        if len(names) == 1:  # there is nothing to choose
+        if len(names) == 1:  # the only category is the default
             return names[0]
         table.problem(errors.category_missing(names))
         return None
@@ -110,7 +110,7 @@ def _category(table: Table, app: App) -> str | None:
 
 
 def _stands_alone(drone: DroneEntry, homes: dict[Cell, list[DroneEntry]], table: Table) -> None:
-    """Tell if another has its home here: only those in this square and those around it can."""
+    """Report a home too near to another: only this cell and its neighbours need be checked."""
     column, row = (int(along // HOME_SIZE) for along in drone.home[:2])
     around = [(column + x, row + y) for x in (-1, 0, 1) for y in (-1, 0, 1)]
     others = (other for cell in around for other in homes.get(cell, ()))
@@ -129,7 +129,7 @@ def _answers_alone(table: Table, uris: dict[str, Table]) -> None:
 
 
 def which(uri: str) -> str:
-    """Return a drone's uri so that two ways to write it are one: by whichever dongle, too."""
+    """Return a drone's uri in a canonical form, whichever dongle it names."""
     plain = uri.strip().casefold().partition("?")[0].rstrip("/")
     scheme, _, rest = plain.partition("://")
     return rest.partition("/")[2] if scheme == "radio" else plain

@@ -1,4 +1,4 @@
-"""What is said of a plan file that cannot be flown: one function a sentence."""
+"""The messages for plan files that cannot be flown, one function each."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from plutoc_runtime.domain.text import number, quoted
 
 
 def shown(value: object) -> str:
-    """Write a value as it may stand in the file, shortened."""
+    """Format a value as in the file, shortened."""
     match value:
         case bool():
             return "true" if value else "false"
@@ -30,7 +30,7 @@ def shown(value: object) -> str:
 
 
 def listed(words: Iterable[str]) -> str:
-    """Join words for a person; say so if there is none."""
+    """Join words for a message; say so if there are none."""
     return ", ".join(words) or "none"
 
 

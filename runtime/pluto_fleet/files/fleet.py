@@ -1,4 +1,4 @@
-"""The fleet file: the map, the drones on it, and what a simulation makes them see (docs/files.md)."""
+"""The fleet file: the map, its drones, and the simulated world (docs/files.md)."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ if TYPE_CHECKING:
 
 
 APART = 0.5
-"""Metres: two Crazyflies nearer than that blow each other off course."""
+"""Metres: two Crazyflies closer than this disturb each other with their downwash."""
 
 CRAZYFLIE = "crazyflie"
-"""How drones are flown where the file names nothing else."""
+"""The default navigation."""
 
 OWN = "own"
-"""Localization is the drones' own affair."""
+"""The default localization: the drones' own."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,7 +51,7 @@ class Behaviour:
 
 
 def read_behaviour(top: Table) -> Behaviour:
-    """Return it, with what goes without saying."""
+    """Return it, with its defaults."""
     table = top.table("fleet")
     if table is None:
         return Behaviour()
@@ -74,7 +74,7 @@ def _after_trip(value: object) -> AfterTrip:
 
 
 def read_map(top: Table) -> tuple[Airspace | None, str | None]:
-    """Return the map and its picture; no map where it cannot be read."""
+    """Return the map and its picture; no map if it is invalid."""
     table = top.table("map")
     if table is None:
         return (None if "map" in top.data else Airspace()), None
@@ -138,7 +138,7 @@ def _area(value: object) -> tuple[Corner, ...]:
 
 
 def read_world(top: Table) -> WorldData | None:
-    """Return the world that the file describes, if it does."""
+    """Return the world that the file describes, if any."""
     table = top.table("world")
     if table is None:
         return None
@@ -195,7 +195,7 @@ DEFAULT_SIZE, ROW = 5, 18
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FleetFile(FleetData):
-    """What a fleet file says, of real flights too."""
+    """The data of a fleet file, with what real flights need."""
 
     drones: tuple[DroneEntry, ...]
     image: str | None = None
@@ -205,14 +205,14 @@ class FleetFile(FleetData):
     navigation: str = CRAZYFLIE
     """How real drones are flown: a name, or `module:Class`."""
     options: Mapping[str, Options] = field(default_factory=dict)
-    """For each way of flying them, by its name."""
+    """Options by navigation."""
     localization: str = OWN
-    """Who tells real drones where they are: a name, or `module:Class`."""
+    """The localization of real drones: a name, or `module:Class`."""
     localization_options: Options = field(default_factory=dict)
 
 
 def default_fleet(app: App, size: int = DEFAULT_SIZE) -> FleetFile:
-    """Return the fleet where there is no fleet file: five drones on an empty plain."""
+    """Return the fleet that is used without a file: five drones on an empty map."""
     categories = islice(cycle(app.categories), size)
     drones = tuple(
         DroneEntry(id=f"cf{place + 1}", category=category.name, home=_default_home(place))
@@ -227,12 +227,12 @@ def _default_home(place: int) -> Point:
 
 
 def load_fleet(path: Path, app: App) -> FleetFile:
-    """Return what a fleet file says; raise `BadInput` with everything that is wrong with it."""
+    """Load a fleet file; raise `BadInput` with everything that is wrong with it."""
     return fleet_of(read(path), app)
 
 
 def fleet_of(document: Document, app: App) -> FleetFile:
-    """Return what a fleet file that was read says, as `load_fleet` does."""
+    """Return the fleet of a file's text, as `load_fleet` does."""
     top = Table(document, document.data)
     top.only(("map", "fleet", "drone", "navigation", "localization", "world"), "a fleet file")
     airspace, image = read_map(top)
@@ -260,7 +260,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
 
 
 FOLLOWED = 1.0
-"""Metres per second: no course is followed faster, as the firmware comes (`posCtlPid.xVelMax`)."""
+"""Metres per second: the firmware's default limit of the speed on a course (`posCtlPid.xVelMax`)."""
 PACE = 16 / 35
 """A Crazyflie's mean speed on a course, as a share of its peak speed."""
 
@@ -271,12 +271,12 @@ def navigation_of(fleet: FleetFile, drone: DroneEntry) -> str:
 
 
 def options_of(fleet: FleetFile, drone: DroneEntry) -> Options:
-    """Return what is for its navigation: the fleet's options, and the drone's own on top."""
+    """Return the options for its navigation: the fleet's, overridden by the drone's own."""
     return {**fleet.options.get(navigation_of(fleet, drone), {}), **drone.options}
 
 
 def not_real(fleet: FleetFile) -> list[str]:
-    """Return why this fleet cannot be flown with real drones, a sentence each."""
+    """Return why this fleet cannot be flown with real drones, a sentence for each reason."""
     if all(drone.line is None for drone in fleet.drones):
         return [errors.no_fleet_file()]
     return [
@@ -287,7 +287,7 @@ def not_real(fleet: FleetFile) -> list[str]:
 
 
 def too_fast(app: App, fleet: FleetFile) -> list[str]:
-    """Return which categories are faster than a Crazyflie follows as it comes, a sentence each."""
+    """Return a sentence for each category that is faster than a Crazyflie's default limit."""
     flown = {
         d.category
         for d in fleet.drones

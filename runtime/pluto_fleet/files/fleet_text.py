@@ -1,4 +1,4 @@
-"""A fleet as the file that a person would write."""
+"""Writing a fleet as a fleet file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The missions file: what shall be flown (docs/files.md)."""
+"""The missions file: what is to be flown (docs/files.md)."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ ELSEWHERE = {
     Entity.MISSION: ("safe_time", "repeat", "evaluator", "at", "every"),
     Entity.TRIP: ("delay", "priority", "gap"),
 }
-"""Fields that other apps have: the message says why this app has not."""
+"""Fields that other apps have: the message says why this app has none."""
 
 
 def read_fields(table: Table, app: App, entity: Entity, basic: Sequence[str]) -> dict[str, Any]:
-    """Return the fields beyond the basic ones that the file gives, and tell unknown keys."""
+    """Return the fields beyond the basic ones, and report unknown keys."""
     fields = [field for field in app.fields if field.on is entity]
     keys = [*basic, *(field.name for field in fields)]
     for key in table.data:
@@ -61,12 +61,12 @@ def _unknown_evaluator(name: str, evaluators: Sequence[str]) -> str:
 
 
 def check_items(trips: Sequence[tuple[Trip, Table]]) -> None:
-    """Tell every pick without a release, release without a pick, and second item aboard."""
+    """Report every pick without a release, release without a pick, and second item aboard."""
     aboard: tuple[Item, Trip, Table] | None = None
     for trip, table in trips:
         if trip.item is None:
             if trip.action in (PICK, RELEASE):
-                return  # its item could not be read: what comes after it would only be guessed at
+                return  # its item is invalid: errors after it would be guesses
             continue
         if trip.action == PICK:
             if aboard is not None:
@@ -98,11 +98,11 @@ def _release(item: Item, aboard: tuple[Item, Trip, Table] | None) -> str | None:
 
 BASIC = ("name", "action", "target", "source", "parameters", "item")
 NOWHERE: Point = (0.0, 0.0, 0.0)
-"""Stands in for a target that could not be read: the file is refused in the end."""
+"""A placeholder for an invalid target: the file is refused in the end."""
 
 
 def read_trips(mission: Table, app: App, airspace: Airspace) -> list[Trip]:
-    """Return a mission's trips, and tell what is wrong with each and with their order."""
+    """Return a mission's trips, and report what is wrong with each and with their order."""
     names: dict[str, Table] = {}
     trips: list[tuple[Trip, Table]] = []
     for index, table in enumerate(mission.tables("trip", "mission.trip")):
@@ -205,7 +205,7 @@ def missions_of(document: Document, app: App, airspace: Airspace) -> list[Missio
 
 
 def read_missions(document: Document, app: App, airspace: Airspace) -> list[Mission[Any]]:
-    """Return the missions as far as they can be read; the document has what is wrong with them."""
+    """Return the missions as far as they are valid; the document collects what is wrong."""
     top = Table(document, document.data)
     top.only(("mission",), "a missions file")
     names: dict[str, Table] = {}

@@ -1,4 +1,4 @@
-"""Tables whose keys are not ours: what the class that flies a drone makes of them is its own affair."""
+"""Free-form option tables, whose keys are interpreted by a drone's navigation."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ Options = Mapping[str, object]
 """Texts, numbers, booleans, and lists and tables of these."""
 
 DEEPEST = 8
-"""Tables and lists inside one another: they are written down as JSON for another process."""
+"""The deepest nesting of tables and lists, which are sent to another process as JSON."""
 
 _LARGEST_WHOLE = 2**63
 
 
 def options_under(around: Table, key: str, header: str = "") -> Options:
-    """Return what the table under a key holds; nothing where there is none."""
+    """Return the options under a key; empty if there are none."""
     table = around.table(key, header)
     return {} if table is None else options_in(table)
 
 
 def options_in(table: Table) -> Options:
-    """Return what a table holds, without what cannot be kept: that is a problem of the file."""
+    """Return a table's options; values that JSON cannot hold are reported."""
     found: dict[str, object] = {}
     for key in table.data:
         value = table.read(key, plain)
@@ -37,7 +37,7 @@ def options_in(table: Table) -> Options:
 
 
 def navigation_options(top: Table, used: Sequence[str]) -> Mapping[str, Options]:
-    """Return the tables `[navigation.NAME]`, by name; one that no drone uses is a mistake."""
+    """Return the tables `[navigation.NAME]` by name; one that no drone uses is reported."""
     every = top.table("navigation")
     if every is None:
         return {}
@@ -52,7 +52,7 @@ def navigation_options(top: Table, used: Sequence[str]) -> Mapping[str, Options]
 
 
 def plain(value: object, depth: int = 1) -> object:
-    """Read anything that stays the same when it is written as JSON and read again."""
+    """Read a value that JSON can hold without change."""
     if depth > DEEPEST:
         raise values.Wrong("is nested too deep")
     match value:

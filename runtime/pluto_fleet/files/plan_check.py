@@ -1,4 +1,4 @@
-"""Could the fleet ever do what the missions ask, and can their names be told apart? Asked before anything flies."""
+"""Checks before a flight: can the fleet do what the missions ask, and are their names distinguishable?"""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unflyable:
-    """Trips that one drone must fly, and none of the fleet ever could."""
+    """Trips that one drone must fly together, and no drone of the fleet can."""
 
     mission: Mission[Any]
     trips: Sequence[Trip]
@@ -67,7 +67,7 @@ def unflyable(
             ]
             misses = _misses(app, airspace, asked, chain)
             if misses is not None and any(miss.lacks > Lacks.PAYLOAD for miss in misses):
-                asked = drones  # another home may be better placed after all
+                asked = drones  # a farther home may still have a shorter route
                 misses = _misses(app, airspace, asked, chain)
             if misses is not None:
                 reason = _cannot(_nearest(misses, asked))
@@ -78,7 +78,7 @@ def unflyable(
 def idle_actions(app: App, fleet: FleetFile) -> list[str]:
     """Return a sentence for each action of the app that no drone of the fleet can do.
 
-    No mission need ask for it, so that is no error; but who draws the next mission might.
+    This is not an error: the missions may not need it, but the next one may.
     """
     there = {drone.category for drone in fleet.drones}
     found = []
@@ -140,7 +140,7 @@ def _cannot(misses: Sequence[Miss]) -> str:
 def look_alikes(
     missions: Sequence[Mission[Any]], drones: Sequence[DroneEntry] = ()
 ) -> Iterator[str]:
-    """Yield a sentence for each two missions, trips of one mission, or drones that look the same."""
+    """Yield a sentence for each two missions, trips of one mission, or drones whose names look the same."""
     for one, other in _alike(mission.name for mission in missions):
         yield _sentence("missions", one, other)
     for one, other in _alike(drone.id for drone in drones):
@@ -159,7 +159,7 @@ def _alike(names: Iterable[str]) -> Iterator[tuple[str, str]]:
 
 
 def _seen(name: str) -> str:
-    """Return a name as an eye takes it: of any alphabet, large or small."""
+    """Return a name's appearance: look-alike letters of other alphabets and cases become one."""
     plain = normalize("NFKC", name).translate(_LETTERS).casefold()
     return " ".join(normalize("NFKC", plain).split())
 
@@ -187,4 +187,4 @@ _LETTERS = str.maketrans(
     "\u034f\u17b4\u17b5"
     + "".join(map(chr, (*range(0x180B, 0x1810), *range(0xFE00, 0xFE10), *range(0xE0100, 0xE01F0)))),
 )
-"""Letters of other alphabets that are drawn as Latin ones, and signs that are drawn alike, or not at all."""
+"""Letters that look like Latin ones, and signs that look alike, or are invisible."""

@@ -1,4 +1,4 @@
-"""A plan file as TOML tables that hand out values, and tell all that is wrong with them by line."""
+"""Reading a plan file: TOML tables that convert values, and collect all mistakes with their lines."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wording:
-    """What is said differently to the author of a file and to a user of the station."""
+    """The wording of messages, which differs between a file's author and a user of the station."""
 
     called: Callable[[str], str]
     """What a key is called."""
@@ -53,18 +53,18 @@ class Problem:
 
     place: TomlPath
     who: str
-    """How a message calls what it is about."""
+    """The subject of the message."""
     text: str
     line: int | None
 
     @property
     def sentence(self) -> str:
-        """What is said where nothing else shows what it is about."""
+        """The whole message, with its subject."""
         return f"{self.who}: {self.text}" if self.who else self.text
 
 
 class Document:
-    """A parsed plan and what is wrong with it: all of it, told in one go."""
+    """A parsed plan, and everything that is wrong with it."""
 
     def __init__(
         self, path: str, data: dict[str, object], where: TomlLines, words: Wording = IN_A_FILE
@@ -74,11 +74,11 @@ class Document:
         self._where = where
 
     def line(self, place: TomlPath) -> int | None:
-        """Return the line of what has this path."""
+        """Return the line of a path."""
         return line_of(self._where, place)
 
     def problem(self, text: str, place: TomlPath, who: str, near: TomlPath) -> None:
-        """Something is wrong at this place; in a file it is found near another."""
+        """Report a problem at a path; `near`: another one whose line is shown in a file."""
         line = self.line(near)
         self.problems.append(Problem(place=place, who=who, text=text, line=line))
 
@@ -93,7 +93,7 @@ class Document:
 
 
 def shortened(lines: Sequence[str]) -> str:
-    """Join lines for a person, up to a number that can be read."""
+    """Join lines, up to a readable number."""
     more = len(lines) - MOST_SHOWN
     if more <= 0:
         return "\n".join(lines)
@@ -106,7 +106,7 @@ def read(path: Path) -> Document:
 
 
 def parsed(path: str, text: str) -> Document:
-    """Return what a plan file's text says; raise `BadInput` if it is no TOML."""
+    """Parse a plan file's text; raise `BadInput` if it is not TOML."""
     line = line_of_long_key(text)
     if line is not None:
         raise BadInput(f"{path}:{line}: {errors.nested_too_deep()}")
@@ -136,7 +136,7 @@ def text_of(path: Path) -> str:
 
 
 def _opened(path: str, flags: int) -> int:
-    """Open a file without waiting: a pipe without a writer is empty."""
+    """Open a file without blocking: a pipe without a writer is empty."""
     if not hasattr(os, "O_NONBLOCK"):
         return os.open(path, flags)
     descriptor = os.open(path, flags | os.O_NONBLOCK)
@@ -158,7 +158,7 @@ T = TypeVar("T")
 
 
 class Table:
-    """One table of the file, and how a message calls it."""
+    """One table of the file, and its name in messages."""
 
     def __init__(
         self, document: Document, data: Mapping[str, object], place: TomlPath = (), who: str = ""
@@ -166,15 +166,15 @@ class Table:
         self.document, self.data, self.place, self.who = document, data, place, who
 
     def problem(self, text: str, *inside: str | int, near: str | None = None) -> None:
-        """Something is wrong with this table, or with what it holds there.
+        """Report a problem of this table, or of a key in it.
 
-        What is not there at all is looked for near another key.
+        For a missing key, `near` is another key whose line is shown.
         """
         place = (*self.place, *inside)
         self.document.problem(text, place, self.who, (*self.place, near) if near else place)
 
     def called(self, key: str) -> str:
-        """Return what a message calls a key."""
+        """Return the name of a key in messages."""
         return self.document.words.called(key)
 
     def line(self, *inside: str | int) -> int | None:
@@ -195,7 +195,7 @@ class Table:
             return None
 
     def only(self, keys: Sequence[str], what: str) -> None:
-        """Tell the keys that are not among these."""
+        """Report the keys that are not among these."""
         for key in self.data:
             if key not in keys:
                 self.problem(errors.unknown_key(key, keys, what), key)

@@ -1,7 +1,7 @@
-"""TOML texts: how values are written, and where tables, keys and elements stand, which `tomllib` does not tell.
+"""Writing TOML, and the lines of tables, keys and elements, which `tomllib` does not give.
 
-A path is made of keys and positions: `("mission", 0, "trip", 1, "action")`. The text is one that
-`tomllib` has accepted, so that this only follows its shape and checks nothing.
+A path is made of keys and positions: `("mission", 0, "trip", 1, "action")`. The text has been
+accepted by `tomllib`, so nothing is checked here.
 """
 
 from __future__ import annotations
@@ -33,7 +33,9 @@ _BARE = re.compile(r"[^,\]}\n#]+")
 def places(text: str) -> TomlLines:
     """Return the line of everything in a TOML text that has a path."""
     scanner = _Scanner(text.replace("\r\n", "\n"))
-    with suppress(LookupError, ValueError, RecursionError):  # better no line than no message
+    with suppress(
+        LookupError, ValueError, RecursionError
+    ):  # a message without a line is better than none
         scanner.document()
     return scanner.lines
 

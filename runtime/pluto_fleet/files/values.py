@@ -1,7 +1,6 @@
-"""From what TOML holds to what the runtime wants: `delay "3 m" is a length, not a time`.
+"""Converting values of TOML, with messages such as `delay "3 m" is a length, not a time`.
 
-A number beyond its limits is a slip of the pen, or no flight of any drone; nothing that is computed from
-what lies within divides by nothing or grows beyond all numbers.
+Numbers have limits, so that nothing that is computed from them divides by zero or overflows.
 """
 
 from __future__ import annotations
@@ -22,13 +21,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limit:
-    """From where to where a number may be."""
+    """The range of a number."""
 
     least: float
     most: float
     unit: str = ""
     or_none: bool = False
-    """Whether it may also be 0, which says that there is none of it."""
+    """Whether it may also be 0, meaning none."""
 
     def problem(self, amount: float) -> str | None:
         """Return what is wrong with an amount, and what would not be."""
@@ -64,13 +63,13 @@ TIME = Limit(least=0.001, most=1e9, unit="s", or_none=True)
 
 
 LARGEST = 1e9
-"""No field needs more, and nothing that is computed from less overflows: 30 years, for a time."""
+"""The largest number of a field: 30 years, for a time; nothing computed from it overflows."""
 
 LONGEST_NAME = 200
 
 
 class Wrong(ValueError):
-    """What a value is not; the message goes on after the key and the value."""
+    """An invalid value; the message continues after the key and the value."""
 
 
 def name(value: object) -> str:
@@ -154,7 +153,7 @@ _PLAIN: dict[Type, Callable[[object], Plain]] = {
 
 
 def numbers(value: object, counts: tuple[int, ...], limit: Limit = PLACE) -> tuple[float, ...]:
-    """Read a list of lengths; it may have so many."""
+    """Read a list of lengths, with these numbers of elements."""
     wanted = " or ".join(str(count) for count in counts)
     if not isinstance(value, list) or len(value) not in counts:
         raise Wrong(f"is not a list of {wanted} numbers")

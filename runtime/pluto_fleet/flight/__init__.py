@@ -1,1 +1,1 @@
-"""Flying an app for real: begun, recorded, commanded, recovered."""
+"""Flying an app in real time: starting, recording, commanding, recovering."""

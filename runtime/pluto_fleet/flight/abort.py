@@ -1,6 +1,6 @@
-"""Failing a trip whose drone is elsewhere: its action may be done by the time that the drone hears of it.
+"""Aborting a trip by a gateway: its action may be done by the time that the drone is told.
 
-So an action that must not be repeated is looked up first: at one instant the trip's own end wins.
+So an action that is not safe to repeat is looked up first.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 
 class CallingOff:
-    """Fails trips once the gateway has said that their actions were not done."""
+    """Fails trips once the gateway has confirmed that their actions were not done."""
 
     def __init__(self, link: CommandLink) -> None:
         self._link = link
 
     def __call__(self, state: MissionState, flight: Flight, reason: str) -> None:
-        """Fail the trip of a flight that was broken off, unless its action was done, or may have been."""
+        """Fail the trip of an aborted flight, unless its action was done, or may have been."""
         state.core.kernel.spawn(
             self._fail_unless_done(state, flight, reason),
             mission_key(state.mission.index),
@@ -36,7 +36,7 @@ class CallingOff:
     async def _fail_unless_done(self, state: MissionState, flight: Flight, reason: str) -> None:
         roll = await self._link.fleet_report()
         if state.in_flight is not flight or state.task is None:
-            return  # it has ended, or its mission was taken out of its graph
+            return  # it has ended, or its mission was suspended
         entry = roll.jobs.get(flight.id)
         what = outcome_of(entry, state.core.app.actions[flight.trip.action], begun=False)
         if what is Outcome.UNKNOWN:

@@ -1,7 +1,7 @@
 """The socket through which commands reach a running app.
 
-Nothing stands between a command and what it does: a request is read and carried out within the
-kernel in one go, even while the app waits for other things. Only the answer may have to wait.
+A command takes effect at once: a request is read and carried out within the kernel in one step,
+even while the app waits for other things. Only the answer may have to wait.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ from ..process.ipc import Answer, answering, listening
 
 
 class Control(Protocol):
-    """What can be asked of a running app; each says what it did, or raises `BadInput`."""
+    """The commands of a running app; each returns what it did, or raises `BadInput`."""
 
     def stop(self, how: Down) -> str:
-        """Bring all drones down; every mission can go on later."""
+        """Bring all drones down; every mission can be resumed later."""
         ...
 
     def pause(self, mission: str | None) -> str:
-        """Take a mission, or all, out of its graph until it is told to go on."""
+        """Suspend a mission, or all, until it is told to go on."""
         ...
 
     def go_on(self, mission: str | None) -> str:
-        """Let a paused mission, or all that are, go on where it was."""
+        """Resume a paused mission, or all paused ones."""
         ...
 
     def skip(self, mission: str, trip: str | None) -> str:
-        """Leave out a trip of a mission; None: its next one."""
+        """Skip a trip of a mission; None: its next one."""
         ...
 
     def cancel(self, mission: str | None) -> str:
@@ -42,24 +42,24 @@ class Control(Protocol):
         ...
 
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
-        """Fly a trip sooner, or later, than others that wait for a drone."""
+        """Change a trip's priority in the queue for a drone."""
         ...
 
     def retire(self, drone: str) -> str:
-        """Give a drone to no trip any more, until it is brought back."""
+        """Allocate a drone to no further trip, until it is brought back."""
         ...
 
     def bring_back(self, drone: str) -> str:
-        """Let a drone be handed out again that is retired, or lost and looked after since."""
+        """Make a drone available again that was retired, or lost and repaired since."""
         ...
 
     def decide(self, mission: str, answer: str) -> str:
-        """Settle what only a person can know: `done`, `not-done`, `go-on` or `cancel`."""
+        """Answer an open question: `done`, `not-done`, `go-on` or `cancel`."""
         ...
 
 
 def perform(control: Control, request: Mapping[str, object]) -> str:
-    """Do what was asked; raise `BadInput` if it makes no sense."""
+    """Carry out a request; raise `BadInput` if it is invalid."""
     how = stop_in(request)
     if how is not None:
         return control.stop(how)
@@ -90,7 +90,7 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
 
 
 def stop_in(request: Mapping[str, object]) -> Down | None:
-    """Return how a request wants all drones to come down; None: it wants something else."""
+    """Return how a Stop request wants all drones to come down; None: it is another request."""
     match request:
         case {"command": "stop", "how": ("rtl" | "land") as how}:
             return Down(how)
@@ -99,7 +99,7 @@ def stop_in(request: Mapping[str, object]) -> Down | None:
 
 @asynccontextmanager
 async def hear_commands(note: Path, answer: Answer) -> AsyncIterator[None]:
-    """Answer every process that finds the note; nothing flies that could not be stopped."""
+    """Serve commands; without this socket nothing may fly, as it could not be stopped."""
     async with AsyncExitStack() as stack:
         try:
             await stack.enter_async_context(listening(note, answering(answer)))

@@ -1,4 +1,4 @@
-"""What the lives of one app in real time share, and what comes of one."""
+"""The configuration of a flight, and the outcome of one run of its app."""
 
 from __future__ import annotations
 
@@ -24,39 +24,39 @@ if TYPE_CHECKING:
 
 
 class End(Enum):
-    """How a life ended, if not by a crash."""
+    """How a run ended, if not by a crash."""
 
     OVER = "over"
-    """Every mission has ended, or waits for a person."""
+    """Every mission has ended, or waits for an answer of the user."""
     STOPPED = "stopped"
     LOST = "lost"
-    """The gateway has gone: the drones must be asked by another one."""
+    """The gateway has died: another one must take over its drones."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlightConfig:
-    """What all lives of one app share."""
+    """What all runs of one app share."""
 
     app: App
     missions: Sequence[Mission[Any]]
-    """As they were planned."""
+    """The missions as planned."""
     fleet: FleetFile
     connect: Connect
-    """Reaches the gateway, and starts it if there is none: kernel, epoch, what to call if it dies."""
+    """Connects to the gateway, or starts it: given kernel, epoch, and what to call if it dies."""
     note: Path
-    """Where to say how commands reach the app."""
+    """The note with the address for commands."""
     tell: Callable[[Event], object]
-    """Shows an event, once it is on record."""
+    """Called with an event, once it is durable."""
     speed: float = 1.0
     sim: bool = True
-    """Whether drones are simulated: then a lost one is always carried home."""
+    """Whether drones are simulated: then a lost one is carried home automatically."""
     patient: bool = False
-    """Whether it goes on for as long as a mission waits for a person's decision."""
+    """Whether it goes on while a mission waits for the user's decision."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlightResult:
-    """What came of one life."""
+    """The outcome of one run."""
 
     end: End
     missions: Sequence[Mission[Any]]
@@ -65,13 +65,13 @@ class FlightResult:
 
 
 class Stops:
-    """Stops the app's present life, and each that would follow."""
+    """Stops the app's current run, and those that would follow."""
 
     def __init__(self) -> None:
         self.asked: Down | None = None
-        """How all drones shall come down, once that was asked for."""
+        """How all drones are to come down, once a stop was requested."""
         self.stop_now: Callable[[Down], object] | None = None
-        """Stops the life that is being lived."""
+        """Stops the current run."""
 
     def stop(self, how: Down) -> None:
         """Bring all drones down; called in the loop's thread."""

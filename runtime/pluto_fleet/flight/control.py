@@ -1,7 +1,7 @@
-"""What a person may tell a running app: stop, pause, go on, skip, cancel, and what only they know.
+"""The user's commands to a running app: stop, pause, go on, skip, cancel, decide, …
 
-Each is told within the kernel, and answers with a sentence for the person who asked; `BadInput` says why
-it cannot be done. Nothing here waits before the drones are told.
+Each is called within the kernel, and returns a sentence for the user; `BadInput` says why it cannot be
+done. Nothing here waits before the drones are told.
 """
 
 from __future__ import annotations
@@ -54,13 +54,13 @@ class Control:
         self.stopped: Future[Down] = Future()
         """Set when everything was stopped and all drones are down."""
         self.whole: Task[float] | None = None
-        """The task that sets all missions out, or takes them up again, and waits for their end."""
+        """The task that starts or resumes all missions, and waits for their end."""
         self._stops: Task[None] | None = None
         self._steps_out: dict[str, Task[None]] = {}
-        """The missions whose flights are being broken off."""
+        """The tasks of missions whose flights are being aborted."""
 
     def stop(self, how: Down) -> str:
-        """Take every mission out of its graph and bring all drones down; all can go on later."""
+        """Suspend every mission and bring all drones down; all can be resumed later."""
         core = self._core
         if self._stops is None and self.whole is not None and self.whole.is_set:
             return "all missions have ended, and all drones are down"
@@ -70,7 +70,7 @@ class Control:
             for work in self._steps_out.values():
                 work.cancel()
             if self.whole is not None:
-                self.whole.cancel()  # drones may be reporting: nothing may begin after that
+                self.whole.cancel()  # it may still be querying drones: nothing may begin after that
             core.trace.note("stopped", how=how.value)
         else:
             self._stops.cancel()
@@ -82,14 +82,14 @@ class Control:
         self.stopped.set(how)
 
     def pause(self, mission: str | None = None) -> str:
-        """Take a mission, or all, out of the graph until it is told to go on."""
+        """Suspend a mission, or all, until it is told to go on."""
         states = self._those(mission, lambda status: status not in _ASIDE, "can be paused")
         for state in states:
             self._step_out(state, self._paused)
         return f"{_named(states)}: paused"
 
     def go_on(self, mission: str | None = None) -> str:
-        """Let a mission that is paused, or all that are, go on where it was."""
+        """Resume a paused mission, or all paused ones."""
         states = self._those(mission, lambda status: status is Status.PAUSED, "is paused")
         for state in states:
             self._refuse_while_it_steps_out(state)
@@ -98,7 +98,7 @@ class Control:
         return f"{_named(states)}: going on"
 
     def skip(self, mission: str, trip: str | None = None) -> str:
-        """Leave out a trip, the next one or the one named; if it flies, its drone comes home."""
+        """Skip a trip, the next one or the one named; if it flies, its drone comes home."""
         state = self._state(mission)
         if state.mission.status in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
@@ -117,7 +117,7 @@ class Control:
         return f"{_named(states)}: cancelled"
 
     def decide(self, mission: str, answer: str) -> str:
-        """Settle what only a person can know: `done`, `not-done`, `go-on` or `cancel`."""
+        """Answer an open question: `done`, `not-done`, `go-on` or `cancel`."""
         state = self._state(mission)
         status = state.mission.status
         fitting = ANSWERS.get(status, ())
@@ -138,7 +138,7 @@ class Control:
         return f"mission {quoted(mission)}: {answer}"
 
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
-        """Fly a trip that has not been flown sooner, or later, than others that wait for a drone."""
+        """Change the priority of a trip that has not been flown."""
         state = self._state(mission)
         if not any(field.name == interventions.PRIORITY for field in self._core.app.fields):
             raise BadInput("the trips of this app have no priority")
@@ -148,7 +148,7 @@ class Control:
         return f"mission {quoted(mission)}: trip {quoted(trip)} has priority {priority}"
 
     def retire(self, drone: str) -> str:
-        """Give a drone to no trip any more, until it is brought back."""
+        """Allocate a drone to no further trip, until it is brought back."""
         who = self._drone(drone)
         if who in live_fleet(self._core).retired:
             return f"{drone} is retired already"
@@ -158,7 +158,7 @@ class Control:
         return f"{drone} is retired" + (", once its trip is over" if flies else "")
 
     def bring_back(self, drone: str) -> str:
-        """Let a retired drone be handed out again, or one that was lost: a person has looked after it."""
+        """Make a drone available again that was retired, or lost and repaired since."""
         who, fleet = self._drone(drone), live_fleet(self._core)
         lost = who.status is DroneStatus.LOST
         asked = lost or who in fleet.unready
@@ -169,21 +169,21 @@ class Control:
         return f"{drone} is asked whether it is well" if asked else f"{drone} is back"
 
     def remember(self, id: str, command: str) -> None:
-        """Put on record that a command is carried out: it is never carried out twice."""
+        """Record that a command is carried out, so that it is never carried out twice."""
         self._core.trace.note("commanded", id=id, command=command)
 
     async def carried_out(self) -> None:
-        """Wait until what was asked for has been done and is on record: then it will not be lost."""
+        """Wait until a command has taken effect and is durable."""
         for work in list(self._steps_out.values()):
             await work.ended()
         recorder = self._core.recorder
         if recorder is not None:
             await recorder.on_record()
 
-    # One mission leaves its graph, or comes back
+    # Suspending one mission, and resuming it
 
     def _step_out(self, state: MissionState, then: Then) -> None:
-        """Take a mission out of its graph; go on when it is known what became of its flight."""
+        """Suspend a mission; continue when the outcome of its flight is known."""
         mission, flight = state.mission, state.in_flight
         self._refuse_while_it_steps_out(state)
         if flight is None:
@@ -210,7 +210,7 @@ class Control:
             )
 
     async def _broken_off(self, state: MissionState, flight: Flight, then: Then) -> None:
-        """Ask the ledger what became of a flight, and its drone."""
+        """Abort a flight, and find out its outcome from the ledger and the drone."""
         roll = await self._link.fleet_report()
         entry = roll.jobs.get(flight.id)
         begun = bool(self._record(state)["flight"]["begun"])
@@ -273,7 +273,7 @@ class Control:
         self._engine.set_aside(state)
         flight = state.in_flight
         if flight is not None and state.mission.status is Status.UNCERTAIN:
-            state.flight = None  # it does not fly: its drone may be on another's way by now
+            state.flight = None  # its drone may be flying for another mission by now
             if flight.trip.item is not None:
                 self._core.fleet.recover(flight.flier)
                 state.carrier = None
@@ -322,7 +322,7 @@ class Control:
 
 
 def _trip_to_skip(state: MissionState, name: str | None) -> Trip:
-    """Return the trip that is meant; raise `BadInput` where it cannot be skipped."""
+    """Return the trip to skip; raise `BadInput` if it cannot be skipped."""
     mission = state.mission
     who = f"mission {quoted(mission.name)}"
     if not mission.trips:
@@ -355,7 +355,7 @@ def _named(states: Sequence[MissionState]) -> str:
 _ASIDE = (Status.PAUSED, Status.UNCERTAIN, Status.HELD)
 
 ANSWERS = {Status.UNCERTAIN: ("done", "not-done", "cancel"), Status.HELD: ("go-on", "cancel")}
-"""What a person may answer, by how the mission stands."""
+"""The possible answers, by the mission's status."""
 
 _HOW = {
     Down.HOME: "all drones fly home and land",

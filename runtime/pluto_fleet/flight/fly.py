@@ -1,4 +1,4 @@
-"""Real time: one life of an app after another, each from what its journal says."""
+"""Real time: runs an app, and runs it again from its journal when its gateway dies."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Recovered:
-    """What a journal says."""
+    """The contents of a journal."""
 
     records: Records
     written: float | None
     """When its last row was written, in seconds since 1970."""
 
     def time(self, speed: float) -> float:
-        """Return what time it is now in the life that goes on from there."""
+        """Return the present time in a run that resumes from there."""
         if not self.records.missions or self.written is None:
             return self.records.time
         return self.records.time + max(0.0, time.time() - self.written) * speed
 
 
 def recovered(store: Store) -> Recovered:
-    """Return what a journal says; raise `BadInput` where it is damaged."""
+    """Read a journal; raise `BadInput` if it is damaged."""
     read = store.read()
     records = replayed(read, store.header)
     if read.damaged is not None:
@@ -48,9 +48,9 @@ async def live(
     known: Recovered | None = None,
     born: Callable[[LiveFlight], object] | None = None,
 ) -> FlightResult:
-    """Let the app live until all is over, until it is stopped, or until its gateway dies.
+    """Run the app until all missions have ended, it is stopped, or its gateway dies.
 
-    `known` is what the journal says, if it has been read already; `born` is told of the life.
+    `known` is the journal's content, if it has been read already; `born` is called with the run.
     """
     known = known or recovered(store)
     one = LiveFlight(setting, store, known.records, known.time(setting.speed))

@@ -1,4 +1,4 @@
-"""Changes of status that only an interruption or a person makes; each of them is an event."""
+"""Changes of status by an interruption or by the user; each is an event."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ if TYPE_CHECKING:
     from plutoc_runtime.flow.mission import Core
 
 PRIORITY = "priority"
-"""The field of trips that decides who gets a drone first, in apps whose graph has one."""
+"""The field of trips with the priority in the queue, in apps whose graph has one."""
 
 
 def interrupt(core: Core, mission: Mission[Any], trip: Trip) -> None:
-    """A flight was interrupted before its action was done: it counts as no attempt."""
+    """Take back a flight that was interrupted before its action was done: it counts as no attempt."""
     trip.status, trip.drone = TripStatus.WAITING, None
     trip.start_time = trip.end_time = None
     mission.attempts -= 1
@@ -23,44 +23,44 @@ def interrupt(core: Core, mission: Mission[Any], trip: Trip) -> None:
 
 
 def skip(core: Core, mission: Mission[Any], trip: Trip) -> None:
-    """A person wants a trip not to be flown after all."""
+    """Skip a trip."""
     trip.status = TripStatus.SKIPPED
     mission.trips.remove(trip)
     _note(core, mission, "trip.skipped", trip=trip.name)
 
 
 def prioritise(core: Core, mission: Mission[Any], trip: Trip, priority: int) -> None:
-    """A person wants a trip to be flown sooner, or later, than it would be."""
+    """Change a trip's priority."""
     setattr(trip, PRIORITY, priority)
     _note(core, mission, "trip.prioritised", trip=trip.name, priority=priority)
 
 
 def pause(core: Core, mission: Mission[Any]) -> None:
-    """A person wants a mission to wait until it is told to go on."""
+    """Pause a mission."""
     mission.status, mission.reason = Status.PAUSED, ""
     _note(core, mission, "mission.paused")
 
 
 def resume(core: Core, mission: Mission[Any], status: Status) -> None:
-    """A mission that was interrupted goes on."""
+    """Resume an interrupted mission."""
     mission.status = status
     _note(core, mission, "mission.resumed", status=status.value)
 
 
 def doubt(core: Core, mission: Mission[Any], trip: Trip, drone: str, question: str) -> None:
-    """Only a person can say whether a trip's action was done."""
+    """Set a mission UNCERTAIN: only the user can say whether a trip's action was done."""
     mission.status, mission.reason = Status.UNCERTAIN, question
     _note(core, mission, "mission.uncertain", trip=trip.name, drone=drone, reason=question)
 
 
 def hold(core: Core, mission: Mission[Any], reason: str) -> None:
-    """A mission cannot go on in this app: a person must decide."""
+    """Hold a mission that cannot go on in this app until the user decides."""
     mission.status, mission.reason = Status.HELD, reason
     _note(core, mission, "mission.held", reason=reason)
 
 
 def decide(core: Core, mission: Mission[Any], answer: str) -> None:
-    """A person has decided what only a person can know."""
+    """Record the user's decision."""
     _note(core, mission, "mission.decided", answer=answer)
 
 

@@ -1,4 +1,4 @@
-"""The engine of an app that really flies: missions wait for people, are taken out, and go on."""
+"""The engine of a real flight: missions can be suspended, wait for the user, and resume."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class LiveEngine(Engine):
     def __init__(self, core: Core) -> None:
         super().__init__(core)
         self._aside: dict[str, MissionState] = {}
-        """The missions that wait for a person."""
+        """The missions that wait for the user."""
         self._halted: tuple[MissionState, ...] | None = None
-        """Who was in a graph when all were taken out."""
+        """The missions that were running when all were halted."""
         self.patient = False
-        """Whether missions that wait for a person's decision keep it from being over."""
+        """Whether the flight goes on while missions wait for the user's decision."""
 
     @property
     def states(self) -> Iterator[MissionState]:
@@ -42,20 +42,20 @@ class LiveEngine(Engine):
         return tuple(task.over for task in tasks if isinstance(task.over, MissionState))
 
     def add(self, missions: Sequence[Mission[Any]]) -> None:
-        """Set more missions on their way, while others fly or after all have ended."""
+        """Start more missions, while others fly or after all have ended."""
         if self.done.is_set:
             self.done = Future()
         self.start(missions)
 
     def resume(self, state: MissionState, status: Status) -> None:
-        """Let a mission that was interrupted go on at the block where it can, with this status."""
+        """Resume an interrupted mission at its last resumable block, with this status."""
         if self.done.is_set:
             self.done = Future()
         self._aside.pop(state.mission.name, None)
         self._enter(state, status)
 
     def set_aside(self, state: MissionState) -> None:
-        """Take a mission out of its graph, if it is in it, until a person says how it goes on."""
+        """Suspend a mission until the user says how it goes on."""
         self._aside[state.mission.name] = state
         task, state.task = state.task, None
         if task is not None:
@@ -68,11 +68,11 @@ class LiveEngine(Engine):
             state.allocated = None
 
     def is_aside(self, state: MissionState) -> bool:
-        """Say whether a mission waits for a person."""
+        """Return whether a mission waits for the user."""
         return self._aside.get(state.mission.name) is state
 
     def waits(self, state: MissionState) -> None:
-        """Take a mission out of its graph: only a person's decision lets it go on."""
+        """Suspend a mission until the user decides."""
         self.set_aside(state)
         self._core.kernel.spawn(
             self._look(), mission_key(state.mission.index), f"{state.mission.name} waits"
@@ -82,25 +82,25 @@ class LiveEngine(Engine):
         self.look_for_the_end()
 
     def end(self, state: MissionState, status: Status, reason: str) -> None:
-        """End a mission that waits for a person."""
+        """End a mission that waits for the user."""
         self._aside.pop(state.mission.name, None)
         self._end(state, status, reason)
 
     def look_for_the_end(self) -> None:
-        """See whether there is nothing left to do; what waits for a person may yet come."""
+        """Set `done` if every mission has ended; missions that wait for the user may go on."""
         paused = (state.mission.status is Status.PAUSED for state in self._aside.values())
         waits = bool(self._aside) if self.patient else any(paused)
         if not waits:
             super().look_for_the_end()
 
     def halt(self) -> None:
-        """Take every mission out of its graph where it is; nothing is launched any more."""
+        """Cancel every mission where it is; nothing more is launched."""
         self._halted = self._in_their_graphs()
         for state in self._halted:
             flight = state.in_flight
             if flight is not None:
                 state.break_off(flight)
-            state.flight = None  # what is still reported of it is read from the ledger
+            state.flight = None  # later reports are read from the ledger
             if state.task is not None:
                 state.task.cancel()
 
@@ -111,12 +111,12 @@ class LiveEngine(Engine):
             await super()._call_off(state)
 
     def ended(self, state: MissionState, task: Task[Status]) -> None:
-        """A mission's coroutine is over: see how it ended, unless all were taken out."""
+        """End a mission by the outcome of its coroutine, unless all were halted."""
         if self._halted is None:
             super().ended(state, task)
 
 
 def live_engine(session: Session) -> LiveEngine:
-    """Return the engine of an app that really flies."""
+    """Return the engine of a real flight."""
     assert isinstance(session.engine, LiveEngine)
     return session.engine

@@ -1,4 +1,4 @@
-"""The drones of an app that really flies: they are asked how they are, and people look after them."""
+"""The fleet of a real flight: drones report their state, and are repaired by people."""
 
 from __future__ import annotations
 
@@ -18,32 +18,32 @@ if TYPE_CHECKING:
     from ..jobs.reports import DroneReport
 
 _HELPLESS = 12.0
-"""Seconds after which a drone that stands there will not fly home by itself: it would have begun."""
+"""Seconds after which a drone on the ground would have begun to fly home, if it could."""
 
 
 class LiveFleet(Fleet):
-    """A fleet whose drones may have been lost, retired or flying before this app began."""
+    """A fleet whose drones may have been lost, retired or flying before this run."""
 
     _navigation: CommandLink
 
     def __init__(self, *parts: Any) -> None:
         super().__init__(*parts)
         self.retired: set[Drone] = set()
-        """Those that no mission may have until they are brought back."""
+        """Drones that are not allocated until they are brought back."""
         self.lost: dict[Drone, str] = {}
-        """Those that were lost in an earlier life, and that no person has brought back since."""
+        """Drones that were lost in an earlier run, and not brought back since."""
         self.carried_home = True
-        """Whether who needs a person is waited for when all missions have ended."""
+        """Whether drones that need a person are waited for when all missions have ended."""
 
     def dismiss(self, drone: Drone) -> None:
-        """A drone has done what it was allocated for; a retired one goes home."""
+        """Take a drone back whose trip has ended well; a retired one goes home."""
         if drone not in self.retired:
             super().dismiss(drone)
         elif not self._rests(drone):
             self.send_home(drone)
 
     def _rests(self, drone: Drone) -> bool:
-        """Let it be handed out, or charge first; a retired drone must be home, and is OFFLINE."""
+        """Free it, or charge it first; a retired drone must be home, and is OFFLINE."""
         if drone not in self.retired:
             return super()._rests(drone)
         if not self._is_docked(drone):
@@ -52,15 +52,15 @@ class LiveFleet(Fleet):
         return True
 
     async def _why_lost(self, drone: Drone, reason: str) -> str:
-        """Ask the drone: it may have become worse since its flight failed."""
+        """Return the drone's own reason, which may be newer than that of the failed flight."""
         standing = await self._navigation.drone_report(drone.id)
         return _in_words(standing) or await super()._why_lost(drone, reason)
 
     def take_up(self, drone: Drone, standing: DroneReport) -> None:
-        """Find out what becomes of a drone that no mission needs now, when an app begins or goes on.
+        """Take over a drone that no mission needs now, when an app starts or resumes.
 
-        It is handed out only once it stands on the ground, well, with nothing aboard; one that was
-        lost, only once a person has looked after it, even if it says that it is well.
+        It is allocated only once it is on the ground, healthy, with nothing aboard; a lost one only
+        once it has been repaired, even if it reports to be healthy.
         """
         if drone in self.lost:
             self._leave_lost(drone, standing)
@@ -73,7 +73,7 @@ class LiveFleet(Fleet):
                 self.unready[drone] = why
 
     def _leave_lost(self, drone: Drone, standing: DroneReport) -> None:
-        """Let it be where it is, unless it is in the air: then it comes home, and stays lost."""
+        """Leave a lost drone where it is, unless it is in the air: then it comes home, and stays lost."""
         if standing.reached and not standing.landed:
             down = partial(self._bring_down, reason=self.lost[drone])
             self._send(drone, DroneStatus.RECOVERING, down, "comes down")
@@ -89,7 +89,7 @@ class LiveFleet(Fleet):
         self._become(drone, DroneStatus.LOST)
 
     def _say_why_not(self, drone: Drone, standing: DroneReport) -> str:
-        """Let people know why a drone may not fly, and return it."""
+        """Log why a drone may not fly, and return the reason."""
         if not standing.problems:
             return ""
         why = _in_words(standing)
@@ -97,38 +97,38 @@ class LiveFleet(Fleet):
         return why
 
     def retire(self, drone: Drone) -> None:
-        """No mission gets this drone any more; what it flies for now it flies to the end."""
+        """Allocate this drone to no further mission; its current trip goes on to its end."""
         self.retired.add(drone)
         if drone.status in (DroneStatus.FREE, DroneStatus.CHARGING) and not self._rests(drone):
             self.send_home(drone)
 
     def bring_back(self, drone: Drone) -> None:
-        """A retired drone may be handed out again; one that was lost, once it has come home."""
+        """Make a retired drone available again; a lost one once it has come home."""
         self.retired.discard(drone)
         self.lost.pop(drone, None)
         if drone.status is DroneStatus.LOST:
             self._navigation.mended(drone.id)
             self._send(drone, DroneStatus.RECOVERING, self._come_back, "comes back")
             return
-        if drone in self.unready:  # it may wait for just this
+        if drone in self.unready:  # its task may be waiting for this
             self._navigation.mended(drone.id)
         if drone.status is DroneStatus.OFFLINE and not self._rests(drone):
             self.send_home(drone)
 
     def flies_on(self, drone: Drone) -> None:
-        """A drone has been flying for a mission since before the app was interrupted."""
+        """Take over a drone that has been flying for a mission since before the interruption."""
         self._become(drone, DroneStatus.BUSY)
 
     def halt(self) -> None:
-        """Let go of every drone: the gateway brings them down."""
+        """End all errands: the gateway brings the drones down."""
         for errand in list(self.errands.values()):
             errand.cancel()
         self.errands.clear()
 
     async def all_down(self) -> None:
-        """Wait until every drone has done what it does for itself: return, land, recover.
+        """Wait until no drone is returning, landing or recovering.
 
-        One that stands on the ground and needs a person is not waited for, unless one comes.
+        A drone on the ground that needs a person is waited for only with `carried_home`.
         """
         stands_since: dict[Drone, float] = {}
         while under_way := {one: task for one, task in self.errands.items() if not task.is_set}:
@@ -155,7 +155,7 @@ class LiveFleet(Fleet):
             self._trace.note("log", mission=None, text=text)
 
     async def _come_back(self, drone: Drone) -> None:
-        """Bring home whom a person has looked after; if that was in vain, say why."""
+        """Bring a repaired drone home, or log why that failed."""
         self._become(drone, DroneStatus.RECOVERING)
         if await self._navigation.recover(drone.id):
             await self._settle(drone)
@@ -165,15 +165,15 @@ class LiveFleet(Fleet):
 
 
 def live_fleet(core: Core) -> LiveFleet:
-    """Return the fleet of an app that really flies."""
+    """Return the fleet of a real flight."""
     assert isinstance(core.fleet, LiveFleet)
     return core.fleet
 
 
 def _in_words(standing: DroneReport) -> str:
-    """Return why a drone may not fly, as it says itself."""
+    """Return why a drone may not fly, in its own words."""
     return cut_off("; ".join(map(printable, standing.problems)), LONGEST)
 
 
 _STILL = "it was brought back, and could not be reached"
-"""Why a drone is lost, where it does not say more."""
+"""Why a drone is lost, if it gives no reason."""

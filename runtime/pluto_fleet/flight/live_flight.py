@@ -1,7 +1,7 @@
-"""One life of an app in real time, with all that stands between it and the outside.
+"""One run of an app in real time, with its connections to the outside.
 
-On one side is the journal, which a thread writes, on the other the gateway to the drones; and
-a command may arrive at any moment.
+These are the journal, which a thread writes, the gateway to the drones, and commands, which may arrive
+at any moment.
 """
 
 from __future__ import annotations
@@ -37,19 +37,19 @@ if TYPE_CHECKING:
     from .config import FlightConfig, Stops
 
 SNAPSHOT_EVERY = 50_000
-"""Events between two snapshots: so many are read again in a tenth of a second."""
+"""Events between two snapshots: as many are read again in a tenth of a second."""
 
 SNAPSHOT_AT_END = 1_000
-"""Events that are worth one at the end of a life."""
+"""The least events since the last snapshot for another one at the end of a run."""
 
 LOOK_EVERY = 1.0
-"""Seconds on the wall between two looks at whether the journal is still there."""
+"""Seconds of real time between two checks that the journal is still there."""
 
 _ENDED = "the app ended before it could say whether that was done: look, once it goes on"
 
 
 class LiveFlight:
-    """From the first report of its drones to its last word."""
+    """Runs from the first report of the drones to the end."""
 
     def __init__(self, setting: FlightConfig, store: Store, records: Records, begin: float) -> None:
         self._setting, self._store = setting, store
@@ -61,15 +61,15 @@ class LiveFlight:
         self._link: GatewayLink | None = None
         self._watcher: Callable[[], object] | None = None
         self.life: RecordedFlight | None = None
-        """What is lived, once the gateway is reached."""
+        """The recorded flight, once the gateway is connected."""
         self._end: Future[End] = Future()
         self._failure: JournalError | None = None
         self._since_snapshot = 0
         self._kept: asyncio.Future[bool] = self._loop.create_future()
-        """Whether all that was asked for has been done and is on record, once the life has ended."""
+        """Set at the end: whether all commands have taken effect and are durable."""
 
     async def live(self, stops: Stops) -> FlightResult:
-        """Let everything go on until all is over, it is stopped, or the gateway dies."""
+        """Run until all missions have ended, it is stopped, or the gateway dies."""
         setting, kernel, self._stops = self._setting, self._kernel, stops
         lost = partial(self._end.set, End.LOST)
         self._link = link = await setting.connect(kernel, self._store.epoch, lost)
@@ -94,10 +94,10 @@ class LiveFlight:
             looks = asyncio.create_task(self._looks())
             try:
                 end = await self._lived(life, stops)
-            except BadInput:  # no drone is ready: the gateway is not needed either
+            except BadInput:  # no drone is ready: end the gateway as well
                 await link.goodbye()
                 raise
-            finally:  # clients that still wait for an answer need not any longer
+            finally:  # answer the clients that still wait
                 looks.cancel()
                 self._kept.set_result(self._end.is_set and self._end.result() is End.OVER)
         if end is not End.LOST:
@@ -112,14 +112,14 @@ class LiveFlight:
         )
 
     async def _lived(self, life: RecordedFlight, stops: Stops) -> End:
-        """Let everything go on to some end, and see to it that all is on record."""
+        """Run to some end, and make everything durable."""
         over = life.go_on(self._setting.missions)
         over.watch(self._over)
         if stops.asked is not None:
             stops.stop(stops.asked)
         end = await self._kernel.run(self._end)
         if end is End.OVER:
-            over.result()  # raises what it could not see through
+            over.result()  # raises its error
         if self._failure is None:
             if self._since_snapshot > SNAPSHOT_AT_END:
                 self._keep()
@@ -131,18 +131,18 @@ class LiveFlight:
         return end
 
     def on_telemetry(self, watcher: Callable[[], object]) -> None:
-        """Call this whenever something was heard of the drones."""
+        """Call this at each update of the telemetry."""
         self._watcher = watcher
 
     async def close(self) -> None:
-        """Let nothing of this life go on; the drones hover, or what was asked of them goes on."""
+        """End this run; the drones hover, or continue their jobs."""
         self._kernel.close()
         self._writer.close()
         if self._link is not None:
             await self._link.close()
 
     def _stop(self, how: Down) -> None:
-        """Stop, unless it is all over anyway."""
+        """Stop, unless everything has ended."""
         if self.life is not None and not self._end.is_set:
             self._kernel.post(self.life.control.stop, how)
 
@@ -150,10 +150,10 @@ class LiveFlight:
         if not isinstance(over.error, Cancelled):  # as it is by a stop
             self._end.set(End.OVER)
 
-    # What happens, on its way to the journal and back
+    # Events, to the journal and back
 
     def _count(self, _: Event) -> None:
-        """Keep what all events come to, now and then."""
+        """Count events, and write a snapshot now and then."""
         self._since_snapshot += 1
         if self._since_snapshot == SNAPSHOT_EVERY:
             self._loop.call_soon(self._keep)  # between two instants
@@ -168,12 +168,12 @@ class LiveFlight:
             self.life.recorder.durable(number)
 
     def _post(self, call: Callable[..., object], *args: object) -> None:
-        """Call this within the kernel, from another thread."""
-        with suppress(RuntimeError):  # the loop is closed: it is all over
+        """Call this within the kernel; used by other threads."""
+        with suppress(RuntimeError):  # the loop is closed: the run has ended
             self._loop.call_soon_threadsafe(self._kernel.post, call, *args)
 
     async def _looks(self) -> None:
-        """See now and then whether the journal is still there, though nothing may be written."""
+        """Check now and then that the journal is still there, even if nothing is written."""
         while self._failure is None:
             await asyncio.sleep(LOOK_EVERY)
             try:
@@ -182,7 +182,7 @@ class LiveFlight:
                 self._unwritable(failure)
 
     def _unwritable(self, failure: JournalError) -> None:
-        """Nothing can be put on record any more: bring everything down, and say why."""
+        """Bring everything down, and say why: the journal cannot be written any more."""
         if self._failure is None:
             self._failure = failure
             self._post(self._stop_unrecorded)
@@ -196,24 +196,24 @@ class LiveFlight:
             last = {"t": round(self._kernel.now, 6), "event": "log", "mission": None, "text": why}
             self._store.last_words(json.dumps([last]))
 
-    # What others ask for
+    # Requests from outside
 
     async def answer(self, request: Mapping[str, object]) -> str:
-        """Do what is asked for, at once; say so when it cannot be lost any more.
+        """Carry out a request at once; answer when its effect is durable.
 
-        `BadInput`: it cannot be done, and why.
+        Raises `BadInput` if it cannot be done.
         """
         return await self.carry_out(lambda life: perform(life.control, request), stop_in(request))
 
     async def carry_out(
         self, what: Callable[[RecordedFlight], str], how: Down | None = None
     ) -> str:
-        """Do this within the kernel, at once; return what it says when that cannot be lost any more.
+        """Call this within the kernel, at once; return its answer when its effect is durable.
 
-        `how`: it is a Stop, whose answer is not waited for.
+        `how`: it is a Stop, which is answered at once.
         """
         if how is not None and self._stops is not None:
-            self._stops.asked = how  # if the gateway dies meanwhile, the next life stops, too
+            self._stops.asked = how  # if the gateway dies meanwhile, the next run stops, too
         if self._end.is_set:
             return self._too_late(how)
         said: list[str] = []
@@ -238,7 +238,7 @@ class LiveFlight:
         return said[0]
 
     def _too_late(self, how: Down | None) -> str:
-        """Nothing of this life goes on any more: only a Stop still counts."""
+        """Refuse a request after the end of this run, except a Stop."""
         if how is None:
             raise BadInput(_ENDED)
         if self._end.result() is End.LOST:
@@ -246,7 +246,7 @@ class LiveFlight:
         return "the app ends, and all drones are down"
 
     async def _on_record(self, done: Sequence[Task[None]]) -> None:
-        """Wait until what was asked for was done and is durable; raise `BadInput` if it is not."""
+        """Wait until a command has taken effect and is durable; raise `BadInput` if that fails."""
         answers = [asyncio.ensure_future(self._kernel.offer(task)) for task in done]
         waits: list[asyncio.Future[Any]] = [*answers, self._kept]
         await asyncio.wait(waits, return_when=asyncio.FIRST_COMPLETED)

@@ -1,4 +1,4 @@
-"""A flight and its journal: begun or gone on with, and one life after another until it is over."""
+"""A flight and its journal: started or resumed, and run again until it has ended."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
 
 GATEWAY_DEATHS = 5
-"""How many gateways may die in a row with nothing finished in between."""
+"""How many gateways may die in a row without progress in between."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlightSetup:
-    """A journal, and all that is needed to go on with it."""
+    """A journal, and everything that is needed to resume it."""
 
     app: App
     journal: Path
@@ -54,24 +54,24 @@ class FlightSetup:
     seed: int
     faults: Faults
     sim: bool = True
-    """Whether the drones are simulated ones; real ones are moved by this."""
+    """Whether the drones are simulated."""
     crtp: bool = False
-    """Whether simulated Crazyflies stand in for real ones, down to their radio."""
+    """Whether the drones are Crazyflies that are simulated down to their radio."""
 
     @property
     def how_to_go_on(self) -> str:
-        """A sentence for a person who has stopped it."""
+        """How to resume it: a sentence for the user who has stopped it."""
         return how_to_go_on(self.app, self.journal)
 
 
 def how_to_go_on(app: App, journal: Path) -> str:
-    """Return a sentence for a person who has stopped an app, with what can be typed."""
+    """Return how to resume a flight: a sentence for the user who has stopped it, with the command."""
     return f"to go on: {app.name} resume {in_shell(journal)}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Resumable:
-    """A journal that is opened to go on with it, and what it says."""
+    """A journal that is opened to resume it, with its contents."""
 
     app: App
     store: Store
@@ -79,16 +79,16 @@ class Resumable:
     fleet: FleetFile
     known: Recovered
     planned: Sequence[Mission[Any]]
-    """What is to be flown if nothing has begun yet."""
+    """The plan, to be flown if nothing has begun yet."""
 
     @property
     def is_over(self) -> bool:
-        """Whether every mission has ended, and no drone is on its way home any more."""
+        """Whether every mission has ended, and no drone is returning any more."""
         note = gateway_folder(self.store.path) / NOTE
         return all_over(self.known.records) and not note.exists()
 
     def flight(self, speed: float | None) -> FlightSetup:
-        """Return the flight that goes on; without a speed it goes on at the one it had."""
+        """Return the flight to resume; without a speed at its former one."""
         folder = gateway_folder(self.store.path)
         return FlightSetup(
             app=self.app,
@@ -104,7 +104,7 @@ class Resumable:
 
 
 def reopen(app: App, journal: Path) -> Resumable:
-    """Open a journal to go on with it; raise `BadInput` where that cannot be."""
+    """Open a journal to resume it; raise `BadInput` if that is not possible."""
     store = Store.open(journal)
     try:
         header: Header = store.header
@@ -124,22 +124,22 @@ def reopen(app: App, journal: Path) -> Resumable:
 
 
 def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
-    """Return the fleet of a journal; raise `BadInput` if the app does not know it any more."""
+    """Return the fleet of a journal; raise `BadInput` if it does not fit the app any more."""
     return fleet_from(app, f"{journal} (its fleet)", header["fleet"], header.get("crtp_sim"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlightObserver:
-    """What is told of a flight while it goes on."""
+    """Callbacks for what happens in a flight."""
 
     tell: Callable[[Event], object]
-    """Told of each event, once it is on record."""
+    """Called with each event, once it is durable."""
     say: Callable[[str], object]
-    """Told what is no event of the flight: a gateway has died."""
+    """Called with messages that are not events, such as that a gateway has died."""
     born: Callable[[LiveFlight], object] | None = None
-    """Told of each life when it begins."""
+    """Called with each run when it begins."""
     patient: bool = False
-    """Whether the flight waits for as long as a mission asks for a person's decision."""
+    """Whether the flight goes on while a mission waits for the user's decision."""
 
 
 async def run_flight(
@@ -149,7 +149,7 @@ async def run_flight(
     known: Recovered | None,
     observer: FlightObserver,
 ) -> FlightResult:
-    """Live once more each time that the gateway dies; `known` is what the journal says."""
+    """Run again each time that the gateway dies; `known` is the journal's content."""
     folder = gateway_folder(flight.journal)
     settings = settings_for(
         flight.app,
@@ -194,12 +194,12 @@ async def run_flight(
 
 
 def aloft(flight: FlightSetup, drones: Iterable[Drone]) -> list[Drone]:
-    """Return the real drones that were last heard of in the air, though all were to be down."""
+    """Return the real drones that were last seen in the air, though all should have landed."""
     return [] if flight.sim else [drone for drone in drones if not drone.telemetry.landed]
 
 
 def may_hover(drones: Iterable[Drone]) -> str:
-    """Return what to tell people of those."""
+    """Return the message about those."""
     places = ", ".join(f"{drone.id} (last heard of at {place(drone.location)})" for drone in drones)
     return (
         f"no word of a landing from {places}: do not stand where a drone may still hover;"
@@ -208,13 +208,13 @@ def may_hover(drones: Iterable[Drone]) -> str:
 
 
 async def _real(flight: FlightSetup, folder: Path, known: Recovered | None) -> RealFleet:
-    """Return how the drones are flown; simulated Crazyflies are there when this returns."""
+    """Return the gateway's arguments for real drones; starts simulated Crazyflies if needed."""
     records = () if known is None else known.records.missions.values()
     real = real_fleet(flight.fleet, flight.missions, records=records)
     if not flight.crtp:
         return real
     from ..crtp.equipment import fitted
-    from ..crtp.process import start, told  # few want them
+    from ..crtp.process import start, told  # rarely needed
 
     homes = {drone.id: drone.home for drone in flight.fleet.drones}
     uris = await asyncio.to_thread(start, folder, homes)

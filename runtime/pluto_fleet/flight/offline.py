@@ -1,4 +1,4 @@
-"""What is left for an app that does not run, or does not hear: events in its journal, a Stop beside it."""
+"""Commands for an app that does not run, or does not answer: events in its journal, a Stop beside it."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ Event = Mapping[str, object]
 
 
 def record_return(app: App, journal: Path, drone: str, also: Sequence[Event] = ()) -> str:
-    """Write into an idle journal that a person has looked after a drone; return what to say.
+    """Write into an idle journal that a drone is brought back; return the answer for the user.
 
-    `also` are events that go with it. Raise `BadInput` if that cannot be.
+    `also` are further events. Raises `BadInput` if that is not possible.
     """
     with closing(Store.open(journal)) as store:
         check(journal, store.header, app)
@@ -40,7 +40,7 @@ def record_return(app: App, journal: Path, drone: str, also: Sequence[Event] = (
 
 
 def returned(records: Records, drone: str) -> tuple[Event | None, str]:
-    """Return the event of a drone that is brought back, if it was away, and what to say."""
+    """Return the event of a drone that is brought back, if it was away, and the answer for the user."""
     lost = drone in records.lost
     if not lost and drone not in records.retired:
         return None, f"{printable(drone)} is neither retired nor lost"
@@ -50,7 +50,7 @@ def returned(records: Records, drone: str) -> tuple[Event | None, str]:
 
 
 def record_loss(app: App, journal: Path, drone: str, reason: str, at: Point | None) -> None:
-    """Write into an idle journal that a drone was lost while no app was there to be told."""
+    """Write into an idle journal that a drone was lost while no app was running."""
     with closing(Store.open(journal)) as store:
         check(journal, store.header, app)
         event = {"t": recovered(store).records.time, "event": "drone.lost", "drone": drone}
@@ -58,14 +58,14 @@ def record_loss(app: App, journal: Path, drone: str, reason: str, at: Point | No
 
 
 def record_decision(journal: Path, mission: str, answer: str, now: float) -> None:
-    """Write a person's answer into an idle journal."""
+    """Write the user's answer into an idle journal."""
     event = {"t": now, "event": "mission.decided", "mission": mission, "answer": answer}
     with closing(Store.open(journal)) as store:
         store.append([json.dumps([event])])
 
 
 def leave_stop(journal: Path, how: Down) -> None:
-    """Say that everything was stopped, for an app that looks again; `journal` is its real path."""
+    """Leave a note that everything was stopped, for the app's next run; `journal` is its real path."""
     file = _stop_file(journal)
     with suppress(OSError):
         file.parent.mkdir(mode=0o700, exist_ok=True)
@@ -73,14 +73,14 @@ def leave_stop(journal: Path, how: Down) -> None:
 
 
 def pending_stop(journal: Path) -> Down | None:
-    """Return how everything was stopped past the app; None: it was not."""
+    """Return how everything was stopped without the app; None: it was not."""
     with suppress(OSError, ValueError):
         return Down(_stop_file(journal).read_text(encoding="utf-8"))
     return None
 
 
 def clear_stop(journal: Path) -> None:
-    """Forget such a Stop: a person wants the flight to go on."""
+    """Remove such a note: the user resumes the flight."""
     with suppress(OSError):
         _stop_file(journal).unlink(missing_ok=True)
 

@@ -1,7 +1,7 @@
-"""What becomes of a flight that was interrupted, and of its mission.
+"""Finding out the outcome of an interrupted flight, and resuming its mission accordingly.
 
-A flight is interrupted when the app stops or dies, or when a person has its mission taken out of its
-graph. Then the ledger is asked, and the drone; what they cannot say, only a person can.
+A flight is interrupted when the app stops or dies, or when the user suspends its mission. Then the ledger
+and the drone are queried; what they cannot tell, only the user can.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ if TYPE_CHECKING:
 
 
 class Outcome(Enum):
-    """What becomes of an interrupted flight."""
+    """The outcome of an interrupted flight."""
 
-    FLIES_ON = "flies on"  # or has ended, and its end can still be heard
+    FLIES_ON = "flies on"  # or has ended, and its report is still available
     NOT_DONE = "again"  # its action was not done: it counts as no attempt
-    DONE = "done"  # its action was done, as the app's own probe could see
+    DONE = "done"  # its action was done, according to the app's own probe
     UNKNOWN = "unknown"
 
 
 def outcome_of(entry: Entry | None, action: Action, begun: bool) -> Outcome:
-    """Return what becomes of a flight; `begun`: the app's own action had begun when it ended."""
+    """Return the outcome of a flight; `begun`: the app's own action had begun when it ended."""
     repeatable = action.repeat == "safe"
     if entry is not None and entry.flies:
         return Outcome.FLIES_ON
@@ -54,7 +54,7 @@ def outcome_of(entry: Entry | None, action: Action, begun: bool) -> Outcome:
 
 
 async def find_outcome(core: Core, flight: Flight, entry: Entry | None, begun: bool) -> Outcome:
-    """Return what becomes of a flight; what the ledger cannot tell, the app's own probe may."""
+    """Return the outcome of a flight, if needed with the app's own probe."""
     action = core.app.actions[flight.trip.action]
     what = outcome_of(entry, action, begun)
     probe = probe_of(core.app, action) if what is Outcome.UNKNOWN else None
@@ -64,7 +64,7 @@ async def find_outcome(core: Core, flight: Flight, entry: Entry | None, begun: b
         answer = await core.kernel.call_hook(probe, flight.flier, flight.trip)
     except (Cancelled, GeneratorExit, KeyboardInterrupt):
         raise
-    except ANY_ERROR as error:  # then it cannot tell: a person must
+    except ANY_ERROR as error:  # it cannot tell: the user must
         core.log(trace_of(error), flight.mission.name)
         return what
     return _PROBED[answer] if type(answer) is bool else what
@@ -77,12 +77,12 @@ def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
     """Return the hook that can tell whether an action was done: `pollinate` has `pollinate_done`."""
     name, hook = f"{action.name}_done", action.hook
     if hook is None or name in app.actions or name in app.evaluators:
-        return None  # what has this name is something else
+        return None  # something else has this name
     return getattr(sys.modules.get(hook.__module__), name, None)
 
 
 def fly_on(state: MissionState, flight: Flight, link: CommandLink, entry: Entry) -> None:
-    """Hear of a flight that was not interrupted after all; of one that has ended, hear now."""
+    """Continue a flight that was not interrupted after all; if it has ended, report that now."""
     state.goes_on = True
     state.mission.status = Status.RUNNING
     live_fleet(state.core).flies_on(flight.flier)
@@ -90,7 +90,7 @@ def fly_on(state: MissionState, flight: Flight, link: CommandLink, entry: Entry)
 
 
 def hear_end(flight: Flight, link: CommandLink, entry: Entry) -> None:
-    """Hear how a flight ends; if it has ended, at once: before any limit can be over."""
+    """Register for the end of a flight; if it has ended, report it at once, before any time-out."""
     if entry.flies:
         link.attach(flight.id, flight.report)
     else:
@@ -98,21 +98,21 @@ def hear_end(flight: Flight, link: CommandLink, entry: Entry) -> None:
 
 
 def fly_again(state: MissionState, flight: Flight, link: CommandLink) -> None:
-    """Put an interrupted trip back: it has not been flown."""
-    link.forget(flight.id)  # it shall be flown, even if it is known already
+    """Reset an interrupted trip: it has not been flown."""
+    link.forget(flight.id)  # it is to be flown, even if its id is known already
     state.flight, state.goes_on, state.interrupted = None, False, True
     interventions.interrupt(state.core, state.mission, flight.trip)
 
 
 def was_done(state: MissionState, flight: Flight) -> None:
-    """An interrupted trip's action was done after all; what it gave is unknown."""
+    """Complete an interrupted trip whose action was done; its result is unknown."""
     state.record_done(flight, None)
     flight.set(state.mission.status)
     state.goes_on = True
 
 
 def doubt(state: MissionState, flight: Flight) -> None:
-    """Whether the action was done is unknown: a drone that may have the item waits, too."""
+    """Suspend the mission: it is unknown whether the action was done. A drone that may have the item waits."""
     trip, drone = flight.trip, flight.flier
     interventions.doubt(
         state.core,
@@ -126,7 +126,7 @@ def doubt(state: MissionState, flight: Flight) -> None:
 
 
 def settle_doubt(state: MissionState, engine: LiveEngine, link: CommandLink, done: bool) -> None:
-    """A person has said whether the action was done: the mission goes on accordingly."""
+    """Resume the mission: the user has said whether the action was done."""
     flight = state.flight
     if flight is None:
         raise RuntimeError(f"nothing is in doubt about mission {state.mission.name}")
@@ -141,5 +141,5 @@ def settle_doubt(state: MissionState, engine: LiveEngine, link: CommandLink, don
 
 
 def standing(state: MissionState) -> Status:
-    """Return the status with which a mission goes on where it was interrupted."""
+    """Return the status with which an interrupted mission resumes."""
     return STANDBY if state.mission.attempts or state.interrupted else UNEXECUTED

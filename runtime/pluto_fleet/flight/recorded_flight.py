@@ -1,7 +1,7 @@
-"""One life of an app that keeps a journal: from its start, or from where an earlier one ended.
+"""One run of an app with a journal, from its start or from where an earlier run ended.
 
-An app lives until its last mission has ended, until it is stopped, or until its process dies. The
-next life begins with the journal's records and a report of the drones, however it ended.
+A run ends when its last mission has ended, when it is stopped, or when its process dies. The next one
+begins with the journal's records and a report of the drones, however the last one ended.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 class RecordedFlight:
-    """A session whose every step is on record before anybody outside can see it."""
+    """A session whose events are durable before they have any effect outside."""
 
     def __init__(
         self,
@@ -52,7 +52,7 @@ class RecordedFlight:
         listeners: Sequence[Listener] = (),
         watcher: Listener | None = None,
     ) -> None:
-        """Begin; `watcher` is told of an event only when it is durable, `listeners` at once."""
+        """`watcher` is called with an event only when it is durable, `listeners` at once."""
         guard_hooks()
         self._kernel, self._link, self._epoch = kernel, link, epoch
         self.recorder = Recorder(app, kernel, sink, records)
@@ -76,10 +76,10 @@ class RecordedFlight:
         self._mended: Sequence[str] = records.mended
         self._lost: Mapping[str, Any] = records.lost
         self.missions: tuple[Mission[Any], ...] = ()
-        """All missions, those of earlier lives that have ended included."""
+        """All missions, also those that ended in earlier runs."""
 
     def _forget(self, event: Event) -> None:
-        """What is on record need not stand in the gateway's ledger any more."""
+        """Remove from the gateway's ledger what is durable in the journal."""
         if event["event"] in ("trip.completed", "trip.failed"):
             mission, trip = event["mission"], event["trip"]
             id = f"{mission}/{trip}/{event['round']}/{event['attempt']}"
@@ -97,13 +97,13 @@ class RecordedFlight:
         return self._set_out(self._started(missions))
 
     def go_on(self, planned: Sequence[Mission[Any]]) -> Task[float]:
-        """Go on from the records; where the journal has no mission yet, fly the planned ones."""
+        """Resume from the records; if the journal has no mission yet, fly the planned ones."""
         if not self.recorder.records.missions:
             return self.start(planned)
         return self._set_out(self._went_on())
 
     def add(self, missions: Sequence[Mission[Any]]) -> None:
-        """Let more missions set out, beside those that fly; `BadInput` if they cannot."""
+        """Start more missions while others fly; raise `BadInput` if they cannot be flown."""
         if not self.missions:
             raise BadInput("the drones are just being asked where they are: try again in a moment")
         for name in {one.name for one in self.missions} & {one.name for one in missions}:
@@ -121,7 +121,7 @@ class RecordedFlight:
     async def _started(self, missions: Sequence[Mission[Any]]) -> float:
         core = self.session.core
         roll = await self._link.fleet_report()
-        if roll.drones.keys().isdisjoint(self._mended):  # else one of them is asked anew
+        if roll.drones.keys().isdisjoint(self._mended):  # else one of them is queried again
             _refuse_if_none_is_ready(
                 roll, {name: one["reason"] for name, one in self._lost.items()}
             )
@@ -143,9 +143,9 @@ class RecordedFlight:
         return await session.see_through()
 
     def _retire(self) -> None:
-        """Give no trip the drones that were retired in an earlier life, or lost.
+        """Do not allocate drones that were retired or lost in an earlier run.
 
-        Those that a person has looked after, and that were not back when it ended, are asked anew.
+        Those that were repaired and not back when it ended are queried again.
         """
         fleet = live_fleet(self.session.core)
         fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)

@@ -1,4 +1,4 @@
-"""From the records of an earlier life of the app, and a report of the drones, to living missions."""
+"""Resuming missions from the records of an earlier run and a report of the drones."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 async def go_on(
     core: Core, engine: LiveEngine, link: CommandLink, roll: FleetReport, records: Records
 ) -> list[Mission[Any]]:
-    """Take up everything where it was interrupted; return all missions, those that ended too."""
+    """Resume everything where it was interrupted; return all missions, also those that have ended."""
     by_index = sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
     missions = {name: rebuilt(core, name, record) for name, record in by_index}
     restore_results(core, records, missions)
@@ -49,7 +49,9 @@ async def go_on(
         for one in missions.values()
         if not one.record["ended"]
     ]
-    for revival in revivals:  # this may take a while: nothing has begun before all is known
+    for (
+        revival
+    ) in revivals:  # this may take a while, and nothing begins before all outcomes are known
         await revival.find_out()
     engaged: set[Drone] = set()
     for revival in revivals:
@@ -58,16 +60,16 @@ async def go_on(
     for drone in drones.values():
         if drone not in engaged:
             found = roll.drones[drone.id]
-            if drone.id in at_work:  # the brain that ended its flight could not say so any more
+            if drone.id in at_work:  # the earlier run could not abort its job any more
                 link.break_off(drone.id)
-                found = replace(found, landed=False)  # it may take off before it hears that
+                found = replace(found, landed=False)  # it may take off before it receives that
             live_fleet(core).take_up(drone, found)
     engine.look_for_the_end()
     return [one.mission for one in missions.values()]
 
 
 class _Revival:
-    """How one mission goes on."""
+    """Resumes one mission."""
 
     def __init__(
         self,
@@ -86,14 +88,14 @@ class _Revival:
         self._fate: Outcome | None = None
 
     async def find_out(self) -> None:
-        """Find out what became of a flight that had not ended."""
+        """Find out the outcome of a flight that had not ended."""
         flight, record = self._flight, self._record
         if flight is not None and not flight.is_set and self._why_held() is None:
             entry, begun = self._roll.jobs.get(flight.id), bool(record["flight"]["begun"])
             self._fate = await find_outcome(self._core, flight, entry, begun)
 
     def revive(self, engaged: set[Drone]) -> None:
-        """Let the mission go on, or say why it waits for a person; add the drones that are its."""
+        """Resume the mission, or say why it waits for the user; add the drones that it uses."""
         state, record, engine = self._state, self._record, self._engine
         why_held = self._why_held()
         if record["answer"] == "cancel":
@@ -107,7 +109,7 @@ class _Revival:
             interventions.hold(self._core, self._mission, why_held)
         else:
             if state.at is not None and state.at not in self._core.app.resumes:
-                state.at = self._core.app.resumes[0]  # a person has said so
+                state.at = self._core.app.resumes[0]  # the user has said so
             if self._fate is None:
                 self._check_carrier(engaged)
                 self._resume()
@@ -115,7 +117,7 @@ class _Revival:
                 self._settle(self._fate, engaged)
 
     def _settle(self, what: Outcome, engaged: set[Drone]) -> None:
-        """Deal with a flight that had not ended, and go on."""
+        """Settle a flight that had not ended, and resume."""
         state, flight, link = self._state, self._flight, self._link
         assert flight is not None
         entry = self._roll.jobs.get(flight.id)
@@ -158,7 +160,7 @@ class _Revival:
             self._engine.resume(state, status)
 
     def _check_carrier(self, engaged: set[Drone]) -> None:
-        """See whether the mission's item is still where it was."""
+        """Check that the mission's item is still aboard its drone."""
         state = self._state
         drone, item = state.carrier, state.carries
         if drone is None or item is None:
@@ -186,4 +188,4 @@ class _Revival:
 
 
 _ANSWERS = {"done": True, "not-done": False}
-"""What a person may say of an action: whether it was done."""
+"""The user's answers, by whether the action was done."""

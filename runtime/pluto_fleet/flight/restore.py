@@ -1,4 +1,4 @@
-"""Missions, their trips, flights and results, as the records of an earlier life of the app have them."""
+"""Restoring missions, trips, flights and results from the records of an earlier run."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True, kw_only=True)
 class Rebuilt:
-    """One mission as it stood."""
+    """One restored mission."""
 
     mission: Mission[Any]
     record: Record
     trips: dict[str, Trip] = field(default_factory=dict)
-    """By name, those that are no more to be flown included."""
+    """By name, also those that are not to be flown any more."""
     unfit: str | None = None
-    """Why it does not fit into the app as it is now."""
+    """Why it does not fit the present app."""
 
 
 def rebuilt(core: Core, name: str, record: Record) -> Rebuilt:
-    """Return a mission as it stood; one that the app cannot have any more is empty."""
+    """Restore a mission; one that does not fit the app any more is empty."""
     app, unfit = core.app, None
     try:
         todo, done, gone = (
@@ -56,7 +56,7 @@ def rebuilt(core: Core, name: str, record: Record) -> Rebuilt:
 
 
 def remember(state: MissionState, record: Record, drones: Mapping[str, Drone]) -> None:
-    """Let a mission's state be what was remembered of it."""
+    """Restore a mission's state."""
     state.at, state.interrupted = record["at"], record["interrupted"]
     state.first_start = record["first_start"]
     state.last_action_end = record["last_action_end"]
@@ -69,7 +69,7 @@ def remember(state: MissionState, record: Record, drones: Mapping[str, Drone]) -
 
 
 def last_flight(state: MissionState, one: Rebuilt, drones: Mapping[str, Drone]) -> Flight | None:
-    """Return the mission's last flight, if it still matters; it is the state's from now on."""
+    """Restore the mission's last flight, if it still matters, and return it."""
     known = one.record["flight"]
     trip = None if known is None else one.trips.get(known["trip"])
     if trip is None or (known["outcome"] is None and known["heard"]):
@@ -84,7 +84,7 @@ def last_flight(state: MissionState, one: Rebuilt, drones: Mapping[str, Drone]) 
 
 
 def restore_results(core: Core, records: Records, missions: Mapping[str, Rebuilt]) -> None:
-    """Put back what every action has given, and what each evaluator has not seen of it."""
+    """Restore all results, and which of them each evaluator has not seen."""
     for number, (name, trip, round_, attempt, value) in enumerate(records.results):
         one = missions[name]
         mission, gave = one.mission, value_of(value)
@@ -110,4 +110,4 @@ _LISTS = {
     "done": TripStatus.COMPLETED,
     "gone": TripStatus.SKIPPED,
 }
-"""The lists of a record, and how the trips in them stand if it does not say."""
+"""The lists of a record, and the default status of the trips in them."""

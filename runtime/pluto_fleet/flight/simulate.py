@@ -1,4 +1,4 @@
-"""An app in virtual time, over simulated drones that a gateway keeps apart."""
+"""Simulation of an app in virtual time, with drones that a gateway keeps apart."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ Around = Callable[["Kernel", "Controls"], "Controls"]
 
 
 class Simulation:
-    """A session over simulated drones, all of whose events are kept."""
+    """A session with simulated drones, which collects all events."""
 
     def __init__(
         self,
@@ -79,7 +79,7 @@ class Simulation:
     def outcome(
         self, missions: Sequence[Mission[Any]], ended: float, given_up: str = ""
     ) -> SimulationResult:
-        """Return what has come of the missions."""
+        """Return the outcome of the missions."""
         drones = self.session.drones
         return SimulationResult(
             duration=ended,
@@ -105,8 +105,8 @@ def simulate(
 ) -> SimulationResult:
     """Fly the missions in virtual time, until the last one has ended or a time is reached.
 
-    Without such a time it is given up where missions set out again and again for nothing.
-    `around` puts something between the gateway and its drones; `slack` keeps them further apart.
+    Without such a time it is given up if missions fly again and again without success.
+    `around` wraps the drones' controls for the gateway; `slack` keeps drones further apart.
     """
     guard_hooks()
     kernel, bound = VirtualTime(), Bound(missions)

@@ -1,4 +1,4 @@
-"""How the missions of a flight stand, as its journal has it."""
+"""The statuses of a flight's missions, according to its journal."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
 ANSWERS = {"question": ("done", "not-done", "cancel"), "held": ("go-on", "cancel")}
-"""What can be said to a mission that waits for this."""
+"""The possible answers for each question of a mission."""
 
 _ASIDE = {"question": Status.UNCERTAIN, "held": Status.HELD, "paused": Status.PAUSED}
 
 
 def records_in(app: App, journal: Path) -> Records:
-    """Return what a journal says, while an app may be writing it.
+    """Return a journal's content, while an app may be writing it.
 
-    One of another app is refused, and so is a damaged one: what is missing cannot be known.
+    Another app's journal is refused, and so is a damaged one, whose missing part cannot be known.
     """
     records = Records()
     with closing(Reader(journal)) as reader:
@@ -47,7 +47,7 @@ def in_order(records: Records) -> list[tuple[str, Record]]:
 
 
 def finished(records: Records) -> int:
-    """Return how many trips and missions have come to an end."""
+    """Return how many trips and missions have ended."""
     ended = sum(record["ended"] for record in records.missions.values())
     failed = sum(
         trip.get("status") == "FAILED"
@@ -64,16 +64,16 @@ def all_over(records: Records) -> bool:
 
 
 def has_ended(records: Records) -> bool:
-    """Whether nothing flies any more: each mission has ended, or waits for a person's answer."""
+    """Whether nothing flies any more: each mission has ended, or waits for an answer."""
     missions = records.missions.values()
     asides = [record["ended"] or aside(record) is not None for record in missions]
     return bool(asides) and all(asides)
 
 
 def waiting(records: Records, *, answered: bool = False) -> Iterator[tuple[str, str, str]]:
-    """Yield the missions that wait for a person: name, for what, and the question.
+    """Yield the missions that wait for the user: name, status, and the question.
 
-    `answered`: those, too, that a person has decided already, with nothing come of it yet.
+    `answered`: also those that have been answered without effect yet.
     """
     for name, record in in_order(records):
         for what in ANSWERS:
@@ -84,7 +84,7 @@ def waiting(records: Records, *, answered: bool = False) -> Iterator[tuple[str, 
 
 
 def aside(record: Record) -> tuple[Status, str] | None:
-    """Return how a mission stands that waits for a person, and what for; None: it does not."""
+    """Return the status and question of a mission that waits for the user, or None."""
     for what, status in _ASIDE.items():
         if record[what] is not None and not record["ended"]:
             return status, record[what] if what in ANSWERS else ""
@@ -96,7 +96,7 @@ def count_flights(journal: Path) -> tuple[int, int, float]:
     launched = failed = 0
     last = "[]"
     with closing(Reader(journal)) as reader:
-        for row in reader.rows():  # a quotation mark within a text is written otherwise
+        for row in reader.rows():  # within a text, quotation marks are escaped
             launched += row.text.count('"event": "trip.launched"')
             failed += row.text.count('"event": "trip.failed"')
             if '"event": "mission.ended"' in row.text:

@@ -1,8 +1,8 @@
-"""What the gateway can make each drone do, simulated or real.
+"""The commands that the gateway can give to each drone, simulated or real.
 
 Metres, seconds. Each command returns when it is done: on arrival, when landed; it raises
-`FlightFailed` when the drone cannot finish. A command that is cancelled leaves the drone hovering
-where it is. Where a drone may fly, and which other drones fly there now, is not known here: see `gateway/executor.py`.
+`FlightFailed` when the drone cannot finish. A cancelled command leaves the drone hovering
+where it is. No-fly areas and other drones are not considered here: see `gateway/executor.py`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class FleetDrone(Protocol):
-    """What the gateway must know of a drone."""
+    """What the gateway needs to know about a drone."""
 
     @property
     def id(self) -> str:
@@ -28,7 +28,7 @@ class FleetDrone(Protocol):
 
     @property
     def category(self) -> Category:
-        """How fast it flies, and for how long."""
+        """Its speed and endurance."""
         ...
 
     @property
@@ -38,7 +38,7 @@ class FleetDrone(Protocol):
 
     @property
     def index(self) -> int:
-        """Its place in the fleet file."""
+        """Its index in the fleet file."""
         ...
 
 
@@ -55,14 +55,14 @@ class Controls(Protocol):
         ...
 
     def begins(self, drone: str, job: Job | None, seconds: float) -> None:
-        """A flight begins, which is expected to take so long; None: for no job.
+        """Called at the start of a flight, with its expected duration; None: it is for no job.
 
-        Raises `FlightFailed` where the drone takes no commands.
+        Raises `FlightFailed` if the drone takes no commands.
         """
         ...
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise straight up to a height; does nothing for a drone that flies."""
+        """Take off straight up to a height; does nothing for a drone that flies."""
         ...
 
     async def go_to(self, drone: str, target: Point) -> None:
@@ -85,15 +85,15 @@ class Controls(Protocol):
         item: Item | None,
         job: str | None,
     ) -> object:
-        """Do one of the built-in actions here, and return what came of it."""
+        """Do a built-in action here, and return its result."""
         ...
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what a drone measures under this name, for an action of the app's own."""
+        """Return a sensor or variable of a drone, for an action of the app's own."""
         ...
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone has under this name, for an action of the app's own."""
+        """Set a parameter of a drone, for an action of the app's own."""
         ...
 
     def break_off(self, drone: str) -> None:
@@ -101,9 +101,9 @@ class Controls(Protocol):
         ...
 
     async def cut(self, drone: str) -> None:
-        """Switch its motors off now, wherever it is: only ever because a person said just that.
+        """Switch its motors off now, wherever it is; only ever on a user's explicit command.
 
-        A command under way raises `FlightFailed`, and nothing is commanded any more until `mended`.
+        A command in progress raises `FlightFailed`, and the drone takes no commands until `mended`.
         """
         ...
 
@@ -129,7 +129,7 @@ class Controls(Protocol):
 
 
 class ForwardingControls:
-    """What stands before other controls, and hands on to them what is no command to fly."""
+    """A wrapper of other controls, which forwards all that is not a command to fly."""
 
     def __init__(self, controls: Controls) -> None:
         self._controls = controls
@@ -141,7 +141,7 @@ class ForwardingControls:
         return self._controls.why_not(drone, action, parameters)
 
     def begins(self, drone: str, job: Job | None, seconds: float) -> None:
-        """A flight begins, which is expected to take so long."""
+        """Called at the start of a flight, with its expected duration."""
         self._controls.begins(drone, job, seconds)
 
     def mended(self, drone: str) -> None:

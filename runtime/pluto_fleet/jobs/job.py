@@ -1,4 +1,4 @@
-"""How the gateway has drones flown, and how an app commands them through it: jobs are remembered."""
+"""Jobs for drones, and the interface by which an app gives them to the gateway."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 
 Report = Callable[[object], object]
-"""Hears what an action gave, or the `FlightFailed` that ended the job."""
+"""Called with the action's result, or the `FlightFailed` that ended the job."""
 
 
 class Job(Protocol):
-    """What a drone is to do for a trip."""
+    """A drone's job for a trip."""
 
     @property
     def id(self) -> str:
-        """`mission/trip/round/attempt`: the same flight has the same id in every run."""
+        """`mission/trip/round/attempt`: a flight has the same id in every run."""
         ...
 
     @property
@@ -34,39 +34,39 @@ class Job(Protocol):
 
     @property
     def stops(self) -> tuple[Point, ...]:
-        """Where to fly, in order; which way is navigation's to find."""
+        """The points to fly to, in order; navigation finds the route."""
         ...
 
     @property
     def action(self) -> str | None:
-        """Which of the built-in actions to do at the last stop; None: hover there."""
+        """The built-in action at the last stop; None: hover there."""
         ...
 
     @property
     def parameters(self) -> Mapping[str, Plain]:
-        """How to do it."""
+        """The parameters of the action."""
         ...
 
     @property
     def item(self) -> Item | None:
-        """What to pick or to release."""
+        """The item to pick or release."""
         ...
 
     @property
     def seconds(self) -> float:
-        """How long the action is expected to take."""
+        """The expected duration of the action."""
         ...
 
     def begins(self) -> None:
-        """Hear that the action is about to be done: told right before it, never for none.
+        """Called right before the action is done; not called if there is none.
 
-        If this raises `FlightFailed`, it must not be done.
+        If this raises `FlightFailed`, the action must not be done.
         """
         ...
 
 
 class CommandLink(Navigation[Job], Protocol):
-    """A navigation that remembers every job, for as long as it listens to this brain."""
+    """A navigation that remembers every job, as long as this brain is the one in command."""
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it can be recovered once more."""
@@ -77,38 +77,38 @@ class CommandLink(Navigation[Job], Protocol):
         ...
 
     async def fleet_report(self) -> FleetReport:
-        """Ask all drones and the ledger how everything stands; from now on the brain is heard."""
+        """Query all drones and the ledger; from now on this brain is in command."""
         ...
 
     def attach(self, id: str, report: Report) -> None:
-        """Hear of a job that was given before: when it ends, or now if it has."""
+        """Register for the report of an earlier job: called when it ends, or now if it has."""
         ...
 
     def forget(self, id: str) -> None:
-        """Forget a job that will not be asked for again: its id may be given anew."""
+        """Forget a job that is not needed any more: its id may be used again."""
         ...
 
     async def bring_down(self, how: Down) -> None:
-        """Break off everything and bring all drones down; return when all that can are down."""
+        """Abort everything and bring all drones down; return when all that can have landed."""
         ...
 
 
 class GatewayLink(CommandLink, Protocol):
-    """The same, by a gateway in another process."""
+    """A command link to a gateway in another process."""
 
     def on_telemetry(self, watcher: Callable[[], object]) -> None:
-        """Call this whenever a drone was heard of."""
+        """Call this at each update of the telemetry."""
         ...
 
     async def goodbye(self) -> None:
-        """Let the gateway end, once all drones are down; nothing is lost by that."""
+        """Allow the gateway to exit once all drones have landed."""
         ...
 
     async def close(self) -> None:
-        """Hang up: the gateway goes on, and lands everything if no other brain links."""
+        """Close the connection: the gateway goes on, and lands all drones unless another brain connects."""
         ...
 
 
 def motors_cut(drone: str) -> FlightFailed:
-    """Return how everything fails that a drone did when its motors were cut on command."""
+    """Return the failure of a drone's command when its motors were cut."""
     return FlightFailed(Failure.CRASH, f"{drone}'s motors were cut")

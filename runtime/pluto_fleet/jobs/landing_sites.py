@@ -1,4 +1,4 @@
-"""Where a drone can land when not where it is."""
+"""Finding a place to land for a drone that cannot land where it is."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
 _STEP = 0.25
-"""Metres between the places that are looked at."""
+"""Metres between the candidate places."""
 _FURTHEST = 30.0
-"""Metres within which a place is looked for: a whole map of kilometres would take too long."""
+"""The radius of the search in metres: a map of kilometres would take too long."""
 
 
 def free_spot(airspace: Airspace, point: Point, taken: Sequence[Point], apart: float) -> Point:
@@ -40,7 +40,7 @@ def free_spots(
 
 
 def is_free(place: Point, taken: Sequence[Point], apart: float) -> bool:
-    """Say whether a place on the ground is far enough from those taken."""
+    """Return whether a place on the ground is far enough from those taken."""
     x, y, _ = place
     return all(hypot(x - other[0], y - other[1]) >= apart for other in taken)
 

@@ -1,4 +1,4 @@
-"""What drones report when they are asked, and what the gateway remembers of jobs."""
+"""The reports of drones, and the gateway's records of jobs."""
 
 from __future__ import annotations
 
@@ -15,29 +15,29 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneReport:
-    """What one drone reports when it is asked."""
+    """The report of one drone."""
 
     drone: str
     reached: bool
-    """Whether it answered at all; if not, the rest is what was known of it last."""
+    """Whether it answered; if not, the rest is its last known state."""
     location: Point
     landed: bool
     battery_level: float
     boot: int
-    """Another number than before: it was switched off in between, and has forgotten."""
+    """Identifies its power-on: if it differs from before, the drone was restarted and has forgotten."""
     carrying: str | None
     """The name of the item aboard."""
     done: Mapping[str, object] | None
-    """The jobs whose action it did since it was switched on, with what that gave.
+    """The jobs whose action it did since it was switched on, with their results.
 
     None: this kind of drone cannot tell.
     """
     problems: tuple[str, ...] = ()
-    """Why it may not fly now, a sentence each."""
+    """Why it may not fly now, a sentence for each reason."""
 
 
 class JobState(Enum):
-    """How far a job has come, as the gateway knows it."""
+    """The state of a job in the gateway."""
 
     FLYING = "flying"  # on its way: its action has not begun
     BEGUN = "begun"  # its action may have been done, or not
@@ -48,7 +48,7 @@ class JobState(Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """What the ledger has of one job."""
+    """The ledger's entry of one job."""
 
     id: str
     drone: str
@@ -56,16 +56,16 @@ class Entry:
     boot: int
     """The drone's, when the job was given."""
     flies: bool = False
-    """Whether its drone is at it now: it will be reported."""
+    """Whether its drone works on it now, so that a report will come."""
     value: object = None
-    """What its action gave, once it is DONE."""
+    """The result of its action, once it is DONE."""
     failure: str = ""
     """The name of the `Failure`, once it has FAILED."""
     reason: str = ""
 
 
 class EndedJob(Protocol):
-    """A job that is over, wherever it is kept."""
+    """A finished job, wherever it is stored."""
 
     @property
     def state(self) -> JobState:
@@ -74,7 +74,7 @@ class EndedJob(Protocol):
 
     @property
     def value(self) -> object:
-        """What its action gave."""
+        """The result of its action."""
         ...
 
     @property
@@ -89,7 +89,7 @@ class EndedJob(Protocol):
 
 
 def reported_result(job: EndedJob) -> object:
-    """Return what was reported of a job that is over."""
+    """Return what was reported for a finished job."""
     if job.state is JobState.FAILED:
         return FlightFailed(Failure[job.failure], job.reason)
     return job.value
@@ -97,11 +97,11 @@ def reported_result(job: EndedJob) -> object:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FleetReport:
-    """The whole fleet and the whole ledger, at one moment."""
+    """A consistent snapshot of the fleet and the ledger."""
 
     drones: Mapping[str, DroneReport]
     jobs: Mapping[str, Entry]
-    """By the jobs' ids; what is not here never arrived."""
+    """By the jobs' ids; a job that is missing has never arrived."""
 
 
 class Down(Enum):

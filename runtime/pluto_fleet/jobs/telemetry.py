@@ -1,4 +1,4 @@
-"""The telemetry of a fleet: one publisher, and subscribers that hear of it, each at its own rate."""
+"""The telemetry of a fleet: one publisher, and subscribers, each with a rate of its own."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ V = TypeVar("V")
 
 
 class Publisher:
-    """What is known of each drone; used inside a running asyncio loop."""
+    """Publishes the drones' telemetry, inside a running asyncio loop."""
 
     def __init__(self, drones: Mapping[str, Telemetry]) -> None:
         self.drones = drones
-        """By the drones' ids; the values stay current."""
+        """By the drones' ids; the objects are always current."""
 
     def subscribe(
         self,
@@ -27,16 +27,16 @@ class Publisher:
         view: Callable[[str, Telemetry], V],
         unchanged: float = 0.0,
     ) -> Subscription[V]:
-        """Look at all drones every so many seconds, and tell what has changed, and how late that is.
+        """Call a subscriber at its interval with the drones that have changed, and how late that is.
 
-        `view` returns what the subscriber wants to know of a drone. After `unchanged` seconds
-        without any change it is told of none.
+        `view` returns what the subscriber wants to know about a drone. After `unchanged` seconds
+        without any change it is called with none.
         """
         return Subscription(self.drones, hear, every, view, unchanged)
 
 
 class Subscription(Generic[V]):
-    """One subscriber; it is told until it cancels."""
+    """One subscriber, which is called until it cancels."""
 
     def __init__(
         self,
@@ -49,13 +49,13 @@ class Subscription(Generic[V]):
         self._drones, self._hear, self._view = drones, hear, view
         self._every, self._unchanged = every, unchanged
         self.told: dict[str, V] = {}
-        """What the subscriber knows of each drone."""
+        """What the subscriber was last sent of each drone."""
         self._loop = asyncio.get_running_loop()
         self._told_at = self._loop.time()
         self._next()
 
     def changed(self) -> Mapping[str, V]:
-        """Return what has changed since the subscriber was told last; it counts as told now."""
+        """Return what has changed since the last call; it counts as sent."""
         news = {drone: self._view(drone, known) for drone, known in self._drones.items()}
         news = {
             drone: value
@@ -66,7 +66,7 @@ class Subscription(Generic[V]):
         return news
 
     def cancel(self) -> None:
-        """Tell nothing any more."""
+        """End the subscription."""
         self._timer.cancel()
 
     def _next(self) -> None:

@@ -1,1 +1,1 @@
-"""Processes of the library: real time, signals, forks, and lines of JSON between them."""
+"""Processes: real time, signals, forks, locks, and lines of JSON between processes."""

@@ -1,4 +1,4 @@
-"""The exit code of a command, and what is said where it ends with an error."""
+"""The exit code of a command, and its message if it ends with an error."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What a process that a hook forks must not have of its parent, and how no hook ends the app by `os._exit`.
+"""What a process forked by a hook must not inherit, and the guard against `os._exit` in hooks.
 
-A forked child is a copy of the app with everything open. What it kept would outlive the app: a lock
-that is never free again, a connection that looks alive. And no child may go on where the app goes on.
+A forked child is a copy of the app with everything open. What it inherits would outlive the app: a
+lock that is never released, a connection that looks alive. And no child may run the app a second time.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ leave = os._exit
 
 @contextmanager
 def refused() -> Iterator[None]:
-    """Have `os._exit` raise `SystemExit`, for as long as this lasts: then it is told whose fault it is."""
+    """Make `os._exit` raise `SystemExit` within this context, so that the caller can be named."""
     instead_of(_refuse)
     try:
         yield
@@ -29,7 +29,7 @@ def refused() -> Iterator[None]:
 
 
 def instead_of(call: Callable[[int], NoReturn]) -> None:
-    """Have this called whenever something in this process calls `os._exit`."""
+    """Call this whenever something in this process calls `os._exit`."""
     process = os.getpid()
 
     def end(status: int) -> NoReturn:
@@ -47,14 +47,14 @@ def _refuse(status: int) -> NoReturn:
 T = TypeVar("T")
 
 _lets_go: dict[object, Callable[[], object]] = {}
-"""What a child does first, by a key for each."""
+"""What a child calls first, by key."""
 
 _files: dict[int, tuple[int, int]] = {}
-"""Open files that no child may have, and which they are: a number may be another's by then."""
+"""Open files that no child may inherit, with their identity: a descriptor may have been reused."""
 
 
 def in_children(call: Callable[[], object]) -> Callable[[], None]:
-    """Have each child that is forked from now on do this first; return what ends that."""
+    """Make every child that is forked from now on call this first; return a function that ends that."""
     key = object()
     _lets_go[key] = call
 
@@ -65,12 +65,12 @@ def in_children(call: Callable[[], object]) -> Callable[[], None]:
 
 
 def not_for_children(descriptor: int) -> None:
-    """Keep an open file, a lock or a connection from all children that are forked from now on."""
+    """Keep children that are forked from now on from inheriting an open file, lock or connection."""
     _files[descriptor] = _identity(descriptor)
 
 
 def deaf() -> None:
-    """Hear no signals for the parent: what arrives at a child must not wake the parent's loop."""
+    """Reset signal handling in a child: its signals must not wake the parent's loop."""
     signal.set_wakeup_fd(-1)
     for number in _SIGNALS:
         signal.signal(number, signal.SIG_DFL)
@@ -86,7 +86,7 @@ _RAISES = signal.default_int_handler
 
 
 def _wait_for_signals() -> None:
-    """Take no signal in this thread while it forks: a child drops what its parent's handlers hear."""
+    """Block signals in this thread while it forks, until the child has dropped its parent's handlers."""
     _before.mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
 
 
@@ -98,7 +98,7 @@ _before = threading.local()
 
 
 def _let_go() -> None:
-    """In the child, before anything else runs in it."""
+    """Clean up in the child, before anything else runs in it."""
     for call in reversed(tuple(_lets_go.values())):  # what was set last is put back first
         call()
     for descriptor, which in _files.items():
@@ -113,7 +113,7 @@ def _let_go() -> None:
 
 
 def _put_nothing(descriptor: int) -> None:
-    """Close a file but let its number stay taken: closing it once more closes nothing else."""
+    """Replace a file by the null device: its descriptor stays taken, so a second close is harmless."""
     nothing = os.open(os.devnull, os.O_RDWR | os.O_CLOEXEC)
     os.dup2(nothing, descriptor, inheritable=False)
     os.close(nothing)
@@ -123,7 +123,7 @@ os.register_at_fork(before=_wait_for_signals, after_in_parent=_take_signals, aft
 
 
 def end_if_forked(parent: int, error: BaseException | None = None) -> None:
-    """End this process if it is not the one of this number but its copy: no app goes on twice.
+    """End this process if it is a forked copy of the process with this number.
 
     `error`: what the hook raised in the copy.
     """

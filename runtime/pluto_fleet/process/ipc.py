@@ -1,7 +1,7 @@
 """Lines of JSON between processes of one user, over a socket that only this user may open.
 
-The address of a socket must be short, a journal's path need not be: so the socket stands in a private
-folder elsewhere, and a note beside the journal leads to it.
+The address of a socket must be short, a journal's path need not be: so the socket is in a private
+folder elsewhere, and a note beside the journal has its address.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ _MAX_CLIENTS = 32
 """How many may be connected at the same time."""
 
 _CLIENT_TIMEOUT = 5.0
-"""Seconds within which a request must be there, and an answer be read."""
+"""The time-out of a request and of reading an answer, in seconds."""
 
 _LAST_WORDS = 0.5
-"""Seconds for answers that are on their way when a server ends."""
+"""The time-out of answers in transit when a server ends, in seconds."""
 
 _MAX_ADDRESS = 90
 """Bytes; the systems take some hundred."""
@@ -52,15 +52,15 @@ Answer = Callable[[Message], Awaitable[str]]
 
 
 class NotRunning(BadInput):
-    """No process serves this note."""
+    """No process is serving this address."""
 
 
 class NoAnswer(BadInput):
-    """A process serves it, but does not answer in time."""
+    """The server does not answer in time."""
 
 
 class AnswerLost(NoAnswer):
-    """The process has ended before it could answer: it may have done what was asked, or not."""
+    """The server ended before it answered: the request may have been carried out, or not."""
 
 
 # Lines
@@ -84,7 +84,7 @@ def message_in(told: bytes) -> Message | None:
 
 
 def ask(note: Path, request: Message, timeout: float) -> str:
-    """Return what the process that serves a note answers; raise `BadInput` with its refusal.
+    """Send a request to the process that serves an address, and return its answer; its refusal is raised as `BadInput`.
 
     It is `NotRunning` if there is none, and `NoAnswer` if it says nothing in this many seconds.
     """
@@ -130,9 +130,9 @@ async def listening(
     last_words: float = _LAST_WORDS,
     turned_away: Callable[[], object] | None = None,
 ) -> AsyncIterator[None]:
-    """Serve every connection, for as long as this lasts; OSError: the note cannot be written.
+    """Serve every connection within this context; raise `OSError` if the note cannot be written.
 
-    At the end, connections have `last_words` seconds for what is on its way.
+    At the end, connections have `last_words` seconds for messages in transit.
     """
     address = new_address(note)
     served: set[asyncio.Future[None]] = set()
@@ -172,7 +172,7 @@ async def _served(serve: Serve, reader: StreamReader, writer: StreamWriter) -> N
 
 
 def answering(answer: Answer) -> Serve:
-    """Serve one request a connection; `answer` says what was done, or raises `BadInput`."""
+    """Serve one request per connection; `answer` returns what was done, or raises `BadInput`."""
 
     async def serve(reader: StreamReader, writer: StreamWriter) -> None:
         with suppress(OSError):  # it has hung up, or a time-out, which is one, too
@@ -199,7 +199,7 @@ async def _answered(told: bytes, answer: Answer) -> Message:
 
 
 async def connect(note: Path, max_line: int) -> tuple[StreamReader, StreamWriter]:
-    """Open a connection to the process that serves a note; OSError: there is none."""
+    """Connect to the process that serves an address; raise `OSError` if there is none."""
     address = address_in(note)
     if address is None:
         raise FileNotFoundError(note)
@@ -212,9 +212,9 @@ async def connect(note: Path, max_line: int) -> tuple[StreamReader, StreamWriter
 
 
 def new_address(note: Path) -> Path:
-    """Make a private folder, and return where in it a socket may stand; `publish` tells others.
+    """Make a private folder, and return an address for a socket in it; `publish` writes the note.
 
-    It is the same folder each time, so that processes that are killed leave one at most.
+    It is the same folder each time, so that killed processes leave at most one behind.
     """
     withdraw(note)
     place = Path(_short_folder())
@@ -228,7 +228,7 @@ def new_address(note: Path) -> Path:
 
 
 def publish(note: Path, address: Path) -> None:
-    """Write down where the socket is, once a process listens there: whole or not at all."""
+    """Write the note with the socket's address atomically, once a process listens there."""
     note.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     part = note.with_name(f".{note.name}.{os.getpid()}.part")
     try:
@@ -241,7 +241,7 @@ def publish(note: Path, address: Path) -> None:
 
 
 def address_in(note: Path) -> Path | None:
-    """Return the socket that a note leads to; None: there is none, or it is not ours."""
+    """Return the address in a note; None: there is none, or it belongs to another user."""
     try:
         address = Path(note.read_text(encoding="utf-8").strip())
     except (OSError, ValueError):
@@ -250,7 +250,7 @@ def address_in(note: Path) -> Path | None:
 
 
 def withdraw(note: Path) -> None:
-    """Take the socket, its folder and the note away."""
+    """Remove the socket, its folder and the note."""
     address = address_in(note)
     if address is not None and address.parent.name.startswith(_PREFIX) and address.name == _NAME:
         shutil.rmtree(address.parent, ignore_errors=True)
@@ -269,7 +269,7 @@ def is_private(folder: Path) -> bool:
 
 
 def _short_folder() -> str:
-    """Return the first folder for such things whose name is short."""
+    """Return the first folder for temporary files with a short enough name."""
     for folder in (os.environ.get("XDG_RUNTIME_DIR", ""), tempfile.gettempdir(), "/tmp"):
         usable = os.path.isabs(folder) and os.access(folder, os.W_OK | os.X_OK)
         if usable and len(os.fsencode(folder)) < _MAX_ADDRESS - 20:

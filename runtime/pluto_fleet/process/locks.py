@@ -1,4 +1,4 @@
-"""Files that one process at a time has locked; the lock goes with the process, however that ends."""
+"""Lock files: one process at a time has the lock, and loses it at its end, however it ends."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from .forked import not_for_children
 
 
 def take(file: Path) -> int | None:
-    """Take a lock, and write this process's number into its file; None: another process has it.
+    """Acquire a lock, and write this process's id into its file; return None if another has it.
 
-    The lock is free again once the descriptor that this returns is closed.
+    Closing the returned descriptor releases the lock.
     """
     flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW
     descriptor = os.open(file, flags, 0o600)
@@ -35,7 +35,7 @@ def take(file: Path) -> int | None:
 
 
 def is_taken(file: Path) -> bool:
-    """Say whether a process has the lock."""
+    """Return whether a process has the lock."""
     with suppress(OSError), file.open("rb") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
@@ -45,7 +45,7 @@ def is_taken(file: Path) -> bool:
 
 
 def holder(file: Path) -> int | None:
-    """Return the number of the process that has the lock; None: it is free, or nothing can be read."""
+    """Return the id of the process that has the lock; None: it is free, or cannot be read."""
     if is_taken(file):
         with suppress(OSError, ValueError):
             return int(file.read_bytes())

@@ -1,4 +1,4 @@
-"""Real time: the same heap of events, driven by asyncio's clock. One thread flies all missions."""
+"""Real time: the same heap of events, driven by asyncio's clock, in one thread for all missions."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ T = TypeVar("T")
 class RealTime(Kernel):
     """The kernel of real flights; made and used inside a running asyncio loop.
 
-    With simulated drones, time may pass at another speed than on the wall. Who goes on where another
-    life of the app has ended begins later than at 0.
+    With simulated drones, time may run faster than the real clock. A resumed app starts at the time
+    at which the previous process ended.
     """
 
     def __init__(self, speed: float = 1.0, begin: float = 0.0) -> None:
@@ -45,7 +45,7 @@ class RealTime(Kernel):
         self._woken = asyncio.Event()
 
     def time(self) -> float:
-        """Return the seconds since the start; they stand still while an instant is taken."""
+        """Return the seconds since the start; constant while an instant is processed."""
         return self.now if self._draining else self._clock()
 
     def _clock(self) -> float:
@@ -58,7 +58,7 @@ class RealTime(Kernel):
         return local.tm_hour * 3600.0 + local.tm_min * 60.0 + local.tm_sec
 
     def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
-        """Call this at a time; a hook may ask for it between the kernel's own events."""
+        """Schedule a call; hooks may do so between the kernel's own events."""
         if self._draining:
             super().schedule(when, kind, key, call)
         else:
@@ -67,7 +67,7 @@ class RealTime(Kernel):
             self._arm()
 
     def post(self, call: Callable[..., object], *args: object) -> None:
-        """Tell the kernel something from outside: that is an instant of its own."""
+        """Deliver something from outside, as an instant of its own."""
         if self._draining:
             call(*args)
             return
@@ -78,7 +78,7 @@ class RealTime(Kernel):
             self.drain()
             if self.settled is not None:
                 self.settled()
-        except ANY_ERROR as error:  # it must not leave everybody waiting for ever
+        except ANY_ERROR as error:  # else everything would wait for ever
             if by_a_person(error):
                 raise
             self.crash(error)
@@ -90,7 +90,7 @@ class RealTime(Kernel):
             self._arm()
 
     async def run(self, done: Future[T]) -> T:
-        """Go on until it is done."""
+        """Run until this future is set."""
         done.watch(self._stop)
         while not done.is_set and self.crashed is None:
             self.over = False
@@ -106,10 +106,10 @@ class RealTime(Kernel):
         self._woken.set()
 
     def _arm(self) -> None:
-        """See to it that the next event is taken in time."""
+        """Set asyncio's timer to the next event."""
         when = self.next_time()
         if when is None or when >= self._armed_for:
-            return  # what is armed comes early enough, and arms again
+            return  # the timer that is set comes earlier, and is set again then
         if self._armed is not None:
             self._armed.cancel()
         self._armed_for = when
@@ -124,10 +124,10 @@ class RealTime(Kernel):
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
-        """Run a hook beside the missions: `async def` as a task, `def` in a thread.
+        """Run a hook concurrently: an `async def` as a task, a `def` in a thread.
 
-        One that never waits is over as soon as it is called, as in virtual time: so what happens at one
-        instant has the same order in both.
+        One that never waits ends within the call, as in virtual time, so that simultaneous events have
+        the same order in both.
         """
         if _never_waits(hook):
             return await _alone(cast("Coroutine[Any, Any, object]", hook(*args, **named)))
@@ -154,7 +154,7 @@ class RealTime(Kernel):
             self.post(result.set, returned)
 
     async def _in_thread(self, call: Callable[[], object]) -> object:
-        """Call this in a thread of its own: one that never comes back does not keep the app from ending."""
+        """Call this in a daemon thread: one that never returns does not keep the app from exiting."""
         ended: asyncio.Future[Callable[[], object]] = self._loop.create_future()
 
         def finish(end: Callable[[], object]) -> None:
@@ -162,7 +162,7 @@ class RealTime(Kernel):
                 ended.set_result(end)
 
         def tell(end: Callable[[], object]) -> None:
-            with suppress(RuntimeError):  # the loop is closed: the answer is not awaited any longer
+            with suppress(RuntimeError):  # the loop is closed: the answer is not needed any more
                 self._loop.call_soon_threadsafe(finish, end)
 
         parent = os.getpid()
@@ -181,7 +181,7 @@ class RealTime(Kernel):
         return (await ended)()
 
     async def offer(self, future: Future[T]) -> T:
-        """Return what a hook, an asyncio task here, may await for this future."""
+        """Wrap a future so that a hook, an asyncio task here, can await it."""
         happened = asyncio.Event()
 
         def tell(_: object) -> None:
@@ -196,7 +196,7 @@ class RealTime(Kernel):
 
 
 def _nothing() -> None:
-    """There is nothing to tell; what is due is taken all the same."""
+    """Post nothing: only what is due is processed."""
 
 
 def _raise(error: BaseException) -> NoReturn:
@@ -205,7 +205,7 @@ def _raise(error: BaseException) -> NoReturn:
 
 @coroutine
 def _alone(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
-    """Let a hook run inside this coroutine, guarded: a copy of the process does not go on."""
+    """Run a hook inside this coroutine, guarded: a forked copy of the process ends there."""
     step: Callable[[], object] = partial(hook.send, None)
     while True:
         try:
@@ -215,17 +215,17 @@ def _alone(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
             return returned
         try:
             step = partial(hook.send, (yield waits_for))
-        except ANY_ERROR as error:  # the hook hears of it
+        except ANY_ERROR as error:  # raised in the hook
             step = partial(hook.throw, error)
 
 
 def _never_waits(hook: Callable[..., object]) -> bool:
-    """Say whether this is an `async def` without any `await`, `async for` or `async with`."""
+    """Return whether this is an `async def` without any `await`, `async for` or `async with`."""
     code = getattr(getattr(hook, "func", hook), "__code__", None)  # a partial carries its function
     return isinstance(code, CodeType) and _runs_through(code)
 
 
 @lru_cache(maxsize=1_000)
 def _runs_through(code: CodeType) -> bool:
-    waits = opmap.get("SEND")  # what every way to wait is compiled to
+    waits = opmap.get("SEND")  # every `await` is compiled to it
     return bool(waits and code.co_flags & CO_COROUTINE and waits not in code.co_code[::2])

@@ -1,4 +1,4 @@
-"""How this very program is started once more, as another process."""
+"""Starting this program again, as another process."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ _START = (
     "sys.path.insert(0, home); load(name); sys.path.append(sys.path.pop(0)); "
     "sys.exit(load(name + '.__main__').main())"
 )
-"""Import the package from where it was found this time, even if another has its name."""
+"""Imports the package from where it was found now, even if another has its name."""
 
 
 def command(*arguments: str) -> list[str]:
-    """Return the words that start this package's program with these arguments."""
+    """Return the command line that starts this package's program with these arguments."""
     package = app_package()
     home = Path(sys.modules[package].__path__[0]).absolute().parent
     return [sys.executable, "-P", "-c", _START, str(home), package, *arguments]
 
 
 def start(command: Sequence[str], log: Path) -> subprocess.Popen[bytes]:
-    """Start a process that goes on when this one ends; what it says goes to the log."""
+    """Start a process that survives this one; its output goes to the log."""
     with log.open("ab") as said:
         return subprocess.Popen(
             command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, start_new_session=True

@@ -1,4 +1,4 @@
-"""What a hook raises is the hook's own fault; only a person's Ctrl-C is not."""
+"""Telling errors of hooks from the user's Ctrl-C."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ T = TypeVar("T")
 
 
 class Interrupted(KeyboardInterrupt):
-    """A person has pressed Ctrl-C: a type of its own, for a hook may raise `KeyboardInterrupt`."""
+    """The user pressed Ctrl-C; a type of its own, as hooks may raise `KeyboardInterrupt`."""
 
 
 @contextmanager
 def interrupted_by_a_person() -> Iterator[None]:
-    """Have Ctrl-C raise `Interrupted`, in this process and for as long as this lasts."""
+    """Make Ctrl-C raise `Interrupted` in this process, within this context."""
     before = signal.getsignal(signal.SIGINT)
     if before is not signal.default_int_handler:  # as with nohup
         yield
@@ -45,7 +45,7 @@ def _as_usual() -> None:
 
 
 class _InAProcess(Guard):
-    """Ends the copies of the process that hooks fork, and tells Ctrl-C from what hooks raise."""
+    """Ends forked copies of the process that return from a hook, and recognises Ctrl-C."""
 
     def call(self, code: Callable[[], T]) -> T:
         parent = os.getpid()
@@ -63,7 +63,7 @@ class _InAProcess(Guard):
         return returned
 
     def by_a_person(self, error: BaseException) -> bool:
-        kind = type(error)  # the error itself is asked nothing: it may be of any class
+        kind = type(error)  # not `isinstance`: the error's class may lie
         if not issubclass(kind, KeyboardInterrupt):
             return False
         handler = signal.getsignal(signal.SIGINT)
@@ -73,9 +73,9 @@ class _InAProcess(Guard):
 _IN_A_PROCESS = _InAProcess()
 
 by_a_person = _IN_A_PROCESS.by_a_person
-"""Say whether an error is a person's Ctrl-C, or, where that cannot be told, may be."""
+"""Return whether an error is the user's Ctrl-C, or may be."""
 
 
 def guard_hooks() -> None:
-    """Have the brain call hooks as those of an app that runs in this process."""
+    """Install this guard for hooks that run in this process."""
     put(_IN_A_PROCESS)

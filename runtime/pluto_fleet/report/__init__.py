@@ -1,1 +1,1 @@
-"""What is said of a flight: what happened, what came of it, and how far it is."""
+"""Reports of a flight: its events, its outcome, its progress."""

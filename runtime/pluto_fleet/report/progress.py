@@ -1,4 +1,4 @@
-"""How far a long work is: a bar on standard error at a terminal, or a line now and then elsewhere."""
+"""Progress: a bar on standard error at a terminal, or occasional lines elsewhere."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TextIO
 from plutoc_runtime import output
 
 _AFTER, _EVERY = 1.0, 0.1
-"""Seconds of real time until the bar appears, and between two pictures of it."""
+"""Seconds of real time until the bar appears, and between two updates."""
 
 LINE_EVERY = 10.0
 """Seconds of real time between two lines."""
@@ -19,7 +19,7 @@ _WIDTH = 30
 
 
 class Progress:
-    """How far the work is."""
+    """Shows the progress of a long task."""
 
     def __init__(
         self,
@@ -29,14 +29,14 @@ class Progress:
         shown: bool,
         say: Callable[[str], object] | None = None,
     ) -> None:
-        """Begin; where the bar is not `shown`, `say` is told a line now and then."""
+        """Without a bar (`shown`), `say` is called with a line now and then."""
         self._stream, self._clock, self._shown = stream, clock, shown
         self._say = None if shown else say
         self._next = clock() + (_AFTER if shown else LINE_EVERY)
         self._drawn = 0
 
     def update(self, share: float, text: str) -> None:
-        """So much of 1 is done."""
+        """Show this share, from 0 to 1."""
         if not (self._shown or self._say) or (now := self._clock()) < self._next:
             return
         if self._say is not None:
@@ -50,7 +50,7 @@ class Progress:
         self._drawn = len(line)
 
     def clear(self) -> None:
-        """Take the bar away."""
+        """Remove the bar."""
         if self._drawn:
             self._write("\r" + " " * self._drawn + "\r")
             self._drawn = 0
@@ -64,13 +64,13 @@ class Progress:
 
 
 def simulation_progress(*, quiet: bool) -> Progress:
-    """Return a bar on a terminal; none where lines are printed there already."""
+    """Return a bar, shown on a terminal to which nothing else is printed."""
     busy = not quiet and _is_terminal(sys.stdout)
     return Progress(sys.stderr, time.monotonic, shown=_is_terminal(sys.stderr) and not busy)
 
 
 def trial_progress(*, lines: bool) -> Progress:
-    """Return a bar on a terminal, and else perhaps lines."""
+    """Return a bar on a terminal, or lines elsewhere."""
     say = (lambda text: output.tell(f"plutoc test: {text}")) if lines else None
     return Progress(sys.stderr, time.monotonic, shown=_is_terminal(sys.stderr), say=say)
 

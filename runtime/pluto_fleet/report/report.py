@@ -1,4 +1,4 @@
-"""What came of a flight: two tables and a last line, and the exit code."""
+"""The outcome of a flight: two tables, a last line, and the exit code."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class MissionRow(NamedTuple):
-    """What the report says of a mission."""
+    """A mission's row of the report."""
 
     name: str
     status: Status
@@ -60,7 +60,7 @@ def report(app: App, outcome: SimulationResult, apart: float) -> Iterator[str]:
 
 
 def row_of(mission: Mission[Any]) -> MissionRow:
-    """Return what the report says of a mission that is at hand."""
+    """Return the row of a mission."""
     done, todo = len(mission.completed_trips), len(mission.trips)
     return MissionRow(
         mission.name, mission.status, done, todo, mission.round, mission.attempts, mission.reason
@@ -88,7 +88,7 @@ def mission_table(app: App, missions: Iterable[MissionRow]) -> Iterator[str]:
 
 
 def drone_table(drones: Sequence[Drone], flown: Mapping[str, float]) -> Iterator[str]:
-    """Yield the lines of the second table; not everywhere is it known how far each has flown."""
+    """Yield the lines of the second table; the distances flown may be unknown."""
     yield from table(
         ("drone", "category", "trips", *(["flown"] if flown else []), "battery", "status"),
         [
@@ -118,7 +118,7 @@ def last_line(outcome: SimulationResult) -> str:
 def in_one_line(
     statuses: Sequence[Status], seconds: float, flights: int, failed: int, crashed: int = 0
 ) -> str:
-    """Return how missions have ended, after how long and how many flights."""
+    """Return a summary of the missions' statuses, the duration and the flights."""
     parts = [f"{statuses.count(Status.COMPLETED)} of {counted(len(statuses), 'mission')} completed"]
     rest = len(statuses) - statuses.count(Status.COMPLETED)
     for what, of_these in _OTHER_ENDS.items():
@@ -168,14 +168,14 @@ def exit_code(outcome: SimulationResult) -> int:
 
 
 def code_of(statuses: Sequence[Status]) -> int:
-    """Return the exit code for missions that stand so."""
+    """Return the exit code for missions with these statuses."""
     if any(status in _NEEDS_A_PERSON for status in statuses):
         return 4
     return 1 if any(status in _BAD for status in statuses) else 0
 
 
 _HARMLESS = re.compile(r"[\w ,.:;/()+-]+")
-"""Names of which a shell leaves everything as it is, in quotation marks."""
+"""Names that a shell takes literally in double quotes."""
 
 
 def report_of(
@@ -193,7 +193,7 @@ def report_of(
 
 
 def waiting_lines(app: App, journal: Path, records: Records) -> Iterator[str]:
-    """Yield what is asked of a person, and the commands that answer it."""
+    """Yield the open questions, and the commands that answer them."""
     for name, what, question in waiting(records):
         yield f"{printable(name)}: {printable(question)}"
         for answer in ANSWERS[what]:
@@ -201,7 +201,7 @@ def waiting_lines(app: App, journal: Path, records: Records) -> Iterator[str]:
 
 
 def _typed(name: str) -> str:
-    """Write a mission's name, which may come from a stranger, as it can be typed safely."""
+    """Quote a mission's name, which is untrusted, for a shell."""
     word = f'"{name}"' if _HARMLESS.fullmatch(name) else in_shell(name)
     return f"-- {word}" if name.startswith("-") else word
 

@@ -1,4 +1,4 @@
-"""What happened, one sentence an event: for a person who watches, or reads a journal."""
+"""The events of a flight as sentences, one for each."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def line_of(event: Event) -> str | None:
-    """Return the line for an event; None for what only a machine wants to know."""
+    """Return the line for an event; None for one that is of no interest to people."""
     said = sentence_of(event)
     if said is None:
         return None
@@ -25,7 +25,7 @@ def line_of(event: Event) -> str | None:
 
 
 def sentence_of(event: Event) -> str | None:
-    """Return what happened, without when and to which mission; None: only a machine cares."""
+    """Return an event's sentence, without time and mission; None: it is of no interest to people."""
     say = _SENTENCES.get(str(event["event"]))
     return None if say is None else say(event)
 
@@ -98,7 +98,7 @@ Fact = Mapping[str, Any]
 
 
 def journal_sentence(event: Fact, wall: float) -> str | None:
-    """Say what an event was; an event of another version, with other facts, as plain facts."""
+    """Return an event's sentence; for an event of another version, its plain facts."""
     try:
         if event["event"] == "journal.begun":
             return _begun(event, wall)

@@ -1,1 +1,1 @@
-"""A simulated team of drones in a simulated world: what `simulate` and `fly --sim` fly."""
+"""A simulated team of drones in a simulated world, for `simulate` and `fly --sim`."""

@@ -1,7 +1,7 @@
-"""One simulated drone: where it is and what is in its battery, worked out when it is asked for.
+"""One simulated drone, whose position and battery are computed on demand.
 
-Nothing ticks. A body keeps its last change; what goes wrong in the meantime is applied, at its
-exact moment, the next time it is looked at. So a flight costs one event a leg, however long it is.
+There is no tick. A body stores its last change; what was due since is applied, at its exact time, the
+next time it is accessed. So a flight costs one event per leg, however long it is.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SimulatedDrone:
-    """A drone to simulate: it begins in its dock. Docks stand on the ground, at height 0."""
+    """A drone to simulate, initially in its dock. Docks are on the ground, at height 0."""
 
     id: str
     category: Category
     home: Point
     index: int = 0
-    """Its place in the fleet file."""
+    """Its index in the fleet file."""
     battery_level: float = 1.0
-    """What is in its battery at the start, from 0 to 1."""
+    """Its initial charge, from 0 to 1."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Snapshot:
-    """A drone as it is at a moment; all times are those of its clock."""
+    """The state of a drone at one time of its clock."""
 
     boot: int
     carries: Item | None
@@ -55,7 +55,7 @@ class Snapshot:
 
 
 Due = tuple[float, "Failure | None"]
-"""When something comes to pass by itself, and what; None: it touches down."""
+"""When something happens by itself, and what; None: it touches down."""
 
 _NEVER: Due = inf, None
 
@@ -71,35 +71,35 @@ class Body:
         self.drone, self._clock = drone, clock
         self.key: Key = FLEET + 1 + drone.index
         self.down: FlightFailed | None = None
-        """Why it takes no commands, if it takes none."""
+        """The failure for which it takes no commands, if any."""
         self.down_since = 0.0
         self.carries: Item | None = None
         self.command = ""
-        """What it is doing; one thing at a time."""
+        """The command in progress, one at a time."""
         self.over: Future[None] | None = None
-        """Happens when that is done, if it takes time; fails if it is broken off."""
+        """Set when the command is done, if it takes time; fails if it is aborted."""
         self.cut_short = FlightFailed(Failure.REFUSED, "it was broken off")
-        """Why, the last time that this was so."""
+        """Why the last command was cut short."""
         self.boot = 0
-        """How often it was switched off and on again."""
+        """How often it was restarted."""
         self.done: dict[str, object] = {}
-        """What it remembers: the jobs whose action it did, with what that gave."""
+        """The jobs whose action it did, with their results."""
         self.settings: dict[str, float] = {}
-        """What an action of the app's own has set on it."""
+        """Parameters that an action of the app's own has set."""
         self.on_change: Callable[[], object] | None = None
-        """Told when something of it has changed that time alone does not change."""
+        """Called when its state has changed other than by time."""
         self.left_alone = False
-        """It was told to sink before the process was killed: it touches down by itself."""
+        """It was told to land before the process was killed, and touches down by itself."""
         self._drawn, self._began = Drawn(), clock()
         self._charge = Charge(drone.battery_level, clock())
         self._leg, self._landed = standing(drone.home, clock()), True
         self._flown = 0.0
         self._due: Due = _NEVER
         self._due_of: tuple[object, ...] = (None,) * 6
-        """What comes first, and of what that was worked out: it is asked for all the time."""
+        """A cache of the next thing due, with what it was computed from."""
         self.touch_down(clock())
 
-    # What anybody may ask at any time
+    # Its state
 
     @property
     def location(self) -> Point:
@@ -110,7 +110,7 @@ class Body:
 
     @property
     def battery_level(self) -> float:
-        """What is left in its battery, from 0 to 1."""
+        """The charge of its battery, from 0 to 1."""
         now = self._clock()
         self.settle(now)
         return self._charge.at(now)
@@ -123,12 +123,12 @@ class Body:
 
     @property
     def silence(self) -> float:
-        """What is simulated is known at any moment."""
+        """Always 0: a simulated drone is never silent."""
         return 0.0
 
     @property
     def is_docked(self) -> bool:
-        """Whether it stands in its dock."""
+        """Whether it is in its dock."""
         return self.landed and docked(self._leg.end, self.drone.home)
 
     @property
@@ -140,17 +140,17 @@ class Body:
 
     @property
     def arrives(self) -> float:
-        """When it is where it goes."""
+        """When it arrives at its destination."""
         return self._leg.arrives
 
     @property
     def fails_to_act(self) -> bool:
-        """Whether the action of this flight goes wrong."""
+        """Whether the action of this flight fails."""
         return self._drawn.action
 
     @property
     def standing(self) -> DroneReport:
-        """What it reports when it is asked; one that takes no commands does not answer."""
+        """Return its report; one that takes no commands does not answer."""
         now = self._clock()
         self.settle(now)
         return DroneReport(
@@ -165,29 +165,29 @@ class Body:
             problems=() if self.down is None else (str(self.down),),
         )
 
-    # What navigation does to it
+    # Commands
 
     def begin(self, drawn: Drawn, now: float) -> None:
-        """Begin a flight, with what will go wrong on it: from here, or from its take-off on."""
+        """Begin a flight, with its faults, counted from here or from its take-off."""
         self._drawn, self._began = drawn, now
 
     def lift_off(self, now: float) -> None:
-        """Leave the ground: from now on the battery drains, and things go wrong."""
+        """Leave the ground: the battery drains from now on, and faults are due."""
         self._charge = self._charge.changing(now, -1.0 / self.drone.category.flight_time)
         self._began, self._landed = now, False
 
     def move(self, target: Point, now: float, arrives: float) -> None:
-        """Go straight to a point, to be there at a time."""
+        """Fly straight to a point, to arrive at a time."""
         self._turn(Leg(self._leg.at(now), target, now, arrives), now)
 
     def halt(self, now: float) -> None:
-        """Hover where it is, unless it is past that."""
+        """Hover where it is, if it still takes commands."""
         self.settle(now)
         if self.down is None and not self._landed:
             self._turn(standing(self._leg.at(now), now), now)
 
     def touch_down(self, now: float) -> None:
-        """Stand on the ground, below where it is: its flight is over."""
+        """Put it on the ground below: its flight has ended."""
         self._rest(now)
         at_home = docked(self._leg.end, self.drone.home)
         rate = 1.0 / self.drone.category.charge_time if at_home else 0.0
@@ -196,7 +196,7 @@ class Body:
         self._changed()
 
     def dock(self, now: float) -> None:
-        """Stand in its dock, put there by a person, and take commands again."""
+        """Put it into its dock, so that it takes commands again."""
         if self.down is not None and self.down.failure is Failure.BATTERY:
             self.reboot()
         self.down = None
@@ -204,11 +204,11 @@ class Body:
         self.touch_down(now)
 
     def reboot(self) -> None:
-        """Switch it off and on again: it forgets what it has done."""
+        """Restart it: it forgets what it has done."""
         self.boot, self.done, self.settings = self.boot + 1, {}, {}
 
     def check(self, now: float) -> None:
-        """Raise why it takes no commands, if it takes none."""
+        """Raise its failure, if it takes no commands."""
         self.settle(now)
         if self.down is not None:
             raise FlightFailed(self.down.failure, str(self.down))
@@ -219,7 +219,7 @@ class Body:
         self._changed()
 
     def befall(self, now: float, what: Failure, why: str | None = None) -> bool:
-        """Let something go wrong at this moment; False: it took no commands before."""
+        """Cause a fault now; return False if it took no commands before."""
         self.settle(now)
         if self.down is not None:
             return False
@@ -229,10 +229,10 @@ class Body:
             self._changed()
         return True
 
-    # What comes to pass by itself
+    # What happens by itself
 
     def settle(self, now: float) -> None:
-        """Let everything come to pass that was due by now, each at its own moment."""
+        """Apply everything that was due by now, each at its own time."""
         if self._landed:
             return
         while (due := self._next())[0] <= now:
@@ -240,14 +240,14 @@ class Body:
 
     @property
     def next_mishap(self) -> float:
-        """When something will go wrong, if it stays in the air for so long."""
+        """When the next fault is due, if it stays in the air until then."""
         return self._next()[0]
 
     def _next(self) -> Due:
-        """What comes first, and of equals the worst."""
+        """The next thing due, of simultaneous ones the worst."""
         if self._landed:
             return _NEVER
-        # each of these is replaced when it changes, and never changes in itself
+        # each of these is immutable, and replaced on a change
         of = (self._charge, self._drawn, self._began, self._leg, self.down, self.left_alone)
         if not all(map(is_, of, self._due_of)):
             self._due, self._due_of = self._worked_out(), of
@@ -290,11 +290,11 @@ class Body:
         if self.on_change is not None:
             self.on_change()
 
-    # What outlives the simulation
+    # Saving and restoring
 
     @property
     def snapshot(self) -> Snapshot:
-        """Everything of it, but for what it has done."""
+        """Return its state, without the actions that it has done."""
         return Snapshot(
             boot=self.boot,
             carries=self.carries,
@@ -309,7 +309,7 @@ class Body:
         )
 
     def restore(self, was: Snapshot) -> None:
-        """Be as it was; what it was told to do, it does to the end, and then it hovers."""
+        """Restore a state; a command in progress is completed, and then it hovers."""
         self.boot, self.carries = was.boot, was.carries
         self.down, self.down_since = was.down, was.down_since
         self._drawn, self._began = was.drawn, was.began

@@ -1,4 +1,4 @@
-"""A simulated team of drones: navigation over any kernel, in virtual or in real time."""
+"""A simulated team of drones, on any kernel, in virtual or real time."""
 
 from __future__ import annotations
 
@@ -39,23 +39,23 @@ __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldAction:
-    """Something that a drone does to the world, or sees of it."""
+    """An action of a drone on the world, or an observation of it."""
 
     drone: str
     action: str
     item: Item | None
     job: str | None
-    """For which it was done."""
+    """The id of its job."""
     boot: int
     """The drone's."""
     value: object
-    """What it gave."""
+    """Its result."""
     aboard: Item | None
-    """What the drone carries afterwards."""
+    """The item aboard afterwards."""
 
 
 class SimulatedNavigation:
-    """Flies simulated drones in a simulated world, and lets go wrong what is drawn to."""
+    """Flies simulated drones in a simulated world, with randomly drawn faults."""
 
     def __init__(
         self,
@@ -70,10 +70,10 @@ class SimulatedNavigation:
         self._kernel, self._world, self._airspace = kernel, world, airspace
         self._faults, self._seed = faults, seed
         self.record = record
-        """Told of everything that drones do to the world, right before it is so."""
+        """Called right before each action of a drone on the world."""
         self.bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
         self.telemetry: Mapping[str, Telemetry] = self.bodies
-        """What is known of each drone; the values stay current."""
+        """The drones' telemetry, always current."""
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands; None: it takes them."""
@@ -82,7 +82,7 @@ class SimulatedNavigation:
         return body.down
 
     def carrying(self, drone: str) -> Item | None:
-        """Return what a drone has aboard."""
+        """Return the item aboard a drone."""
         body = self.bodies[drone]
         body.settle(self._kernel.now)
         return body.carries
@@ -92,7 +92,7 @@ class SimulatedNavigation:
         return self.bodies[drone].flown
 
     def strike(self, drone: str, failure: Failure, why: str | None = None) -> bool:
-        """Let a crash, an empty battery or a lost link happen now; False: it was down already."""
+        """Cause a crash, an empty battery or a lost link now; return False if it was down already."""
         body = self.bodies[drone]
         if not body.befall(self._kernel.now, failure, why):
             return False
@@ -100,14 +100,14 @@ class SimulatedNavigation:
         return True
 
     def reboot(self, drone: str) -> None:
-        """Switch a drone off and on again: it forgets what it has done, and sinks if it flies."""
+        """Restart a drone: it forgets what it has done, and sinks if it flies."""
         body = self.bodies[drone]
         if not body.landed:
             self.strike(drone, Failure.LINK)
         body.reboot()
 
     def _interrupt(self, body: Body, why: FlightFailed) -> None:
-        """Let what it does end here with an error."""
+        """End its command here with an error."""
         over = body.over
         if over is not None:
             body.over, body.command, body.cut_short = None, "", why
@@ -125,21 +125,21 @@ class SimulatedNavigation:
         return None if action in BUILT_IN else f"{drone} has no action {action}"
 
     def begins(self, drone: str, job: Job | None, seconds: float) -> None:
-        """A flight begins: what will go wrong is drawn anew."""
+        """Begin a flight: draw its faults."""
         body, now = self.bodies[drone], self._kernel.now
         body.check(now)
         order = None if job is None else Order(id=job.id, seconds=seconds)
         body.begin(draw(self._faults, self._seed, order), now)
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise to a height; one that flies stays where it is."""
+        """Take off to a height; one that flies stays where it is."""
         body = self.bodies[drone]
         now = self._kernel.now
         body.check(now)
         if body.landed:
             x, y, _ = body.location
             body.lift_off(now)
-            body.check(now)  # what goes wrong at once leaves it on the ground
+            body.check(now)  # a fault at take-off leaves it on the ground
             await self._move(body, (x, y, height), CLIMB_SPEED, "to take off")
 
     async def go_to(self, drone: str, target: Point) -> None:
@@ -156,7 +156,7 @@ class SimulatedNavigation:
         item: Item | None,
         job: str | None = None,
     ) -> object:
-        """Do one of the built-in actions here, and return what came of it.
+        """Do a built-in action here, and return its result.
 
         The drone remembers that it was done for a job.
         """
@@ -188,25 +188,25 @@ class SimulatedNavigation:
         return value
 
     async def hold(self, drone: str) -> None:
-        """Hover until something goes wrong or it is cancelled."""
+        """Hover until a fault occurs or it is cancelled."""
         body = self._in_the_air(drone)
         if body.fails_to_act:
             raise failed("the action failed", f"{drone} could not do it", body.location)
         await self._pass(body, inf, "to hover")
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what was written under this name, or else what is measured here by this name."""
+        """Return the value that was written under this name, or else what is measured here."""
         body = self._in_the_air(drone)
         if name in body.settings:
             return body.settings[name]
         return self._world.measure(name, body.location, self._kernel.now)
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Keep a value under this name."""
+        """Store a value under this name."""
         self._in_the_air(drone).settings[name] = value
 
     async def cut(self, drone: str) -> None:
-        """Switch its motors off: it falls, if it flies and can be told, and turns them on no more."""
+        """Switch its motors off: it falls, if it flies and can be reached, and stays off."""
         cut = motors_cut(drone)
         body = self.bodies[drone]
         if not self.strike(drone, cut.failure, str(cut)) and not body.landed:
@@ -266,15 +266,15 @@ class SimulatedNavigation:
         return await self._pass(body, seconds, command)
 
     async def _pass(self, body: Body, seconds: float, command: str) -> float:
-        """Let the time of a command pass, and return when it is over; a mishap is over it first."""
+        """Wait for the duration of a command; a fault ends it earlier."""
         until = min(self._kernel.now + seconds, body.next_mishap)
         await self._busy(body, until, command)
-        # Not the time of now: a real clock is late, and sums of floats are not exact.
+        # Not the current time: a real clock is late, and sums of floats are not exact.
         body.check(until)
         return until
 
     async def _busy(self, body: Body, until: float, command: str) -> None:
-        """Let time pass; a cancelled command leaves the drone hovering."""
+        """Wait; a cancelled command leaves the drone hovering."""
         if body.command:
             raise RuntimeError(f"{body.drone.id} was told {command} while told {body.command}")
         if until <= self._kernel.now:
@@ -284,7 +284,7 @@ class SimulatedNavigation:
         timer = self._kernel.at(until, EventKind.FLIGHT, body.key, partial(over.set, None))
         try:
             await over
-        except BaseException:  # no longer wanted
+        except BaseException:  # cancelled
             if body.over is over:
                 body.halt(self._kernel.now)
             raise
@@ -293,7 +293,7 @@ class SimulatedNavigation:
             is_its_own = body.over is over
             if is_its_own:
                 body.command, body.over = "", None
-        if not is_its_own:  # its time had come, but before its turn did, it was broken off
+        if not is_its_own:  # it was aborted at the instant at which it was done
             raise body.cut_short
 
     def _in_the_air(self, drone: str) -> Body:

@@ -1,4 +1,4 @@
-"""A radio on which everything takes a moment: commands arrive later, and so does what they gave."""
+"""A simulated radio with delays: commands arrive later, and so do their results."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ COMMAND, ANSWER = "command", "answer"
 
 
 class Radio(ForwardingControls):
-    """Controls whose commands and answers are on their way for a while.
+    """Controls with delayed commands and answers.
 
-    `delay` says how many seconds each is: it is asked with `command` or `answer`. What is broken
-    off while it is on its way does not arrive.
+    `delay` returns the seconds of a delay, for `command` or `answer`. A command that is aborted in
+    transit does not arrive.
     """
 
     def __init__(self, kernel: Kernel, controls: Controls, delay: Callable[[str], float]) -> None:
         super().__init__(controls)
         self._kernel, self._delay = kernel, delay
         self._orders: dict[str, Future[None]] = {}
-        """What drones were told to do for themselves: a signal each, that fails if it is broken off."""
+        """A future for each drone's command, which fails if the command is aborted."""
         self.late = 0
-        """How many messages were late."""
+        """The number of delayed messages."""
 
     def _late(self, what: str) -> float:
         seconds = self._delay(what)
@@ -45,7 +45,7 @@ class Radio(ForwardingControls):
         return seconds
 
     def break_off(self, drone: str) -> None:
-        """Stop what a drone does, or is about to be told."""
+        """Stop what a drone does, or a command in transit."""
         order = self._orders.pop(drone, None)
         self._controls.break_off(drone)
         if order is not None:
@@ -57,7 +57,7 @@ class Radio(ForwardingControls):
         await self._sent(drone, partial(self._controls.hold, drone))
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise to a height."""
+        """Take off to a height."""
         await self._sent(drone, partial(self._controls.takeoff, drone, height))
 
     async def go_to(self, drone: str, target: Point) -> None:
@@ -76,16 +76,16 @@ class Radio(ForwardingControls):
         item: Item | None,
         job: str | None,
     ) -> object:
-        """Do one of the built-in actions here, and return what came of it."""
+        """Do a built-in action here, and return its result."""
         act = self._controls.act
         return await self._sent(drone, partial(act, drone, action, parameters, item, job))
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what a drone measures under this name."""
+        """Return a sensor or variable of a drone."""
         return await self._asked(self._controls.read(drone, name))
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone has under this name."""
+        """Set a parameter of a drone."""
         await self._asked(self._controls.write(drone, name, value))
 
     async def cut(self, drone: str) -> None:
@@ -101,7 +101,7 @@ class Radio(ForwardingControls):
         return await self._asked(self._controls.drone_report(drone))
 
     async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
-        """Ask a drone beside what it does."""
+        """Query a drone, concurrently with its command."""
         try:
             await self._kernel.sleep(self._late(COMMAND), EventKind.FLIGHT)
             answer = await question

@@ -1,8 +1,8 @@
-"""Keeps a simulated world on the disk, so that it is still there when its process is not.
+"""Stores a simulated world on the disk, so that it survives its process.
 
-What drones do is one line of a file each, written the moment it happens. How they stand is another
-file, written anew at every change. Time passes also while no process runs: read back, each drone is
-where it has come to meanwhile.
+Each action of a drone is one line of a file, written when it happens. The drones' states are another
+file, rewritten at every change. Time passes also while no process runs: when it is read again, each
+drone is where it has got to meanwhile.
 """
 
 from __future__ import annotations
@@ -30,17 +30,17 @@ _BOOT = Path("/proc/sys/kernel/random/boot_id")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Moment:
-    """A moment, on the wall and since the machine was started."""
+    """A point in time, by the wall clock and since the machine was started."""
 
     wall: float
     """Seconds since 1970, as far as the clock is right."""
     boot: str
-    """Which start of the machine that was; empty: it cannot be told."""
+    """Identifies the start of the machine; empty: unknown."""
     up: float
-    """Seconds since then, sleep included; they cannot be set."""
+    """Seconds since that start, including sleep, by a clock that cannot be set."""
 
     def since(self, data: Mapping[str, Any]) -> float:
-        """Return the seconds since a moment that was written down; never less than none."""
+        """Return the seconds since a stored moment; never negative."""
         if self.boot and self.boot == data["boot"]:
             return max(0.0, self.up - float(data["up"]))
         return max(0.0, self.wall - float(data["wall"]))
@@ -52,7 +52,7 @@ class Moment:
 
 
 def this_moment() -> Moment:
-    """Return what the clocks show."""
+    """Return the current moment."""
     boot = _this_boot()
     up = time.clock_gettime(time.CLOCK_BOOTTIME) if boot else 0.0
     return Moment(wall=time.time(), boot=boot, up=up)
@@ -66,11 +66,11 @@ def _this_boot() -> str:
 
 
 DEEDS, DRONES = "world.jsonl", "drones.json"
-"""What was done, a line each; how the drones stand."""
+"""The names of the files with the actions and with the drones' states."""
 
 
 class WorldStore:
-    """The files of one simulated world. Nothing is ever taken out of the one with the deeds."""
+    """The files of one simulated world. The file of actions is append-only."""
 
     def __init__(
         self, folder: Path, clock: Callable[[], float], speed: float, moment: Callable[[], Moment]
@@ -79,18 +79,18 @@ class WorldStore:
         self._moment = moment
         self._bodies: Mapping[str, Body] = {}
         self._counts: dict[str, int] = {}
-        """How many of its deeds are known of each drone."""
+        """The number of recorded actions of each drone."""
         self._stale = False
         path = folder / DEEDS
         told = path.read_bytes() if path.exists() else b""
         self._end = told.rfind(b"\n") + 1
-        """Where a line that was never finished is written over."""
+        """The end of the last complete line: an incomplete one is overwritten."""
         self._told = [json.loads(line) for line in told[: self._end].splitlines()]
         self._file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o600)
         os.ftruncate(self._file, self._end)
 
     def take_over(self, bodies: Mapping[str, Body]) -> None:
-        """Let the drones be as they were, and keep from now on what becomes of them."""
+        """Restore the drones, and record them from now on."""
         self._bodies = bodies
         saved: Mapping[str, Any] = {}
         with suppress(OSError, ValueError):
@@ -109,7 +109,7 @@ class WorldStore:
         self.settled()
 
     def _catch_up(self) -> None:
-        """Let drones remember their deeds, and those that came after they were last kept be so."""
+        """Restore the drones' memories of their actions, and apply those newer than the stored states."""
         seen = dict.fromkeys(self._bodies, 0)
         for deed in self._told:
             id = deed["drone"]
@@ -125,7 +125,7 @@ class WorldStore:
         self._told = []
 
     def record(self, deed: WorldAction) -> None:
-        """Write down what a drone does, or let it fail to do so."""
+        """Record an action, or make it fail."""
         body = self._bodies[deed.drone]
         data = {
             "time": self._moment().wall,
@@ -155,7 +155,7 @@ class WorldStore:
         self._stale = True
 
     def settled(self) -> None:
-        """Write down how all drones stand, if that has changed; called when an instant is over."""
+        """Store the drones' states if they have changed; called after each instant."""
         if not self._stale:
             return
         drones = {
@@ -164,7 +164,7 @@ class WorldStore:
         }
         text = json.dumps({"moment": self._moment().data, "time": self._clock(), "drones": drones})
         part = self._drones.with_name(f"{DRONES}.part")
-        with suppress(OSError):  # the next change is another chance
+        with suppress(OSError):  # it is written again at the next change
             part.write_text(text, encoding="utf-8")
             part.replace(self._drones)
             self._stale = False
@@ -186,7 +186,7 @@ def _data(body: Snapshot) -> dict[str, object]:
 
 
 def _snapshot(data: Mapping[str, Any], shift: float) -> Snapshot:
-    """Return how a drone was, with its times moved to those of another clock."""
+    """Return a drone's snapshot, with its times converted to another clock."""
     start, end, leaves, arrives = data["leg"]
     level, since, rate = data["charge"]
     crash, link, battery, action = data["drawn"]
