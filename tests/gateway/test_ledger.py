@@ -12,7 +12,6 @@ from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.jobs.reports import Entry, JobState
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Photo
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly
 
@@ -86,8 +85,7 @@ def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
     field.ledger.forget(Task().id)
     field.ledger.is_whole = False
     link = field.another().link(2)
-    assert isinstance(field.kernel, VirtualTime)
-    assert fly(field.kernel, link.fleet_report()).jobs[Task().id].state is JobState.DONE
+    assert fly(field.virtual, link.fleet_report()).jobs[Task().id].state is JobState.DONE
     link.fly(job := Task(), heard.append)
     field.advance(50)
     assert (heard, job.begun) == ([None, None], 0)
@@ -101,8 +99,7 @@ def test_what_a_drone_remembers_is_not_done_again_though_the_ledger_does_not_hav
     field.gateway.crash()
     field.ledger.forget(Task().id)
     link = field.another().link(2)
-    assert isinstance(field.kernel, VirtualTime)
-    assert not fly(field.kernel, link.fleet_report()).jobs
+    assert not fly(field.virtual, link.fleet_report()).jobs
     link.fly(job := Task(), heard.append)
     field.advance(50)
     assert (heard, job.begun) == ([None, None], 0)
@@ -116,8 +113,7 @@ def test_in_a_first_life_no_drone_is_taken_at_its_word() -> None:
     field.gateway.crash()
     field.ledger.forget(Task().id)
     link = field.another().link(1)
-    assert isinstance(field.kernel, VirtualTime)
-    fly(field.kernel, link.fleet_report())
+    fly(field.virtual, link.fleet_report())
     link.fly(job := Task(), heard.append)
     field.advance(50)
     assert job.begun == 1
