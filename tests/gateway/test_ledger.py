@@ -76,13 +76,19 @@ def test_a_damaged_line_is_not_believed(tmp_path: Path) -> None:
         assert not damaged.is_whole or len(list(damaged.entries())) == 2  # its last end of line
 
 
-def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
-    """They remember what they did since they were switched on."""
+def flown_and_forgotten() -> tuple[Field, list[object]]:
+    """Fly a job and lose its line, and then the gateway."""
     field, heard = Field(), list[object]()
     field.gateway.link(1).fly(Task(), heard.append)
     field.advance(50)
     field.gateway.crash()
     field.ledger.forget(Task().id)
+    return field, heard
+
+
+def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
+    """They remember what they did since they were switched on."""
+    field, heard = flown_and_forgotten()
     field.ledger.is_whole = False
     link = field.another().link(2)
     assert fly(field.virtual, link.fleet_report()).jobs[Task().id].state is JobState.DONE
@@ -93,11 +99,7 @@ def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
 
 def test_what_a_drone_remembers_is_not_done_again_though_the_ledger_does_not_have_it() -> None:
     """The ledger may be lost, or have forgotten what a damaged journal does not say any more."""
-    field, heard = Field(), list[object]()
-    field.gateway.link(1).fly(Task(), heard.append)
-    field.advance(50)
-    field.gateway.crash()
-    field.ledger.forget(Task().id)
+    field, heard = flown_and_forgotten()
     link = field.another().link(2)
     assert not fly(field.virtual, link.fleet_report()).jobs
     link.fly(job := Task(), heard.append)
@@ -107,11 +109,7 @@ def test_what_a_drone_remembers_is_not_done_again_though_the_ledger_does_not_hav
 
 def test_in_a_first_life_no_drone_is_taken_at_its_word() -> None:
     """It may remember another flight, whose jobs had the same names."""
-    field, heard = Field(), list[object]()
-    field.gateway.link(1).fly(Task(), heard.append)
-    field.advance(50)
-    field.gateway.crash()
-    field.ledger.forget(Task().id)
+    field, heard = flown_and_forgotten()
     link = field.another().link(1)
     fly(field.virtual, link.fleet_report())
     link.fly(job := Task(), heard.append)
