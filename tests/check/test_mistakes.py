@@ -38,11 +38,7 @@ BRANCHED = f"""{FLOWN}
 """
 
 MISTAKES = {
-    "no block makes missions": (
-        "P2001",
-        "",
-        "allocate = DroneAllocator\nstart -> allocate",
-    ),
+    "no block makes missions": ("P2001", "", "allocate = DroneAllocator\nstart -> allocate"),
     "a second block makes missions": (
         "P2002",
         "other",
@@ -246,11 +242,7 @@ MISTAKES = {
             "    [watch, timer] -> allocate when STANDBY\n    [watch, timer] -> end"
         ),
     ),
-    "branches that stop before their gate": (
-        "P2009",
-        "watch = ",
-        f"{OPEN}{OUT}",
-    ),
+    "branches that stop before their gate": ("P2009", "watch = ", f"{OPEN}{OUT}"),
     "branches that stop where there is no gate": (
         "P2009",
         "watch = ",
