@@ -35,9 +35,7 @@ SPINNING = """
 ENDLESS = {
     # Attempts that are used up stay so: the mission goes round where no time passes, and its app
     # hangs.
-    "exhausted": (
-        "P2010",
-        """
+    "exhausted": ("P2010", """
   launch -> watch
   retry = PriorityManager
   watch -> allocate when STANDBY
@@ -45,22 +43,16 @@ ENDLESS = {
   watch -> retry when FAILED
   retry -> allocate when STANDBY
   retry -> retry when FAILED
-""",
-    ),
+"""),
     # Only FAILED passes such a funnel: what takes COMPLETED behind it is no way to an end.
-    "a branch that always fails fails its funnel": (
-        "P2010",
-        """
+    "a branch that always fails fails its funnel": ("P2010", """
   launch -> [mark, watch] -> all_there
   mark = MissionModifier(hook: give_up)
   all_there = GateFunnel
   all_there -> allocate when FAILED
   all_there -> end
-""",
-    ),
-    "what a branch has used up is used up behind its gate": (
-        "P2010",
-        """
+"""),
+    "what a branch has used up is used up behind its gate": ("P2010", """
   launch -> watch
   again = MissionModifier(hook: note)
   mark = MissionModifier(hook: note)
@@ -72,8 +64,7 @@ ENDLESS = {
   again -> [retry, mark] -> first
   first -> allocate when STANDBY
   first -> again when FAILED
-""",
-    ),
+"""),
     # Rounds that are flown stay flown, and no time passes between the two.
     "two repeaters that lead to each other": ("P2025", SPINNING),
     # Without `emits` it may look at the mission; the repeater has no round left the next time.
@@ -84,9 +75,7 @@ ENDLESS = {
         ),
     ),
     # Nothing was flown since, so that only the hook's own FAILED would end it.
-    "a verdict that is taken back is given once more": (
-        "P2025",
-        """
+    "a verdict that is taken back is given once more": ("P2025", """
   launch -> watch
   judge = MissionEvaluator(hook: judges)
   mend = MissionModifier(hook: mends)
@@ -97,9 +86,8 @@ ENDLESS = {
   judge -> mend when FAILED
   mend -> judge when COMPLETED
   mend -> end when FAILED
-""",
-    ),
-}
+"""),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(("code", "arrows"), ENDLESS.values(), ids=list(ENDLESS))
