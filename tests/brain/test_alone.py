@@ -39,6 +39,9 @@ SEEDS = range(6)
 NO_FAULTS = Faults()
 
 
+fly = partial(alone.simulate, seed=1, faults=Faults(), until=None, on_event=None)
+
+
 def seen(
     fly: Callable[..., SimulationResult], app: App, example: Example, fleet: Any, **how: Any
 ) -> object:
@@ -77,21 +80,10 @@ def test_one_drone_flies_as_it_does_with_traffic(
 
 def test_every_example_completes_all_its_missions_alone(example: Example, example_app: App) -> None:
     """Its evaluators and actions find what they need in the same world."""
-    outcome = alone.simulate(
-        example_app,
-        deepcopy(example.missions),
-        example.fleet,
-        seed=0,
-        faults=Faults(),
-        until=None,
-        on_event=None,
-    )
+    outcome = fly(example_app, deepcopy(example.missions), example.fleet, seed=0)
     assert outcome.completed
     assert outcome.given_up == ""
     assert all(drone.status is DroneStatus.FREE for drone in outcome.drones)
-
-
-fly = partial(alone.simulate, seed=1, until=None, on_event=None)
 
 
 def test_drones_pass_through_each_other() -> None:
@@ -101,7 +93,7 @@ def test_drones_pass_through_each_other() -> None:
         apps.mission("a", apps.trip("1", 5.0, 1.0), index=0),
         apps.mission("b", apps.trip("1", 1.0, 1.0), index=1),
     ]
-    outcome = fly(apps.app(apps.flow()), missions, on, faults=Faults())
+    outcome = fly(apps.app(apps.flow()), missions, on)
     assert outcome.completed
     assert apps.times(outcome, "trip.completed") == [
         5.0,
@@ -111,7 +103,7 @@ def test_drones_pass_through_each_other() -> None:
         apps.mission("c", apps.trip("1", 5.0, 1.0)),
         apps.mission("d", apps.trip("1", 5.0, 1.0), index=1),
     ]
-    outcome = fly(apps.app(apps.flow()), far, on, faults=Faults())
+    outcome = fly(apps.app(apps.flow()), far, on)
     assert apps.times(outcome, "trip.completed") == [5.0, 13.0]  # both at one place
 
 
@@ -186,7 +178,7 @@ def test_a_battery_drains_in_the_air_and_charges_at_home() -> None:
     hold = OwnAction(name="wait", hook=wait_long)
     tested = apps.app(apps.flow(), categories=[weak], actions=[hold])
     mission = apps.mission("a", apps.trip("1", 1.0, action="wait"))
-    outcome = fly(tested, [mission], apps.fleet(), faults=Faults())
+    outcome = fly(tested, [mission], apps.fleet())
     assert "ran out of battery" in mission.reason
     assert apps.times(outcome, "trip.failed") == [20.0]
     (charging,) = apps.events(outcome, "drone.charging")
@@ -228,7 +220,7 @@ def test_what_was_picked_is_carried_and_grips_can_fail() -> None:
     """A drone carries one item, of no more than its payload, and releases what it carries."""
     tested = apps.app(apps.flow())
     well = apps.mission("a", apps.pick("1", 2.0), apps.release("2", 4.0))
-    assert fly(tested, [well], apps.fleet(), faults=Faults()).completed
+    assert fly(tested, [well], apps.fleet()).completed
     item = Item(name="pills", mass=0.02)
     for job, why in (
         (Told(action="release_item"), "release_item failed: cf1 carries nothing at (1, 1)"),
@@ -302,12 +294,7 @@ def test_an_action_of_the_apps_own_reads_and_writes() -> None:
     """What was not written is measured where the drone is."""
     action = OwnAction(name="turn_on", hook=turn_on)
     tested = apps.app(apps.flow(), actions=[action])
-    outcome = fly(
-        tested,
-        [apps.mission("a", apps.trip("1", 2.0, action="turn_on"))],
-        apps.fleet(),
-        faults=Faults(),
-    )
+    outcome = fly(tested, [apps.mission("a", apps.trip("1", 2.0, action="turn_on"))], apps.fleet())
     assert outcome.completed
     (completed,) = apps.events(outcome, "trip.completed")
     assert completed["t"] == 4.0 + 3.0
@@ -326,7 +313,5 @@ def test_a_simulation_ends_at_its_time() -> None:
     """Then nothing is over, and that is no failure."""
     tested = apps.app(apps.flow())
     mission = apps.mission("a", apps.trip("1", 9.0))
-    outcome = alone.simulate(
-        tested, [mission], apps.fleet(), seed=0, faults=Faults(), until=3.0, on_event=None
-    )
+    outcome = fly(tested, [mission], apps.fleet(), seed=0, until=3.0)
     assert (outcome.duration, mission.status) == (3.0, Status.RUNNING)

@@ -7,13 +7,7 @@ import pytest
 from plutoc_runtime.domain.status import Status
 from tests.check.graphs import BASIC, checked, codes
 
-S, C, F, R, U = (
-    Status.STANDBY,
-    Status.COMPLETED,
-    Status.FAILED,
-    Status.RUNNING,
-    Status.UNEXECUTED,
-)
+S, C, F, R, U = (Status.STANDBY, Status.COMPLETED, Status.FAILED, Status.RUNNING, Status.UNEXECUTED)
 
 
 def gate(kind: str, left: str, right: str) -> str:

@@ -138,33 +138,25 @@ def test_an_edited_graph_is_refused_or_keeps_its_promises(text: str, seed: int) 
         walk(checked, seed + step)
 
 
+def row_of_forks(number: int, *, gates: bool) -> str:
+    """Return a graph of so many forks, one behind the other."""
+    lines = ["make = MissionCreator", "start -> make -> m0"]
+    for i in range(number):
+        lines += [f"{letter}{i} = MissionModifier" for letter in "mab"]
+        if gates:
+            lines.append(f"g{i} = GateFunnel")
+        lines.append(f"m{i} -> [a{i}, b{i}] -> {f'g{i} -> ' if gates else ''}m{i + 1}")
+    return "\n".join([*lines, f"m{number} = MissionModifier emits COMPLETED", f"m{number} -> end"])
+
+
 def test_a_long_graph_is_checked_in_one_go() -> None:
     """A thousand blocks in a row with a fork at every other one: no recursion, no blow-up."""
-    lines = ["make = MissionCreator", "start -> make -> m0"]
-    for i in range(250):
-        lines += [
-            f"m{i} = MissionModifier",
-            f"a{i} = MissionModifier",
-            f"b{i} = MissionModifier",
-            f"g{i} = GateFunnel",
-            f"m{i} -> [a{i}, b{i}] -> g{i} -> m{i + 1}",
-        ]
-    lines += ["m250 = MissionModifier emits COMPLETED", "m250 -> end"]
-    checked, warnings = check(build("\n".join(lines)))
+    checked, warnings = check(build(row_of_forks(250, gates=True)))
     assert len(checked.forks) == 250
     assert warnings == ()
 
 
 def test_forks_without_gates_do_not_blow_up() -> None:
     """Forty forks, one behind the other, none of which closes: two to the forty clones."""
-    lines = ["make = MissionCreator", "start -> make -> m0"]
-    for i in range(40):
-        lines += [
-            f"m{i} = MissionModifier",
-            f"a{i} = MissionModifier",
-            f"b{i} = MissionModifier",
-            f"m{i} -> [a{i}, b{i}] -> m{i + 1}",
-        ]
-    lines += ["m40 = MissionModifier emits COMPLETED", "m40 -> end"]
     with pytest.raises(Rejected):
-        check(build("\n".join(lines)))
+        check(build(row_of_forks(40, gates=False)))

@@ -62,38 +62,22 @@ BLOCKS = [Block(**{{"name": "Chime", "doc": "Chimes.", "step": chime, "transitio
         ('"params": (1,)', "its `params` holds 1, which is no Param or HookParam or Choice"),
         ('"params": (Param(name="a b", type=1, doc=""),)', "holds a parameter whose name is 'a b'"),
         ('"params": (Param(name="a", type=1, doc=""),)', "a parameter a whose facts are not of"),
-        (
-            '"params": (HookParam(name="a", kind=1, doc=""),)',
-            "a parameter a whose facts are not of",
-        ),
-        (
-            '"params": (Choice(name="a", options=1, default=1, doc=""),)',
-            "a parameter a whose facts",
-        ),
-        (
-            '"narrowed": (Narrowed(param="a", value=1, emits=None),)',
-            "its `narrowed` holds Narrowed",
-        ),
-        (
-            '"params": (Choice(name="a", options={"b": lambda: 1}, default="b", doc=""),)',
-            "a parameter a with a function that its module has not under its name",
-        ),
-        (
-            '"params": (Param(name="a", type=Type.INT, doc="", default=10**5000),)',
-            "a parameter a whose",
-        ),
-        (
-            '"params": (Param(name="a", type=Type.TEXT, doc="", default="\\x1b"),)',
-            "a parameter a whose",
-        ),
-        (
-            '"params": (Param(name="class", type=Type.INT, doc=""),)',
-            "a parameter whose name is 'class'",
-        ),
-        (
-            '"params": (Param(name="run", type=Type.INT, doc=""),)',
-            "a parameter whose name is 'run'",
-        ),
+        ('"params": (HookParam(name="a", kind=1, doc=""),)',
+         "a parameter a whose facts are not of"),
+        ('"params": (Choice(name="a", options=1, default=1, doc=""),)',
+         "a parameter a whose facts"),
+        ('"narrowed": (Narrowed(param="a", value=1, emits=None),)',
+         "its `narrowed` holds Narrowed"),
+        ('"params": (Choice(name="a", options={"b": lambda: 1}, default="b", doc=""),)',
+         "a parameter a with a function that its module has not under its name"),
+        ('"params": (Param(name="a", type=Type.INT, doc="", default=10**5000),)',
+         "a parameter a whose"),
+        ('"params": (Param(name="a", type=Type.TEXT, doc="", default="\\x1b"),)',
+         "a parameter a whose"),
+        ('"params": (Param(name="class", type=Type.INT, doc=""),)',
+         "a parameter whose name is 'class'"),
+        ('"params": (Param(name="run", type=Type.INT, doc=""),)',
+         "a parameter whose name is 'run'"),
         ('"transitions": Exits()', "it cannot be looked at: SystemExit"),
         ('"needs": None', "its `needs` must be a tuple, not None"),
         ('"reads": ("a", 5)', "its `reads` holds 5, which is no str"),
@@ -104,12 +88,10 @@ BLOCKS = [Block(**{{"name": "Chime", "doc": "Chimes.", "step": chime, "transitio
         ('"name": "\\x1b[31m"', "its `name` must be a name as Python has them"),
         ('"doc": "\\x1b[31m"', "its `doc` must be a text that can be shown"),
         ('"doc": None', "its `doc` must be a text that can be shown, not None"),
-        (
-            '"name": sys.exit("\\x1b]0;x\\x07")',
-            "cannot be loaded from field_kit:BLOCKS: SystemExit",
-        ),
+        ('"name": sys.exit("\\x1b]0;x\\x07")',
+         "cannot be loaded from field_kit:BLOCKS: SystemExit"),
     ],
-)
+)  # fmt: skip
 def test_a_block_is_declared_as_blocks_are(
     fact: str, says: str, plutoc: Call, app: Path, here: Path, installed: Path
 ) -> None:

@@ -132,12 +132,7 @@ def test_standard_input_can_be_checked_and_compared(
     ],
 )
 def test_what_is_wrong_with_standard_input_is_said(
-    plutoc: Call,
-    here: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    text: bytes,
-    code: int,
-    sentence: str,
+    plutoc: Call, here: Path, monkeypatch: pytest.MonkeyPatch, text: bytes, code: int, sentence: str
 ) -> None:
     """And nothing goes to standard output: an editor would take it for the source."""
     give(text, monkeypatch)

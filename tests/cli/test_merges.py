@@ -15,10 +15,7 @@ OURS = ("max_attempts: 3", "max_attempts: 5")
 THEIRS = ("dose: mass = 50 mg", "dose: mass = 70 mg")
 NEAR = ("max_attempts: 3", "max_attempts: 9")
 """In the same line as `OURS`: so in the app itself both sides collide."""
-MORE = (
-    "  start -> create -> allocate",
-    "  rest = Clock\n\n  start -> create -> rest -> allocate",
-)
+MORE = ("  start -> create -> allocate", "  rest = Clock\n\n  start -> create -> rest -> allocate")
 AS_TEXT = "* merge\n"
 """Attributes with which Git merges every file line by line, as in packages of before."""
 
@@ -81,9 +78,7 @@ def assert_is_as_new(plutoc: Call, app: Path) -> None:
 @pytest.mark.parametrize("style", ["merge", "diff3", "zdiff3"])
 @pytest.mark.parametrize("info", ["", AS_TEXT], ids=["our attributes", "as text"])
 @pytest.mark.parametrize(
-    ("ours", "theirs"),
-    [(OURS, THEIRS), (OURS, NEAR), (THEIRS, MORE)],
-    ids=["far", "near", "graph"],
+    ("ours", "theirs"), [(OURS, THEIRS), (OURS, NEAR), (THEIRS, MORE)], ids=["far", "near", "graph"]
 )
 def test_compile_settles_a_merge(
     plutoc: Call,

@@ -65,6 +65,17 @@ class Hangar:
         """Return the commands of one kind."""
         return [command for command in self.commands if command.what == what]
 
+    async def connected(self) -> Crazyflie:
+        """Connect to it; return who flies it."""
+        await self.navigation.connect()
+        return self.navigation
+
+    async def up(self) -> Crazyflie:
+        """Connect to it and let it hover half a metre high; return who flies it."""
+        await self.navigation.connect()
+        await self.navigation.takeoff(0.5, FAST)
+        return self.navigation
+
     async def let(self, name: str, value: float | bool = True) -> None:
         """Let something go wrong."""
         await self.server.let(self.id, name, value)

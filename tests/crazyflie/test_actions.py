@@ -22,8 +22,7 @@ GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.1}
 async def test_it_measures_what_the_fleet_file_names(folder: Path) -> None:
     options = {"measure": {"temperature": "bme.temp", "dust": "dust.pm25"}, "measure_seconds": 0.3}
     async with hangar(folder, options) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         for _ in range(3):  # its block of the log comes and goes
             assert await cf.act("measure", {}, None) == pytest.approx(20.5, abs=0.05)
         assert cf.why_not("measure", {"quantity": "temperature"}) is None
@@ -37,8 +36,7 @@ async def test_it_measures_what_the_fleet_file_names(folder: Path) -> None:
 
 async def test_it_picks_and_releases_by_a_parameter(folder: Path) -> None:
     async with hangar(folder, {"grip": GRIP}) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await cf.act("pick_item", {}, PILLS)
         assert one.drone.parameters["gripper.closed"] == 1
         await cf.act("release_item", {}, PILLS)
@@ -71,8 +69,7 @@ async def test_its_camera_s_picture_is_kept_and_covers_ground(folder: Path) -> N
     streaming = await camera()
     options = {"camera": f"127.0.0.1:{port_of(streaming)}", "camera_view": [90, 60]}
     async with hangar(folder, options) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await cf.takeoff(1.0, FAST)
         photos = [await cf.act("take_photo", {}, None) for _ in range(2)]
         await cf.land(FAST)
@@ -97,8 +94,7 @@ async def test_a_camera_that_is_not_there_fails_the_action(folder: Path) -> None
 
 async def test_variables_are_read_and_parameters_set(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         assert await cf.read("bme.humidity") == pytest.approx(40.0)
         assert await cf.read("hlCommander.vtoff") == pytest.approx(0.5)
         await cf.write("hlCommander.vtoff", 0.7)

@@ -18,8 +18,7 @@ pytest.importorskip("cflib")
 
 async def test_it_takes_off_flies_and_lands_where_it_says(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         assert await cf.preflight() == []
         await cf.takeoff(0.8, FAST)
         assert dist(one.position, (1.0, 2.0, 0.8)) < 0.12
@@ -33,9 +32,7 @@ async def test_it_takes_off_flies_and_lands_where_it_says(folder: Path) -> None:
 
 async def test_closing_in_the_air_lands_first_and_cuts_nothing(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         await cf.close()
         assert not one.flies and not one.drone.supervisor.locked
         assert one.did("land") and not one.did("setpoint") and not one.did("emergency stop")
@@ -43,9 +40,7 @@ async def test_closing_in_the_air_lands_first_and_cuts_nothing(folder: Path) -> 
 
 async def test_a_course_that_is_broken_off_ends_in_a_hover_nearby(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         flying = asyncio.create_task(cf.go_to((4.0, 2.0, 0.5), 1.0))
         while one.position[0] < 2.0:
             await asyncio.sleep(0.02)
@@ -66,8 +61,7 @@ async def test_hold_and_land_do_nothing_on_the_ground(folder: Path) -> None:
 
 async def test_what_cannot_be_flown_is_refused_before_anything_moves(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         with pytest.raises(Rejected, match="must take off first"):
             await cf.go_to((1.0, 2.0, 1.0), 1.0)
         for target in ((nan, 2.0, 1.0), (inf, 2.0, 1.0), (1.0, 2.0, -0.1)):
@@ -84,9 +78,7 @@ async def test_what_cannot_be_flown_is_refused_before_anything_moves(folder: Pat
 async def test_lost_packets_are_sent_again(folder: Path) -> None:
     async with hangar(folder) as one:
         await one.let("loss", 0.05)
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         for x in (1.5, 1.0):
             await cf.go_to((x, 2.0, 0.5), FAST)
             assert dist(one.position, (x, 2.0, 0.5)) < 0.12
@@ -96,8 +88,7 @@ async def test_lost_packets_are_sent_again(folder: Path) -> None:
 
 async def test_a_drone_that_is_busy_is_a_refusal_and_is_disarmed(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await one.let("busy")
         with pytest.raises(Rejected, match="refuses the command takeoff"):
             await cf.takeoff(0.5, FAST)
@@ -106,9 +97,7 @@ async def test_a_drone_that_is_busy_is_a_refusal_and_is_disarmed(folder: Path) -
 
 async def test_a_drone_that_tumbles_has_crashed(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
         await asyncio.sleep(0.5)
         await one.let("tumble")
@@ -122,8 +111,7 @@ async def test_a_drone_that_tumbles_has_crashed(folder: Path) -> None:
 
 async def test_a_drone_that_is_locked_says_so_and_what_to_do(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await one.let("lock")
         assert (await one.hears(LOCKED)).reason.endswith("switch it off and on")
         assert await cf.preflight() == ["it has locked its motors: switch it off and on"]
@@ -133,9 +121,7 @@ async def test_a_drone_that_is_locked_says_so_and_what_to_do(folder: Path) -> No
 
 async def test_a_battery_that_is_low_for_three_seconds_is_told_once(folder: Path) -> None:
     async with hangar(folder, {"least_voltage": 3.0}) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         await one.let("volts", 3.15)
         event = await one.hears(BATTERY_LOW)
         assert event.reason.startswith("its battery is down to 3.1")
@@ -162,9 +148,7 @@ async def test_preflight_says_all_that_is_wrong(folder: Path) -> None:
 
 async def test_the_emergency_stop_stops_in_the_air(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
         await asyncio.sleep(0.5)
         await cf.emergency_stop()
@@ -176,8 +160,7 @@ async def test_the_emergency_stop_stops_in_the_air(folder: Path) -> None:
 async def test_a_drone_that_cannot_find_itself_flies_by_what_others_see(folder: Path) -> None:
     build = Build(id="cf1", home=(1.0, 2.0, 0.0), knows_where=False)
     async with hangar(folder, build=build) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
 
         async def see() -> None:
             while True:

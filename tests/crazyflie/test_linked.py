@@ -35,9 +35,7 @@ async def test_silence_in_the_air_is_a_lost_link_and_connecting_again_lands_it(
     folder: Path,
 ) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
         await asyncio.sleep(0.5)
         await one.let("silent")
@@ -59,8 +57,7 @@ async def test_silence_in_the_air_is_a_lost_link_and_connecting_again_lands_it(
 
 async def test_a_drone_whose_port_is_closed_is_a_lost_link(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await one.let("gone")
         await one.hears(LINK_LOST)
         with pytest.raises(LinkLost):
@@ -112,9 +109,7 @@ async def test_firmware_without_a_supervisor_is_refused_with_what_to_flash(folde
 
 async def test_the_emergency_stop_is_sent_to_a_drone_that_is_not_heard(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         await one.let("silent")
         await one.hears(LINK_LOST)
         stopping = asyncio.create_task(cf.emergency_stop())

@@ -21,8 +21,7 @@ CRASHED = (
 
 async def test_one_that_crashed_and_stands_flies_again_once_a_person_says_so(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await cf.takeoff(0.3, FAST)
         await one.let("tumble")
         while one.flies or not cf.telemetry.position[2] < 0.1:
@@ -47,8 +46,7 @@ async def test_one_that_has_not_crashed_is_told_nothing(folder: Path) -> None:
 
 async def test_a_deck_that_fails_is_said_by_name(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await one.let("deck")
         await one.drone_tells()
         reason = "one of its decks reports a fault: see that all sit well, and switch it off and on"
@@ -60,9 +58,7 @@ async def test_a_deck_that_fails_is_said_by_name(folder: Path) -> None:
 
 async def test_a_deck_that_fails_in_the_air_is_why_it_locked(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         await one.let("deck")
         assert (await one.hears(LOCKED)).reason.startswith("one of its decks reports a fault, and")
         with pytest.raises(Locked, match="as one of its decks reports a fault"):
@@ -71,8 +67,7 @@ async def test_a_deck_that_fails_in_the_air_is_why_it_locked(folder: Path) -> No
 
 async def test_one_with_more_cells_than_the_fleet_file_says_does_not_fly(folder: Path) -> None:
     async with hangar(folder, build=TWO_CELLS) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         (reason,) = await cf.preflight()
         assert reason == (
             "its battery has 8.40 V, more than one cell has: say in the fleet file how many it has,"
@@ -85,16 +80,14 @@ async def test_one_with_more_cells_than_the_fleet_file_says_does_not_fly(folder:
 async def test_how_many_cells_it_may_have_is_said_from_its_volts(folder: Path) -> None:
     build = Build(id="cf1", home=(1.0, 2.0, 0.0), cells=3)
     async with hangar(folder, {"cells": 2}, build) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         (reason,) = await cf.preflight()
         assert "has 12.60 V, more than 2 cells have" in reason and "such as cells = 3" in reason
 
 
 async def test_one_with_two_cells_is_as_full_as_each_of_them(folder: Path) -> None:
     async with hangar(folder, {"cells": 2, "least_voltage": 3.0}, TWO_CELLS) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         assert cf.telemetry.voltage == pytest.approx(8.4, abs=0.01)
         await one.let("volts", 7.6)
         await one.drone_tells()

@@ -18,8 +18,7 @@ async def test_one_that_is_to_fly_faster_than_its_controller_follows_is_not_read
     folder: Path,
 ) -> None:
     async with hangar(folder, speed=2.0) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         across, aside = await cf.preflight()
         assert across == (
             "it is to fly at up to 2 m/s, and its firmware follows no course faster than 1 m/s"
@@ -33,8 +32,7 @@ async def test_one_that_is_to_fly_faster_than_its_controller_follows_is_not_read
 
 async def test_one_whose_controller_was_set_to_follow_faster_is_ready(folder: Path) -> None:
     async with hangar(folder, speed=2.0) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         for axis in "xy":
             await cf.write(f"posCtlPid.{axis}VelMax", 2.0)
         assert await cf.preflight() == []
@@ -42,8 +40,7 @@ async def test_one_whose_controller_was_set_to_follow_faster_is_ready(folder: Pa
 
 async def test_one_whose_controller_was_set_to_follow_slower_is_not_ready(folder: Path) -> None:
     async with hangar(folder, speed=0.5) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await cf.write("posCtlPid.zVelMax", 0.3)
         (reason,) = await cf.preflight()
         assert "at up to 0.5 m/s" in reason and "than 0.3 m/s (posCtlPid.zVelMax)" in reason
@@ -73,8 +70,7 @@ async def test_parameters_of_one_that_is_silent_are_not_waited_for(folder: Path)
 async def test_a_course_is_as_slow_as_its_controller_though_more_is_asked_for(folder: Path) -> None:
     """A drone that is met in the air must come home, however fast its category is."""
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await cf.takeoff(0.5, 3.0)
         await cf.go_to((5.0, 2.0, 0.5), 3.0)
         assert dist(one.position, (5.0, 2.0, 0.5)) < 0.12

@@ -19,8 +19,7 @@ pytest.importorskip("cflib")
 async def test_one_that_has_landed_is_disarmed_and_armed_anew(folder: Path) -> None:
     """It would disarm itself some seconds after the landing, in the midst of a take-off."""
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         for _ in range(2):
             await cf.takeoff(0.5, FAST)
             await cf.land(FAST)
@@ -31,9 +30,7 @@ async def test_one_that_has_landed_is_disarmed_and_armed_anew(folder: Path) -> N
 
 async def test_one_that_arms_itself_is_waited_for_until_it_has(folder: Path) -> None:
     async with hangar(folder, build=Build(id="cf1", home=(1.0, 2.0, 0.0), auto_arm=True)) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         assert one.flies and not one.did("arm")
         await cf.land(FAST)
 
@@ -49,8 +46,7 @@ class OnRequest(Supervisor):
 async def test_one_that_says_that_it_arms_itself_and_does_not_is_asked_to(folder: Path) -> None:
     async with hangar(folder) as one:
         one.drone.supervisor = OnRequest(armed=True)
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await cf.takeoff(0.4, FAST)
         assert one.flies and len(one.did("arm")) == 1
         await cf.land(FAST)
@@ -65,8 +61,7 @@ class Slow(Supervisor):
 async def test_one_that_is_slow_to_arm_is_not_left_armed(folder: Path) -> None:
     async with hangar(folder) as one:
         one.drone.supervisor = Slow()
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         with pytest.raises(NotReady, match="will not arm"):
             await cf.takeoff(0.4, FAST)
         assert len(one.did("arm")) == 1
@@ -76,8 +71,7 @@ async def test_one_that_is_slow_to_arm_is_not_left_armed(folder: Path) -> None:
 async def test_one_that_is_let_go_of_as_it_takes_off_is_landed_first(folder: Path) -> None:
     """What it tells in that moment is from before."""
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await one.let("latency", 0.1)
         rising = asyncio.create_task(cf.takeoff(0.4, FAST))
         while not one.did("takeoff"):
@@ -90,8 +84,7 @@ async def test_one_that_is_let_go_of_as_it_takes_off_is_landed_first(folder: Pat
 async def test_one_that_is_down_is_not_told_to_land_again(folder: Path) -> None:
     """The answers are lost: on the ground, the command would start its motors once more."""
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await cf.takeoff(0.3, FAST)
         _loses_answers(one, Port.HIGH_LEVEL)
         await cf.land(FAST)
@@ -131,9 +124,7 @@ async def test_twice_cancelled_it_is_a_refusal(folder: Path) -> None:
 async def test_nothing_is_above_its_commander_when_it_takes_off(folder: Path) -> None:
     """A set-point of a gamepad's, or of a script's that has ended, would stay above it for ever."""
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         await cf.go_to((1.3, 2.0, 0.5), FAST)
         await cf.land(FAST)
         told = [command.what for command in one.commands]
@@ -143,8 +134,7 @@ async def test_nothing_is_above_its_commander_when_it_takes_off(folder: Path) ->
 
 async def test_one_that_another_program_has_steered_takes_off(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await one.let("setpoint")
         await cf.takeoff(0.5, FAST)
         assert one.position[2] > 0.4
@@ -154,8 +144,7 @@ async def test_one_that_another_program_has_steered_takes_off(folder: Path) -> N
 async def test_one_that_another_program_steers_while_it_is_armed_takes_off(folder: Path) -> None:
     """Arming takes its time, some seconds after a landing."""
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         taking_off = asyncio.create_task(cf.takeoff(0.5, FAST))
         while not one.did("arm"):
             await asyncio.sleep(0.002)
@@ -168,8 +157,7 @@ async def test_one_that_another_program_steers_while_it_is_armed_takes_off(folde
 async def test_one_that_disarms_itself_just_now_is_waited_for(folder: Path) -> None:
     """Some three seconds after a landing it is neither armed nor can be, for a tenth of a second."""
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await cf.takeoff(0.4, FAST)
         await cf.land(FAST)
         while one.drone.supervisor.armed:

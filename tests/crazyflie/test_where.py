@@ -18,8 +18,7 @@ pytest.importorskip("cflib")
 async def test_one_that_is_unsure_for_a_moment_is_waited_for(folder: Path) -> None:
     """A person may just pass between it and its beacons."""
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await one.let("unsure")
         taking_off = asyncio.create_task(cf.takeoff(0.5, FAST))
         await asyncio.sleep(2.0)
@@ -31,8 +30,7 @@ async def test_one_that_is_unsure_for_a_moment_is_waited_for(folder: Path) -> No
 
 async def test_one_that_stays_unsure_does_not_fly_and_says_how_unsure_it_is(folder: Path) -> None:
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         await one.let("unsure")
         with pytest.raises(NotReady, match=r"is not sure where it is: to 0\.71 m .* 0\.07 m for"):
             await cf.takeoff(0.5, FAST)
@@ -50,9 +48,7 @@ async def test_one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_noth
     folder: Path,
 ) -> None:
     async with hangar(folder, {"measure": {"temperature": "bme.temp"}}) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         await one.let("unsure")
         with pytest.raises(PositionLost, match=r"cf1 does not know where it is: it may be 0\.71 m"):
             await cf.go_to((1.3, 2.0, 0.5), FAST)
@@ -69,9 +65,7 @@ async def test_one_that_doubts_its_place_for_a_moment_does_there_what_it_came_fo
 ) -> None:
     options = {"measure": {"temperature": "bme.temp"}, "measure_seconds": 0.2}
     async with hangar(folder, options) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         await one.let("unsure")
         while not cf._linked().doubts:
             await one.drone_tells()
@@ -87,8 +81,7 @@ async def test_one_that_doubts_its_place_for_a_moment_does_there_what_it_came_fo
 async def test_one_that_goes_by_radio_beacons_is_sure_enough(folder: Path) -> None:
     build = Build(id="cf1", home=(1.0, 2.0, 0.0), noise=0.15)
     async with hangar(folder, build=build) as one:
-        cf = one.navigation
-        await cf.connect()
+        cf = await one.connected()
         assert one.drone.variance > 0.0025
         await cf.takeoff(0.5, FAST)
         await cf.go_to((1.3, 2.0, 0.5), FAST)
@@ -99,9 +92,7 @@ async def test_one_that_goes_by_radio_beacons_is_sure_enough(folder: Path) -> No
 async def test_one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive(folder: Path) -> None:
     """Its firmware flies on, reports no fault, and would be there by its own word."""
     async with hangar(folder) as one:
-        cf = one.navigation
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
+        cf = await one.up()
         flying = asyncio.create_task(cf.go_to((4.0, 2.0, 0.5), FAST))
         while one.position[0] < 1.5:
             await asyncio.sleep(0.02)

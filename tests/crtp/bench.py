@@ -10,6 +10,8 @@ from pluto_fleet.crtp.packets import Packet, Port, packed, unpacked
 
 CF1 = Build(id="cf1", home=(1.0, 2.0, 0.0))
 _TICK = 0.01
+_ACTIVE = 8
+"""The bit of `supervisor.info` that a commanded flight sets."""
 
 
 class Bench:
@@ -65,6 +67,12 @@ class Bench:
         assert self.takeoff() == 0
         self.passes(2.5)
 
+    def lands(self) -> None:
+        """Command it down, and wait until it has come down."""
+        assert self.land() == 0
+        while self.has(_ACTIVE):
+            self.passes(_TICK)
+
     def has(self, bit: int) -> bool:
         """Whether a bit of `supervisor.info` is set."""
         return bool(self.drone.info() >> bit & 1)
@@ -83,3 +91,10 @@ class Bench:
     def z(self) -> float:
         """How high it is."""
         return self.drone.body.position[2]
+
+
+def hovering(build: Build = CF1) -> Bench:
+    """Return one that hovers a metre above its home."""
+    bench = Bench(build)
+    bench.up()
+    return bench

@@ -13,7 +13,7 @@ import pytest
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.faults import let
 from pluto_fleet.crtp.packets import LossyChannel, Port
-from tests.crtp.bench import CF1, Bench
+from tests.crtp.bench import CF1, Bench, hovering
 
 PEAK = 2.19
 """Peak speed over mean speed of a course."""
@@ -47,8 +47,7 @@ def test_by_uwb_it_is_less_sure(noise: float, rate: float) -> None:
 
 def test_by_uwb_it_sways_more_and_stays_within_a_decimetre() -> None:
     def farthest(noise: float) -> float:
-        bench = Bench(replace(CF1, noise=noise))
-        bench.up()
+        bench = hovering(replace(CF1, noise=noise))
         bench.passes(5.0)
         bench.record.positions.clear()
         bench.passes(20.0)
@@ -66,8 +65,7 @@ def test_positions_from_outside_count_as_those_it_finds_itself() -> None:
 
 
 def test_without_positions_it_grows_and_the_drone_goes_astray_and_says_nothing_of_it() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     bench.passes(2.0)
     let(bench.drone, LossyChannel(Random(1)), "fixes", False)
     info = bench.drone.info()
@@ -81,8 +79,7 @@ def test_without_positions_it_grows_and_the_drone_goes_astray_and_says_nothing_o
 
 
 def test_once_positions_come_again_it_is_sure_and_flies_back() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     let(bench.drone, LossyChannel(Random(1)), "fixes", False)
     bench.passes(8.0)
     let(bench.drone, LossyChannel(Random(1)), "fixes", True)
@@ -96,8 +93,7 @@ def test_once_positions_come_again_it_is_sure_and_flies_back() -> None:
 def test_another_drone_goes_astray_elsewhere_and_the_same_one_where_it_did() -> None:
     places = []
     for id in ("cf1", "cf1", "cf2"):
-        bench = Bench(replace(CF1, id=id))
-        bench.up()
+        bench = hovering(replace(CF1, id=id))
         let(bench.drone, LossyChannel(Random(1)), "fixes", False)
         bench.passes(8.0)
         places.append(bench.drone.body.position)
@@ -106,8 +102,7 @@ def test_another_drone_goes_astray_elsewhere_and_the_same_one_where_it_did() -> 
 
 def late(metres: float, speed: float) -> tuple[float, float]:
     """Return how long such a course takes, and how much longer than planned, to rest near its end."""
-    bench = Bench(replace(CF1, home=(0.0, 2.0, 0.0)))
-    bench.up()
+    bench = hovering(replace(CF1, home=(0.0, 2.0, 0.0)))
     bench.passes(5.0)
     planned = PEAK * metres / speed
     bench.go_to(metres, 2.0, 1.0, planned)
@@ -135,8 +130,7 @@ def test_a_slow_course_ends_in_time() -> None:
 
 
 def test_a_hold_at_speed_shoots_on_as_far_as_measured() -> None:
-    bench = Bench(replace(CF1, home=(0.0, 2.0, 0.0)))
-    bench.up()
+    bench = hovering(replace(CF1, home=(0.0, 2.0, 0.0)))
     bench.go_to(6.0, 2.0, 1.0, PEAK * 6.0 / 1.2)
     while fast(bench) < 0.93:
         bench.passes(0.01)

@@ -9,7 +9,7 @@ import pytest
 from pluto_fleet.crtp.faults import let
 from pluto_fleet.crtp.packets import NULL, LossyChannel, Port
 from pluto_fleet.crtp.server import collide
-from tests.crtp.bench import CF1, Bench
+from tests.crtp.bench import CF1, Bench, hovering
 
 ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED, ACTIVE, DONE = 1, 3, 4, 5, 6, 7, 8, 9
 BUSY, WRONG_STATE = 16, 1
@@ -39,8 +39,7 @@ def test_it_rises_smoothly_and_stays_near_its_way() -> None:
 
 
 def test_arming_is_over_three_seconds_after_it_has_landed() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     assert bench.land() == 0
     bench.passes(2.1)
     assert bench.z == 0.0 and not bench.has(ACTIVE) and bench.has(FLYING)
@@ -58,11 +57,8 @@ def test_arming_is_over_three_seconds_after_it_has_landed() -> None:
 
 
 def test_a_takeoff_just_before_the_disarming_is_accepted_and_then_cancelled() -> None:
-    bench = Bench()
-    bench.up()
-    bench.land()
-    while bench.has(ACTIVE):
-        bench.passes(0.01)
+    bench = hovering()
+    bench.lands()
     bench.passes(4.97)
     assert bench.has(ARMED) and bench.takeoff() == 0
     bench.passes(0.1)
@@ -72,11 +68,8 @@ def test_a_takeoff_just_before_the_disarming_is_accepted_and_then_cancelled() ->
 
 
 def test_a_takeoff_a_little_earlier_is_flown() -> None:
-    bench = Bench()
-    bench.up()
-    bench.land()
-    while bench.has(ACTIVE):
-        bench.passes(0.01)
+    bench = hovering()
+    bench.lands()
     bench.passes(4.9)
     assert bench.takeoff() == 0
     bench.passes(3.0)
@@ -142,8 +135,7 @@ def test_a_command_that_it_does_not_know_is_said_to_be_so() -> None:
 
 
 def test_a_flight_that_is_broken_off_shoots_past_and_comes_back() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     bench.go_to(5.0, 2.0, 1.0, 8.75)
     bench.passes(4.4)
     here = bench.x
@@ -157,8 +149,7 @@ def test_a_flight_that_is_broken_off_shoots_past_and_comes_back() -> None:
 
 
 def test_a_zero_setpoint_in_the_air_drops_and_locks_it() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     bench.told(Port.SETPOINT, 0, ZERO_SETPOINT)
     bench.passes(3.0)
     assert bench.z == 0.0 and bench.has(LOCKED) and not bench.has(CAN_FLY)
@@ -168,11 +159,8 @@ def test_a_zero_setpoint_in_the_air_drops_and_locks_it() -> None:
 
 @pytest.mark.parametrize(("seconds", "locks"), [(0.5, True), (1.2, True), (3.0, False)])
 def test_a_link_that_closes_soon_after_landing_locks_it(seconds: float, locks: bool) -> None:
-    bench = Bench()
-    bench.up()
-    bench.land()
-    while bench.has(ACTIVE):
-        bench.passes(0.01)
+    bench = hovering()
+    bench.lands()
     bench.passes(seconds)
     bench.told(Port.SETPOINT, 0, ZERO_SETPOINT)
     bench.passes(4.0)
@@ -180,8 +168,7 @@ def test_a_link_that_closes_soon_after_landing_locks_it(seconds: float, locks: b
 
 
 def test_an_emergency_stop_locks_it_until_it_is_restarted() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     assert bench.told(Port.SUPERVISOR, 1, b"\3") is None
     bench.passes(2.0)
     assert bench.z == 0.0 and bench.has(LOCKED)
@@ -191,8 +178,7 @@ def test_an_emergency_stop_locks_it_until_it_is_restarted() -> None:
 
 
 def test_a_watchdog_that_is_fed_once_must_be_fed_on() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     assert bench.told(Port.SUPERVISOR, 1, b"\4") is None
     bench.passes(0.9)
     assert not bench.has(LOCKED)
@@ -219,23 +205,20 @@ def test_two_that_touch_in_the_air_tumble_and_one_that_stands_there_does_not() -
 
 
 def test_silence_on_its_link_does_not_matter_to_a_drone_that_hovers() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     bench.passes(60.0)
     assert bench.z == pytest.approx(1.0, abs=0.03)
 
 
 def test_what_no_such_drone_can_follow_tumbles_it() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     bench.go_to(4.0, 2.0, 1.0, 0.5)
     bench.passes(2.0)
     assert bench.has(TUMBLED) and bench.has(CRASHED) and bench.z == 0.0
 
 
 def test_a_tumbled_one_flies_again_once_it_stands_upright_and_has_recovered() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     let(bench.drone, _air(), "tumble", True)
     bench.passes(2.0)
     assert bench.told(Port.SUPERVISOR, 1, b"\2") == b"\x82\0\0"
@@ -265,8 +248,7 @@ def test_a_battery_sags_in_the_air_is_low_after_five_seconds_and_empty_some_time
 def test_a_battery_of_3_volts_switches_it_off_only_where_its_build_does_that(
     shuts_down: bool,
 ) -> None:
-    bench = Bench(replace(CF1, shuts_down=shuts_down, flight=4200.0))
-    bench.up()
+    bench = hovering(replace(CF1, shuts_down=shuts_down, flight=4200.0))
     let(bench.drone, _air(), "volts", 2.99)
     bench.passes(4.0)
     assert bench.drone.on
@@ -299,8 +281,7 @@ def test_a_deck_with_a_fault_says_so_and_lets_it_not_be_armed() -> None:
 
 
 def test_a_deck_that_has_a_fault_in_the_air_locks_it() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     let(bench.drone, _air(), "deck", True)
     bench.passes(2.0)
     assert bench.has(LOCKED) and bench.has(11) and bench.z == 0.0
@@ -323,8 +304,7 @@ def test_a_pad_charges_what_stands_on_it() -> None:
 
 
 def test_a_restart_in_the_air_lets_it_fall_and_say_nothing_for_a_while() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     let(bench.drone, _air(), "restart", True)
     assert bench.told(15, 0, b"hello") is None
     bench.passes(1.1)
@@ -341,8 +321,7 @@ def test_a_drone_that_does_not_know_where_it_is_knows_while_it_is_told() -> None
 
 
 def test_a_drone_that_is_busy_says_so_and_does_nothing() -> None:
-    bench = Bench()
-    bench.up()
+    bench = hovering()
     let(bench.drone, _air(), "busy", True)
     assert bench.go_to(3.0, 2.0, 1.0, 5.0) == BUSY
     bench.passes(5.0)

@@ -198,12 +198,7 @@ class FakeDrone:
             self.track.append((now, last.position))
         elif last is None:
             last = DroneTelemetry(
-                time=-inf,
-                position=self.home,
-                yaw=0.0,
-                voltage=0.0,
-                battery_level=1.0,
-                flying=False,
+                time=-inf, position=self.home, yaw=0.0, voltage=0.0, battery_level=1.0, flying=False
             )
         self._told_last = last
         return last

@@ -74,11 +74,7 @@ async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -
     wanted = [RequiredAction(action=name, parameters={}) for name in ("take_photo", "pick_item")]
     async with flying(tmp_path, drone, category=category, wanted=wanted) as flown:
         problems = (await flown.do(flown.team.drone_report("cf1"))).problems
-        assert problems == (
-            "its position is uncertain",
-            "\\x1b[2Jlocked",
-            "cf1 cannot take_photo",
-        )
+        assert problems == ("its position is uncertain", "\\x1b[2Jlocked", "cf1 cannot take_photo")
         assert flown.team.why_not("cf1", "take_photo", {}) == "cf1 cannot take_photo"
         assert flown.team.why_not("cf1", "dance", {}) == "cf1 has no action dance"
         failed = await flown.failure(flown.team.takeoff("cf1", 1.0))

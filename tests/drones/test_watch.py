@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from pathlib import Path
 
 import pytest
@@ -9,6 +11,7 @@ import pytest
 from pluto_fleet.drones.errors import LinkLost, Rejected
 from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from pluto_fleet.drones.safety import outside_area
+from pluto_fleet.drones.team import Team
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure
 from tests.drones.fakes import FakeDrone
@@ -167,13 +170,19 @@ class Mended(FakeDrone):
         self.reasons = ()
 
 
-async def test_only_a_person_lets_a_drone_forget_its_crash(tmp_path: Path) -> None:
-    """However often it is asked how it is, and wherever it stands: it may have lost a propeller."""
+@asynccontextmanager
+async def fallen(folder: Path) -> AsyncIterator[tuple[Mended, Team, Flown]]:
+    """Fly one until it has fallen."""
     drone = Mended()
-    async with flying(tmp_path, drone) as flown:
+    async with flying(folder, drone) as flown:
         await flown.up()
         await falls(flown, drone)
-        team = flown.team
+        yield drone, flown.team, flown
+
+
+async def test_only_a_person_lets_a_drone_forget_its_crash(tmp_path: Path) -> None:
+    """However often it is asked how it is, and wherever it stands: it may have lost a propeller."""
+    async with fallen(tmp_path) as (drone, team, flown):
         for _ in range(2):
             assert not await flown.do(team.reach("cf1"))
         assert "looked after" not in drone.told
@@ -200,11 +209,7 @@ async def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought
     tmp_path: Path,
 ) -> None:
     """It was not set upright: once that is done, the person says so once more, and need not wait."""
-    drone = Mended()
-    async with flying(tmp_path, drone) as flown:
-        await flown.up()
-        await falls(flown, drone)
-        team = flown.team
+    async with fallen(tmp_path) as (drone, team, flown):
         assert not await flown.do(team.reach("cf1"))
         drone.raises["looked_after"] = Rejected("it lies on its back")
         team.mended("cf1")
@@ -221,11 +226,7 @@ async def test_a_drone_that_does_not_hear_that_it_was_looked_after_is_told_again
     tmp_path: Path,
 ) -> None:
     """It is being switched off and on, say: that its link is lost is not noticed at once."""
-    drone = Mended()
-    async with flying(tmp_path, drone) as flown:
-        await flown.up()
-        await falls(flown, drone)
-        team = flown.team
+    async with fallen(tmp_path) as (drone, team, flown):
         assert not await flown.do(team.reach("cf1"))
         drone.raises["looked_after"] = LinkLost("it stopped answering")
         team.mended("cf1")
@@ -237,12 +238,9 @@ async def test_a_drone_that_does_not_hear_that_it_was_looked_after_is_told_again
 
 async def test_a_drone_that_crashes_on_its_way_home_is_lost_at_once(tmp_path: Path) -> None:
     """No person is asked to put it home: it would wait there for a word that is said of lost ones."""
-    drone = Mended()
-    async with flying(tmp_path, drone) as flown:
-        await flown.up()
-        await falls(flown, drone)
+    async with fallen(tmp_path) as (_, team, flown):
         began = the_loop().time()
-        assert not await flown.do(flown.team.fetched("cf1"))
+        assert not await flown.do(team.fetched("cf1"))
         assert the_loop().time() - began < 3.0
 
 

@@ -246,11 +246,7 @@ def test_output_depends_on_nothing_but_the_source(tmp_path: Path) -> None:
     paths = [str(ROOT), *(str(ROOT / name) for name in ("grammar", "runtime", "stdlib_blocks"))]
     outputs = set()
     for seed, folder in (("1", ROOT), ("2", tmp_path)):
-        environment = {
-            **os.environ,
-            "PYTHONPATH": os.pathsep.join(paths),
-            "PYTHONHASHSEED": seed,
-        }
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "PYTHONHASHSEED": seed}
         done = subprocess.run(
             [sys.executable, "-c", SCRIPT],
             cwd=folder,

@@ -69,12 +69,7 @@ class Brain:
         self.epoch += 1
         self.lost = lost = Future[None]()
         link = await connect(
-            self.folder,
-            self._settings,
-            self.kernel,
-            self.epoch,
-            lambda: lost.set(None),
-            COMMAND,
+            self.folder, self._settings, self.kernel, self.epoch, lambda: lost.set(None), COMMAND
         )
         self.links.append(link)
         return link

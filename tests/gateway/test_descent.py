@@ -16,7 +16,6 @@ from plutoc_runtime.alone.ideal import Charge
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure
 from plutoc_runtime.time.kernel import FLEET
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly
 
@@ -26,8 +25,7 @@ APART = 0.5
 
 def brought_down(field: Field, how: Down) -> None:
     """Ask the brain's own link to bring everything down, and wait until it is."""
-    assert isinstance(field.kernel, VirtualTime)
-    fly(field.kernel, field.gateway.link(9).bring_down(how))
+    fly(field.virtual, field.gateway.link(9).bring_down(how))
 
 
 def all_landed(field: Field) -> bool:
@@ -45,8 +43,7 @@ def test_landing_breaks_off_every_flight() -> None:
     brought_down(field, Down.LAND)
     assert (all_landed(field), heard) == (True, [])
     assert field.kernel.now == pytest.approx(6)  # up for three seconds, and down
-    assert isinstance(field.kernel, VirtualTime)
-    roll = fly(field.kernel, field.gateway.link(10).fleet_report())
+    roll = fly(field.virtual, field.gateway.link(10).fleet_report())
     assert roll.jobs[Task().id].state is JobState.BROKEN_OFF
 
 
@@ -61,8 +58,7 @@ def test_the_link_is_not_heard_from_then_on_until_the_roll_is_called() -> None:
     link.fly(Task(id="other", drone="cf2"), heard.append)
     field.advance(60)
     assert (all_landed(field), field.navigation.flown("cf2")) == (True, 0)
-    assert isinstance(field.kernel, VirtualTime)
-    fly(field.kernel, link.fleet_report())
+    fly(field.virtual, link.fleet_report())
     link.fly(Task(id="other", drone="cf2"), heard.append)
     field.advance(60)
     assert heard == [None]
@@ -89,8 +85,7 @@ def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
         stops = ((4.0 + place, 5.0, 1.2),)
         link.fly(Task(id=drone.id, drone=drone.id, stops=stops), lambda _: None)
         field.advance(20)
-        assert isinstance(field.kernel, VirtualTime)
-        fly(field.kernel, link.land(drone.id))
+        fly(field.virtual, link.land(drone.id))
     low = field.navigation.bodies["cf2"]
     low.restore(replace(low.snapshot, charge=Charge(0.03, field.kernel.now)))
     field.navigation.strike("cf3", Failure.CRASH)
@@ -126,8 +121,7 @@ def test_it_goes_on_without_the_brain() -> None:
     field.advance(1)
     new = field.gateway.link(2)
     new.fly(Task(id="too early", drone="cf2"), lambda _: None)
-    assert isinstance(field.kernel, VirtualTime)
-    roll = fly(field.kernel, new.fleet_report())
+    roll = fly(field.virtual, new.fleet_report())
     assert all(standing.landed for standing in roll.drones.values())
     assert list(roll.jobs) == [Task().id]
 

@@ -9,7 +9,6 @@ from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.simulation.radio import ANSWER, COMMAND, Radio
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import FLEET
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import failure, fly
 
@@ -49,8 +48,7 @@ def test_what_is_on_its_way_can_be_broken_off() -> None:
     link.break_off("cf1")
     field.advance(50)
     assert heard == []
-    assert isinstance(field.kernel, VirtualTime)
-    roll = fly(field.kernel, link.fleet_report())
+    roll = fly(field.virtual, link.fleet_report())
     assert roll.jobs[Task().id].state is JobState.DONE
 
 
@@ -58,7 +56,6 @@ def test_single_commands_are_late_too_and_can_be_broken_off() -> None:
     """Nothing is done to a drone by a command that did not arrive."""
     field = Field()
     radio = over_the_radio(field)
-    assert isinstance(field.kernel, VirtualTime)
     rising = field.kernel.spawn(radio.takeoff("cf1", 1.2), FLEET, "rise")
     rising.watch(lambda _: None)
     field.advance(1)
@@ -66,9 +63,9 @@ def test_single_commands_are_late_too_and_can_be_broken_off() -> None:
     field.advance(10)
     assert isinstance(rising.error, FlightFailed)
     assert field.navigation.telemetry["cf1"].landed
-    fly(field.kernel, radio.takeoff("cf1", 1.2))
+    fly(field.virtual, radio.takeoff("cf1", 1.2))
     assert field.kernel.now == 11 + 2 + 4 + 3
-    fly(field.kernel, field.gateway.link(1).bring_down(Down.LAND))
+    fly(field.virtual, field.gateway.link(1).bring_down(Down.LAND))
     assert field.navigation.telemetry["cf1"].landed
 
 
@@ -112,8 +109,7 @@ def test_a_mishap_can_be_had_at_any_moment(what: Failure) -> None:
     assert error.failure is what
     field.advance(10)
     assert field.navigation.telemetry["cf1"].landed
-    assert isinstance(field.kernel, VirtualTime)
-    assert failure(field.kernel, field.navigation.takeoff("cf1", 1.2)).failure is what
+    assert failure(field.virtual, field.navigation.takeoff("cf1", 1.2)).failure is what
 
 
 def test_a_drone_that_is_switched_off_in_the_air_comes_down() -> None:
@@ -123,8 +119,7 @@ def test_a_drone_that_is_switched_off_in_the_air_comes_down() -> None:
     link.fly(Task(), heard.append)
     field.advance(20)
     field.navigation.reboot("cf1")
-    assert isinstance(field.kernel, VirtualTime)
-    standing = fly(field.kernel, link.drone_report("cf1"))
+    standing = fly(field.virtual, link.drone_report("cf1"))
     assert (standing.reached, standing.boot, standing.done) == (False, 1, {})
-    assert fly(field.kernel, link.recover("cf1"))
-    assert fly(field.kernel, link.drone_report("cf1")).reached
+    assert fly(field.virtual, link.recover("cf1"))
+    assert fly(field.virtual, link.drone_report("cf1")).reached

@@ -9,15 +9,13 @@ from pluto_fleet.jobs.reports import Down, FleetReport, JobState
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
 from plutoc_runtime.time.kernel import FLEET
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 
 
 def called(field: Field) -> FleetReport:
     """Call the roll through a new link."""
-    assert isinstance(field.kernel, VirtualTime)
-    return fly(field.kernel, field.gateway.link(99).fleet_report())
+    return fly(field.virtual, field.gateway.link(99).fleet_report())
 
 
 def states(roll: FleetReport) -> dict[str, JobState]:
@@ -56,8 +54,7 @@ def test_a_job_under_way_outlives_the_brain_that_gave_it() -> None:
     field.gateway.link(1).fly(Task(), old.append)
     field.advance(10)
     link = field.gateway.link(2)
-    assert isinstance(field.kernel, VirtualTime)
-    roll = fly(field.kernel, link.fleet_report())
+    roll = fly(field.virtual, link.fleet_report())
     assert states(roll) == {Task().id: JobState.FLYING}
     assert not roll.drones["cf1"].landed
     link.attach(Task().id, new.append)
@@ -116,8 +113,7 @@ def test_what_a_drone_did_for_an_older_brain_is_broken_off() -> None:
     errand = field.kernel.spawn(return_home(), FLEET, "an errand")
     field.advance(9)
     new = field.gateway.link(2)
-    assert isinstance(field.kernel, VirtualTime)
-    fly(field.kernel, new.land("cf1"))
+    fly(field.virtual, new.land("cf1"))
     telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.landed
     assert telemetry.location == pytest.approx((2.5, 3, 0))
@@ -166,8 +162,7 @@ def test_an_action_that_had_begun_is_settled_by_its_drone(rebooted: bool, state:
         assert job.begun == 0
         link = field.gateway.link(99)
         link.forget(job.id)  # a person has decided
-        assert isinstance(field.kernel, VirtualTime)
-        assert fly(field.kernel, link.recover("cf1"))
+        assert fly(field.virtual, link.recover("cf1"))
         link.fly(job, heard.append)
         field.advance(100)
         assert job.begun == 1
@@ -220,7 +215,6 @@ def test_no_drone_is_sent_where_it_may_not_be(
 ) -> None:
     """Against what the brain believes; and it does not move."""
     field, heard = Field(), list[object]()
-    assert isinstance(field.kernel, VirtualTime)
     link = field.gateway.link(1)
     link.fly(Task(stops=(THERE, stop)), heard.append)
     field.advance(100)
@@ -228,8 +222,8 @@ def test_no_drone_is_sent_where_it_may_not_be(
     assert isinstance(error, FlightFailed)
     assert (error.failure, str(error)) == (Failure.REFUSED, reason)
     assert field.navigation.flown("cf1") == 0
-    assert str(failure(field.kernel, link.go_to("cf1", stop))) == reason
-    assert failure(field.kernel, link.takeoff("cf1", 10.5)).failure is Failure.REFUSED
+    assert str(failure(field.virtual, link.go_to("cf1", stop))) == reason
+    assert failure(field.virtual, link.takeoff("cf1", 10.5)).failure is Failure.REFUSED
 
 
 def test_a_drone_that_flies_gets_no_second_job() -> None:
@@ -252,8 +246,7 @@ def test_without_a_ledger_nothing_is_kept_of_what_is_over() -> None:
     field.advance(14)
     link.break_off("cf2")
     field.advance(100)
-    assert isinstance(field.kernel, VirtualTime)
-    assert fly(field.kernel, link.fleet_report()).jobs == {}
+    assert fly(field.virtual, link.fleet_report()).jobs == {}
 
 
 def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
@@ -261,9 +254,8 @@ def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
     field = Field()
     link = field.gateway.link(1)
     link.fly(Task(), lambda _: None)
-    assert isinstance(field.kernel, VirtualTime)
     with pytest.raises(Busy, match="cf1 was told to do something while it does something else"):
-        fly(field.kernel, link.land("cf1"))
+        fly(field.virtual, link.land("cf1"))
     field.kernel.close()
     field = Field()
     link = field.gateway.link(1)
@@ -271,8 +263,7 @@ def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
     field.advance(1)
     with pytest.raises(Busy, match="cf1 was told to fly while it does something for itself"):
         link.fly(Task(), lambda _: None)
-    assert isinstance(field.kernel, VirtualTime)
-    assert not fly(field.kernel, link.drone_report("cf1")).landed
+    assert not fly(field.virtual, link.drone_report("cf1")).landed
 
 
 def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None:
@@ -285,10 +276,9 @@ def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None
     holding = field.kernel.spawn(link.hold("cf1"), FLEET, "hold")
     field.advance(1)
     holding.cancel()
-    assert isinstance(field.kernel, VirtualTime)
-    assert states(fly(field.kernel, link.fleet_report())) == {job.id: JobState.DONE}
-    fly(field.kernel, link.land("cf1"))
-    assert states(fly(field.kernel, link.fleet_report())) == {job.id: JobState.BROKEN_OFF}
+    assert states(fly(field.virtual, link.fleet_report())) == {job.id: JobState.DONE}
+    fly(field.virtual, link.land("cf1"))
+    assert states(fly(field.virtual, link.fleet_report())) == {job.id: JobState.BROKEN_OFF}
     link.fly(job, heard.append)
     field.advance(20)
     assert heard == [None, None]

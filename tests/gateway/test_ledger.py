@@ -12,7 +12,6 @@ from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.jobs.reports import Entry, JobState
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Photo
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly
 
@@ -77,17 +76,22 @@ def test_a_damaged_line_is_not_believed(tmp_path: Path) -> None:
         assert not damaged.is_whole or len(list(damaged.entries())) == 2  # its last end of line
 
 
-def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
-    """They remember what they did since they were switched on."""
+def flown_and_forgotten() -> tuple[Field, list[object]]:
+    """Fly a job and lose its line, and then the gateway."""
     field, heard = Field(), list[object]()
     field.gateway.link(1).fly(Task(), heard.append)
     field.advance(50)
     field.gateway.crash()
     field.ledger.forget(Task().id)
+    return field, heard
+
+
+def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
+    """They remember what they did since they were switched on."""
+    field, heard = flown_and_forgotten()
     field.ledger.is_whole = False
     link = field.another().link(2)
-    assert isinstance(field.kernel, VirtualTime)
-    assert fly(field.kernel, link.fleet_report()).jobs[Task().id].state is JobState.DONE
+    assert fly(field.virtual, link.fleet_report()).jobs[Task().id].state is JobState.DONE
     link.fly(job := Task(), heard.append)
     field.advance(50)
     assert (heard, job.begun) == ([None, None], 0)
@@ -95,14 +99,9 @@ def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
 
 def test_what_a_drone_remembers_is_not_done_again_though_the_ledger_does_not_have_it() -> None:
     """The ledger may be lost, or have forgotten what a damaged journal does not say any more."""
-    field, heard = Field(), list[object]()
-    field.gateway.link(1).fly(Task(), heard.append)
-    field.advance(50)
-    field.gateway.crash()
-    field.ledger.forget(Task().id)
+    field, heard = flown_and_forgotten()
     link = field.another().link(2)
-    assert isinstance(field.kernel, VirtualTime)
-    assert not fly(field.kernel, link.fleet_report()).jobs
+    assert not fly(field.virtual, link.fleet_report()).jobs
     link.fly(job := Task(), heard.append)
     field.advance(50)
     assert (heard, job.begun) == ([None, None], 0)
@@ -110,14 +109,9 @@ def test_what_a_drone_remembers_is_not_done_again_though_the_ledger_does_not_hav
 
 def test_in_a_first_life_no_drone_is_taken_at_its_word() -> None:
     """It may remember another flight, whose jobs had the same names."""
-    field, heard = Field(), list[object]()
-    field.gateway.link(1).fly(Task(), heard.append)
-    field.advance(50)
-    field.gateway.crash()
-    field.ledger.forget(Task().id)
+    field, heard = flown_and_forgotten()
     link = field.another().link(1)
-    assert isinstance(field.kernel, VirtualTime)
-    fly(field.kernel, link.fleet_report())
+    fly(field.virtual, link.fleet_report())
     link.fly(job := Task(), heard.append)
     field.advance(50)
     assert job.begun == 1

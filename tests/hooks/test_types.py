@@ -51,18 +51,12 @@ def written(changed: str, signature: str, *, head: str = HEAD, body: str = "..."
         ("find_blooms", "(mission: Mission, results: Results) -> Verdict", HEAD),
         ("find_blooms", '(mission: "Mission", results: "Results") -> "Verdict"', HEAD),
         ("find_blooms", '(mission: "Mission", results: "Results") -> "Verdict"', ""),
-        (
-            "find_blooms",
-            "(mission: Mission, results: Results) -> Verdict",
-            "from __future__ import annotations\n",
-        ),
+        ("find_blooms", "(mission: Mission, results: Results) -> Verdict",
+         "from __future__ import annotations\n"),
         ("find_blooms", "(mission: crop.Mission, results: crop.Results)", "import crop\n"),
         ("find_blooms", "(mission: c.Mission, results: c.Results)", "import crop as c\n"),
-        (
-            "find_blooms",
-            "(mission: M, results: object) -> V",
-            "from . import Mission as M\nV = 1\n",
-        ),
+        ("find_blooms", "(mission: M, results: object) -> V",
+         "from . import Mission as M\nV = 1\n"),
         ("find_blooms", "(mission: Mission, results)", "from .model import Mission\n"),
         ("find_blooms", "(mission: Crop, results)", "from .fields import Crop\n"),
         ("find_blooms", "(mission: Crop, results)", "from . import Crop\n"),
@@ -70,11 +64,8 @@ def written(changed: str, signature: str, *, head: str = HEAD, body: str = "..."
         ("find_blooms", "(mission: Crop, results)", "with a as Crop: pass\n"),
         ("find_blooms", "(mission: Crop, results)", "from fields import *\n"),
         ("find_blooms", "(mission, results) -> Verdict | None", HEAD),
-        (
-            "find_blooms",
-            "(mission, results) -> Judgement[Verdict]",
-            "from x import Judgement\n" + HEAD,
-        ),
+        ("find_blooms", "(mission, results) -> Judgement[Verdict]",
+         "from x import Judgement\n" + HEAD),
         ("pollinate", "(drone, trip, context, *, dose: float)", ""),
         ("pollinate", "(drone, trip, context, *, dose: int | float)", ""),
         ("pollinate", "(drone, trip, context, *, dose: float | Grams)", "Grams = 1\n"),
@@ -82,11 +73,8 @@ def written(changed: str, signature: str, *, head: str = HEAD, body: str = "..."
         ("pollinate", "(drone, trip, context, *, dose: builtins.float)", "import builtins\n"),
         ("pollinate", "(drone, trip, context, *, dose: Any)", "from typing import Any\n"),
         ("pollinate", "(drone, trip, context, *, dose: t.Optional[float])", "import typing as t\n"),
-        (
-            "pollinate",
-            "(drone, trip, context, *, dose: t.Annotated[float, 'kg'])",
-            "import typing as t\n",
-        ),
+        ("pollinate", "(drone, trip, context, *, dose: t.Annotated[float, 'kg'])",
+         "import typing as t\n"),
         ("pollinate", "(drone, trip, context, *, dose: t.Literal['x y'])", "import typing as t\n"),
         ("pollinate", "(drone, trip, context, *, dose: 'in kilograms')", ""),
         ("pollinate", "(drone, trip, context, *, dose: any)", ""),
@@ -94,15 +82,12 @@ def written(changed: str, signature: str, *, head: str = HEAD, body: str = "..."
         ("pollinate", "(drone, trip, context, *, dose, more: str = '') -> dict[str, int]", ""),
         ("limit_trip", "(mission, context, *, limit) -> Status", HEAD),
         ("by_battery", "(trip, candidates: tuple[Drone, ...]) -> Drone | None", HEAD),
-        (
-            "by_battery",
-            "(trip, candidates: s.Sequence[Drone])",
-            "import collections.abc as s\n" + HEAD,
-        ),
+        ("by_battery", "(trip, candidates: s.Sequence[Drone])",
+         "import collections.abc as s\n" + HEAD),
         ("by_battery", "(trip, candidates: x.Sequence['Drone'])", "import typing as x\n"),
         ("by_battery", f"(trip: {'Trip | ' * 1500}Trip, candidates)", HEAD),
     ],
-)
+)  # fmt: skip
 def test_what_is_right_or_cannot_be_known_is_believed(
     crop: Checked, name: str, signature: str, head: str
 ) -> None:
@@ -119,12 +104,8 @@ def test_what_is_right_or_cannot_be_known_is_believed(
         ("find_blooms", "(mission: list[Misson], results)", "P3012", "did you mean `Mission`?"),
         ("find_blooms", "(mission, results) -> Verdickt", "P3012", "did you mean `Verdict`?"),
         ("find_blooms", "(mission, results: Nowhere)", "P3012", "nothing of this name"),
-        (
-            "find_blooms",
-            "(mission: Photo, results: Results)",
-            "P3012",
-            "write `from . import Photo`",
-        ),
+        ("find_blooms", "(mission: Photo, results: Results)", "P3012",
+         "write `from . import Photo`"),
         ("find_blooms", "(mission: Trip, results)", "P3013", "a `Mission` arrives here"),
         ("find_blooms", "(mission: 'Trip', results)", "P3013", "a `Mission` arrives here"),
         ("find_blooms", "(mission, results: dict)", "P3013", "a `Results` arrives here"),
@@ -135,29 +116,17 @@ def test_what_is_right_or_cannot_be_known_is_believed(
         ("pollinate", "(drone, trip, context, *, dose: int)", "P3013", "a `float` arrives here"),
         ("pollinate", "(drone, trip, context, dose: c.Trip)", "P3013", "a `float` arrives here"),
         ("pollinate", "(drone: Trip, trip, context, dose)", "P3013", "a `Drone` arrives here"),
-        (
-            "pollinate",
-            "(drone, trip, context: t.Optional[str], dose)",
-            "P3013",
-            "a `Context` arrives here",
-        ),
-        (
-            "pollinate",
-            "(drone, trip, context: str | None, dose)",
-            "P3013",
-            "a `Context` arrives here",
-        ),
-        (
-            "pollinate",
-            "(drone, trip, context, dose: t.Union[str, int])",
-            "P3013",
-            "a `float` arrives here",
-        ),
+        ("pollinate", "(drone, trip, context: t.Optional[str], dose)", "P3013",
+         "a `Context` arrives here"),
+        ("pollinate", "(drone, trip, context: str | None, dose)", "P3013",
+         "a `Context` arrives here"),
+        ("pollinate", "(drone, trip, context, dose: t.Union[str, int])", "P3013",
+         "a `float` arrives here"),
         ("limit_trip", "(mission, context, *, limit) -> str", "P3014", "must be `Status`"),
         ("by_battery", "(trip, candidates: Drone)", "P3013", "a `Sequence` arrives here"),
         ("by_battery", "(trip, candidates) -> Trip", "P3014", "must be `Drone`"),
     ],
-)
+)  # fmt: skip
 def test_a_type_of_something_else_is_found_at_its_place(
     crop: Checked, name: str, signature: str, code: str, label: str
 ) -> None:

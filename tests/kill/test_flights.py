@@ -21,6 +21,13 @@ from tests.kill.lives import Flight, alive, eventually
 from tests.kill.trial import gateway_of
 
 
+def launched(flight: Flight) -> Flight:
+    """Start it, and wait until a drone flies."""
+    flight.start()
+    flight.until_it_says("launched")
+    return flight
+
+
 def rows_of(flight: Flight) -> list[str]:
     if not flight.journal.exists():
         return []
@@ -90,9 +97,7 @@ def test_a_delay_keeps_its_rest_over_a_stop(new_flight: NewFlight) -> None:
 def test_an_interrupt_waits_for_the_landing(
     number: signal.Signals, code: int, new_flight: NewFlight
 ) -> None:
-    flight = new_flight(20.0)
-    flight.start()
-    flight.until_it_says("launched")
+    flight = launched(new_flight(20.0))
     flight.signal(number)
     assert flight.see_through() == code
     assert "stopping: the drones land where they are" in flight.lives[0]
@@ -103,9 +108,7 @@ def test_an_interrupt_waits_for_the_landing(
 
 
 def test_interrupted_twice_it_leaves_at_once_and_the_gateway_lands(new_flight: NewFlight) -> None:
-    flight = new_flight(1.0)
-    flight.start()
-    flight.until_it_says("launched")
+    flight = launched(new_flight(1.0))
     high_enough = time.monotonic() + 1.5  # to be still landing when it is told for the second time
     assert eventually(lambda: time.monotonic() > high_enough)
     flight.signal(signal.SIGINT)
@@ -137,9 +140,7 @@ def test_a_supervised_app_that_is_killed_goes_on(new_flight: NewFlight) -> None:
 
 def test_a_stop_reaches_drones_whose_app_hangs(new_flight: NewFlight) -> None:
     """Past the app; and when that wakes up, it does not fly on."""
-    flight = new_flight(10.0)
-    flight.start()
-    flight.until_it_says("launched")
+    flight = launched(new_flight(10.0))
     flight.signal(signal.SIGSTOP)
     said = flight.run("tell", str(flight.journal), "stop")
     assert said.returncode == 0
@@ -154,9 +155,7 @@ def test_a_stop_reaches_drones_whose_app_hangs(new_flight: NewFlight) -> None:
 
 def test_a_stop_counts_although_the_gateway_dies_meanwhile(new_flight: NewFlight) -> None:
     """Another one is started, and brings the drones down."""
-    flight = new_flight(1.0)
-    flight.start()
-    flight.until_it_says("launched")
+    flight = launched(new_flight(1.0))
     assert flight.run("tell", str(flight.journal), "stop", "--rtl").returncode == 0
     gateway = gateway_of(flight.journal)
     assert gateway is not None
@@ -168,9 +167,7 @@ def test_a_stop_counts_although_the_gateway_dies_meanwhile(new_flight: NewFlight
 
 
 def test_missions_are_paused_skipped_and_cancelled_while_they_fly(new_flight: NewFlight) -> None:
-    flight = new_flight(5.0)  # none shall have ended before they are paused
-    flight.start()
-    flight.until_it_says("launched")
+    flight = launched(new_flight(5.0))  # none shall have ended before they are paused
 
     def tell(*words: str) -> str:
         done = flight.run("tell", str(flight.journal), *words)
@@ -196,9 +193,7 @@ def test_missions_are_paused_skipped_and_cancelled_while_they_fly(new_flight: Ne
 
 def test_a_journal_that_is_deleted_in_flight_ends_it(new_flight: NewFlight) -> None:
     """As a full disk does: the drones land, it says why, and nothing names what is not there."""
-    flight = new_flight(5.0)
-    flight.start()
-    flight.until_it_says("launched")
+    flight = launched(new_flight(5.0))
     flight.journal.unlink()
     assert flight.see_through() == 2
     assert f"{flight.journal}: it was deleted while the flight was being written" in flight.lives[0]

@@ -104,16 +104,10 @@ def test_nor_is_what_a_module_stands_in(mark: Path, name: str, why: str) -> None
         ({"author": f"{GOOD}\nclass Kit:\n    Drone = Good"}, "author:Kit.Drone"),
         ({"author": "from elsewhere import *", "elsewhere": GOOD}, "author:Good"),
         (
-            {
-                "author____init__": "from .inner import Drone",
-                "author__inner": f"{GOOD} as Drone",
-            },
+            {"author____init__": "from .inner import Drone", "author__inner": f"{GOOD} as Drone"},
             "author:Drone",
         ),
-        (
-            {"author____init__": "from . import inner", "author__inner": GOOD},
-            "author:inner.Good",
-        ),
+        ({"author____init__": "from . import inner", "author__inner": GOOD}, "author:inner.Good"),
         (
             {"author": f"{GOOD}\ndef __getattr__(name): return {{'Drone': Good}}[name]"},
             "author:Drone",

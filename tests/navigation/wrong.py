@@ -33,10 +33,7 @@ def send() -> None:
 
 
 class Blocking(Wrong):
-    """Calls a library that waits, on the event loop.
-
-    No other flies meanwhile.
-    """
+    """Calls a library that waits, on the event loop."""
 
     found_by = "test_the_event_loop_is_never_held_up"
     says = "wrong.py:"
@@ -48,10 +45,7 @@ class Blocking(Wrong):
 
 
 class Clamping(Wrong):
-    """Flies to the nearest place that it can reach, instead of refusing.
-
-    Below the ground is not on the ground.
-    """
+    """Flies to the nearest place that it can reach, instead of refusing."""
 
     found_by = "test_a_bad_target_is_refused_before_anything_moves"
     says = "go_to below the ground was done, and not refused"
@@ -62,10 +56,7 @@ class Clamping(Wrong):
 
 
 class Deaf(Wrong):
-    """Takes silence for consent.
-
-    It is said to be there, and this is not known.
-    """
+    """Takes silence for consent."""
 
     found_by = "test_a_drone_that_falls_silent_is_a_lost_link"
     says = "returned as if nothing had happened"
@@ -76,10 +67,7 @@ class Deaf(Wrong):
 
 
 class Degrees(Wrong):
-    """Tells degrees, as its library does.
-
-    57 is no angle.
-    """
+    """Tells degrees, as its library does."""
 
     found_by = "test_it_counts_in_metres_and_radians_in_the_maps_frame"
     says = "radians are between"
@@ -90,10 +78,7 @@ class Degrees(Wrong):
 
 
 class Dropping(Wrong):
-    """Lets go of its drone by switching it off, as its library does.
-
-    It falls.
-    """
+    """Lets go of its drone by switching it off, as its library does."""
 
     found_by = "test_closing_in_the_air_never_cuts_the_motors"
     says = "close cut the motors"
@@ -105,10 +90,7 @@ class Dropping(Wrong):
 
 
 class Drowsy(Wrong):
-    """Tells where it is once a second.
-
-    By then it is somewhere else.
-    """
+    """Tells where it is once a second."""
 
     found_by = "test_telemetry_is_fresh"
     says = "it told nothing new for"
@@ -120,10 +102,7 @@ class Drowsy(Wrong):
 
 
 class Early(Wrong):
-    """Returns when the drone has been told, and not when it is there.
-
-    Acknowledged is not arrived.
-    """
+    """Returns when the drone has been told, and not when it is there."""
 
     found_by = "test_go_to_returns_on_arrival_and_not_before"
     says = "m before its target"
@@ -139,10 +118,7 @@ FOOT = 0.3048
 
 
 class Feet(Wrong):
-    """Hands metres to a library that counts in feet, and tells what that says.
-
-    A metre is not a foot.
-    """
+    """Hands metres to a library that counts in feet, and tells what that says."""
 
     found_by = "test_it_counts_in_metres_and_radians_in_the_maps_frame"
     says = "which units, and which frame?"
@@ -163,10 +139,7 @@ class Feet(Wrong):
 
 
 class Forgetful(Wrong):
-    """Lets go of everything when it is connected a second time, as after a lost link.
-
-    It hears what its first link told, for ever.
-    """
+    """Lets go of everything when it is connected a second time, as after a lost link."""
 
     found_by = "test_it_connects_again_and_goes_on_telling"
     says = "it tells nothing any more"
@@ -180,10 +153,7 @@ class Forgetful(Wrong):
 
 
 class Hasty(Wrong):
-    """Takes the speed for a wish.
-
-    Half as fast again.
-    """
+    """Takes the speed for a wish."""
 
     found_by = "test_it_is_never_faster_than_it_was_told"
     says = "go_to at no more than 5.0 m/s flew at"
@@ -195,10 +165,7 @@ class Hasty(Wrong):
 
 
 class Lingering(Wrong):
-    """Leaves a thread behind that keeps the program from ending.
-
-    It waits for a word that is never said.
-    """
+    """Leaves a thread behind that keeps the program from ending."""
 
     found_by = "test_closing_leaves_no_thread_task_or_socket"
     says = "the thread radio"
@@ -211,10 +178,7 @@ class Lingering(Wrong):
 
 
 class Nameless(Wrong):
-    """Refuses with an exception that says nothing of what it is to the app.
-
-    The runtime takes it for a mistake.
-    """
+    """Refuses with an exception that says nothing of what it is to the app."""
 
     found_by = "test_go_to_is_refused_on_the_ground"
     says = "a refusal's failure is REFUSED"
@@ -227,10 +191,7 @@ class Nameless(Wrong):
 
 
 class Plunging(Wrong):
-    """Lands by switching its motors off where it is.
-
-    It is down at once.
-    """
+    """Lands by switching its motors off where it is."""
 
     found_by = "test_nothing_but_emergency_stop_cuts_the_motors"
     says = "its motors were off in the air"
@@ -244,10 +205,7 @@ _FAR = (1000.0, 2.0, 1.0)
 
 
 class Restless(Wrong):
-    """Flies on when it has said that it holds.
-
-    The next command reaches a drone that moves.
-    """
+    """Flies on when it has said that it holds."""
 
     found_by = "test_hold_stops_the_drone_here"
     says = "hold returned, and it moved"
@@ -266,10 +224,7 @@ class Restless(Wrong):
 
 
 class Tacit(Wrong):
-    """Says of a crash only to the one who has given a command that it failed.
-
-    One that hovers is not heard of.
-    """
+    """Says of a crash only to the one who has given a command that it failed."""
 
     found_by = "test_a_drone_that_crashes_is_a_crash"
     says = "no event told that it crashed"
@@ -281,10 +236,7 @@ class Tacit(Wrong):
 
 
 class Undated(Wrong):
-    """Dates what the drone told with the moment at which it is asked.
-
-    It is not seen that it is silent.
-    """
+    """Dates what the drone told with the moment at which it is asked."""
 
     found_by = "test_a_drone_that_falls_silent_is_a_lost_link"
     says = "it is when the drone told it"

@@ -53,54 +53,59 @@ MAZE = routes(
     d="STANDBY > e, COMPLETED > c, FAILED > b",
     e="STANDBY > b, COMPLETED > d, FAILED > end",
 )
-STEPS = routes(
-    a="STANDBY > b, FAILED > end",
-    b="STANDBY > c, COMPLETED > a",
-    c="STANDBY > d, COMPLETED > b, FAILED > a",
-    d="STANDBY > c, COMPLETED > b, FAILED > a",
-)
-MEETING = routes(
-    a="STANDBY > b, COMPLETED > c, FAILED > end",
-    b="STANDBY > d",
-    c="STANDBY > d",
-    d="COMPLETED > e, FAILED > e, STANDBY > a",
-    e="COMPLETED > end",
-)
-MEETING_APART = routes(
-    a="STANDBY > b, COMPLETED > c, FAILED > d",
-    b="STANDBY > m",
-    c="STANDBY > m",
-    m="STANDBY > g",
-    d="STANDBY > g",
-    g="COMPLETED > h",
-    h="COMPLETED > end",
-)
-CROSSING = routes(
-    a="STANDBY > b, COMPLETED > c, FAILED > g",
-    b="STANDBY > e, COMPLETED > g",
-    c="STANDBY > e, COMPLETED > g",
-    e="STANDBY > f",
-    f="STANDBY > g",
-    g="COMPLETED > end",
-)
-TWO_DOORS = routes(
-    a="STANDBY > b",
-    b="FAILED > b, COMPLETED > a, STANDBY > c",
-    c="STANDBY > a, FAILED > end",
-)
-TWO_FAR_DOORS = routes(
-    a="STANDBY > b, FAILED > d",
-    b="FAILED > b, COMPLETED > a, STANDBY > d",
-    d="STANDBY > a, FAILED > end",
-)
-OUT_OF_TWO_LOOPS = routes(
-    a="STANDBY > b",
-    b="STANDBY > c",
-    c="STANDBY > b, COMPLETED > a, FAILED > tidy",
-    tidy="STANDBY > sweep",
-    sweep="FAILED > end",
-)
-TWICE_IN_ONE_FORK = """
+GRAPHS = {
+    **SOUND,
+    "nested loops": NESTED_LOOPS,
+    "a loop with two entries": TWO_ENTRIES,
+    "a maze": MAZE,
+    "loops left to each loop around them": routes(
+        a="STANDBY > b, FAILED > end",
+        b="STANDBY > c, COMPLETED > a",
+        c="STANDBY > d, COMPLETED > b, FAILED > a",
+        d="STANDBY > c, COMPLETED > b, FAILED > a",
+    ),
+    "ways that meet again": routes(
+        a="STANDBY > b, COMPLETED > c, FAILED > end",
+        b="STANDBY > d",
+        c="STANDBY > d",
+        d="COMPLETED > e, FAILED > e, STANDBY > a",
+        e="COMPLETED > end",
+    ),
+    "two meetings, one in an arm": routes(
+        a="STANDBY > b, COMPLETED > c, FAILED > d",
+        b="STANDBY > m",
+        c="STANDBY > m",
+        m="STANDBY > g",
+        d="STANDBY > g",
+        g="COMPLETED > h",
+        h="COMPLETED > end",
+    ),
+    "ways that cross": routes(
+        a="STANDBY > b, COMPLETED > c, FAILED > g",
+        b="STANDBY > e, COMPLETED > g",
+        c="STANDBY > e, COMPLETED > g",
+        e="STANDBY > f",
+        f="STANDBY > g",
+        g="COMPLETED > end",
+    ),
+    "a loop left to both sides": routes(
+        a="STANDBY > b",
+        b="FAILED > b, COMPLETED > a, STANDBY > c",
+        c="STANDBY > a, FAILED > end",
+    ),
+    "a loop left to two places that others come to as well": routes(
+        a="STANDBY > b, FAILED > d",
+        b="FAILED > b, COMPLETED > a, STANDBY > d",
+        d="STANDBY > a, FAILED > end",
+    ),
+    "out of two loops at once": routes(
+        a="STANDBY > b",
+        b="STANDBY > c",
+        c="STANDBY > b, COMPLETED > a, FAILED > tidy",
+        tidy="STANDBY > sweep",
+        sweep="FAILED > end",
+    ),
+    "a block in two branches": """
     left = MissionModifier
     right = MissionModifier
     note = MissionModifier
@@ -108,8 +113,8 @@ TWICE_IN_ONE_FORK = """
     create = MissionCreator
     done = MissionModifier emits COMPLETED
     start -> create -> [left, right] -> note -> both -> done -> end
-"""
-STRAIGHT_TO_THE_GATE = f"""{BASIC}
+""",
+    "a branch without a block": f"""{BASIC}
     timer = TimerMonitor
     first = GateFIFO
     start -> create -> allocate -> launch -> [watch, timer]
@@ -123,8 +128,8 @@ STRAIGHT_TO_THE_GATE = f"""{BASIC}
     tell -> all
     all -> allocate
     first -> end
-"""
-IN_AND_OUT_OF_A_FORK = """
+""",
+    "a block in a branch and outside": """
     create = MissionCreator
     note = MissionModifier
     mark = MissionModifier
@@ -137,22 +142,7 @@ IN_AND_OUT_OF_A_FORK = """
     step -> note when STANDBY
     note -> step when STANDBY
     step -> end when COMPLETED
-"""
-GRAPHS = {
-    **SOUND,
-    "nested loops": NESTED_LOOPS,
-    "a loop with two entries": TWO_ENTRIES,
-    "a maze": MAZE,
-    "loops left to each loop around them": STEPS,
-    "ways that meet again": MEETING,
-    "two meetings, one in an arm": MEETING_APART,
-    "ways that cross": CROSSING,
-    "a loop left to both sides": TWO_DOORS,
-    "a loop left to two places that others come to as well": TWO_FAR_DOORS,
-    "out of two loops at once": OUT_OF_TWO_LOOPS,
-    "a block in two branches": TWICE_IN_ONE_FORK,
-    "a branch without a block": STRAIGHT_TO_THE_GATE,
-    "a block in a branch and outside": IN_AND_OUT_OF_A_FORK,
+""",
 }
 
 

@@ -1,19 +1,16 @@
-"""Plans as text: what a graph becomes, step by step."""
+"""Plans as text: what a graph becomes, step by step; a fork and its gate are one step."""
 
 from __future__ import annotations
+
+import pytest
 
 from plutoc.plan.show import show
 from tests.plan.graphs import GRAPHS
 from tests.plan.plans import structured
 
-
-def shown(name: str) -> str:
-    return "\n" + show(structured(GRAPHS[name]))
-
-
-def test_alfalfa() -> None:
-    """The sample of the language: one loop, what is rare indented, what is usual flat."""
-    assert shown("alfalfa") == """
+SHOWN = {
+    # One loop, what is rare indented, what is usual flat.
+    "alfalfa": """
 plan app
   call create
   call wait
@@ -45,12 +42,9 @@ plan app
     switch
       COMPLETED -> end: end
       STANDBY -> allocate: go on
-"""
-
-
-def test_nested_loops() -> None:
-    """The inner loop is left by `break`, which is to begin the outer one again."""
-    assert shown("nested loops") == """
+""",
+    # The inner loop is left by `break`, which is to begin the outer one again.
+    "nested loops": """
 plan app
   call create
   loop wait
@@ -67,12 +61,9 @@ plan app
       switch
         FAILED -> end: end
         STANDBY -> allocate: go on
-"""
-
-
-def test_ways_that_meet_again() -> None:
-    """What two arms lead to stands once, behind them; what a loop is left for, behind it."""
-    assert shown("ways that meet again") == """
+""",
+    # What two arms lead to stands once, behind them; what a loop is left for, behind it.
+    "ways that meet again": """
 plan app
   call create
   loop a
@@ -89,12 +80,9 @@ plan app
       STANDBY -> a: go on
   call e
   end
-"""
-
-
-def test_two_meetings_one_in_an_arm() -> None:
-    """Ways that meet earlier than others share an arm."""
-    assert shown("two meetings, one in an arm") == """
+""",
+    # Ways that meet earlier than others share an arm.
+    "two meetings, one in an arm": """
 plan app
   call create
   call a
@@ -111,12 +99,9 @@ plan app
   call g
   call h
   end
-"""
-
-
-def test_ways_that_cross() -> None:
-    """A last block that nothing but the end follows is written twice rather than jumped to."""
-    assert shown("ways that cross") == """
+""",
+    # A last block that nothing but the end follows is written twice rather than jumped to.
+    "ways that cross": """
 plan app
   call create
   call a
@@ -142,12 +127,9 @@ plan app
   call f
   call g
   end
-"""
-
-
-def test_a_loop_with_two_entries() -> None:
-    """Who enters it at the second one finds a copy of what stands between the two."""
-    assert shown("a loop with two entries") == """
+""",
+    # Who enters it at the second one finds a copy of what stands between the two.
+    "a loop with two entries": """
 plan app
   call create
   call a
@@ -167,12 +149,9 @@ plan app
     switch
       FAILED -> end: end
       STANDBY -> b: go on
-"""
-
-
-def test_loops_left_to_each_loop_around_them() -> None:
-    """Python's `break` leaves one loop only: the head of another one is written before it."""
-    assert shown("loops left to each loop around them") == """
+""",
+    # Python's `break` leaves one loop only: the head of another one is written before it.
+    "loops left to each loop around them": """
 plan app
   call create
   loop a
@@ -206,12 +185,9 @@ plan app
               FAILED -> end: go on
             end
           STANDBY -> c: go on
-"""
-
-
-def test_a_loop_left_to_two_places_that_others_come_to_as_well() -> None:
-    """Python has no `break` to two places: one of them is written inside the loop once more."""
-    assert shown("a loop left to two places that others come to as well") == """
+""",
+    # Python has no `break` to two places: one of them is written inside the loop once more.
+    "a loop left to two places that others come to as well": """
 plan app
   call create
   loop a
@@ -235,12 +211,9 @@ plan app
     switch
       FAILED -> end: end
       STANDBY -> a: go on
-"""
-
-
-def test_a_maze() -> None:
-    """What would take many copies is a dispatch."""
-    assert shown("a maze") == """
+""",
+    # What would take many copies is a dispatch.
+    "a maze": """
 plan app
   dispatch from create
     case create
@@ -279,4 +252,145 @@ plan app
         COMPLETED -> d: goto d
         FAILED -> end: go on
       end
-"""
+""",
+    # The gate's status is taken by an edge to one side, by a fork to the other.
+    "a gate that forks at once": """
+plan app
+  call create
+  loop allocate
+    call allocate
+    call launch
+    join launch -> first
+      branch _watch: launch -> watch -> first
+        call watch
+        end
+      branch _timer: launch -> timer -> first
+        call timer
+        end
+    switch
+      COMPLETED -> end: end
+      FAILED -> retry:
+        call retry
+        switch
+          FAILED -> end: end
+          STANDBY -> allocate: go on
+        continue
+      STANDBY -> [left, right]: go on
+    join first -> both
+      branch _left: first -> left -> both
+        call left
+        end
+      branch _right: first -> right -> both
+        call right
+        end
+""",
+    # A branch that forks is written like the flow itself; forks with the same branches are one join.
+    "a fork in a branch of a fork": """
+plan app
+  call create
+  loop allocate
+    call allocate
+    call launch
+    join launch -> first
+      branch _watch: launch -> watch -> ... -> first
+        call watch
+        join watch -> both
+          branch _left: watch -> left -> both
+            call left
+            end
+          branch _right: watch -> right -> both
+            call right
+            end
+        end
+      branch _timer: launch -> timer -> first
+        call timer
+        end
+    switch
+      STANDBY -> allocate: continue
+      COMPLETED -> end: end
+      FAILED -> retry: go on
+    call retry
+    switch
+      FAILED -> end: end
+      STANDBY -> allocate: go on
+""",
+    # Two forks meet behind their gate: a loop can begin there.
+    "one gate that closes two forks in turn": """
+plan app
+  call create
+  join create -> both
+    branch _left: create -> left -> both
+      call left
+      end
+    branch _right: create -> right -> both
+      call right
+      end
+  loop both
+    loop allocate
+      call allocate
+      call launch
+      call watch
+      switch
+        STANDBY -> [left, right]: break
+        COMPLETED -> end: end
+        FAILED -> retry: go on
+      call retry
+      switch
+        FAILED -> end: end
+        STANDBY -> allocate: go on
+    join watch -> both
+      branch _left_2: watch -> left -> both
+        call left
+        end
+      branch _right_2: watch -> right -> both
+        call right
+        end
+""",
+    # A branch may lead straight to its gate.
+    "a branch without a block": """
+plan app
+  call create
+  loop allocate
+    call allocate
+    call launch
+    join launch -> first
+      branch _watch: launch -> watch -> first
+        call watch
+        end
+      branch _timer: launch -> timer -> first
+        call timer
+        end
+    switch
+      COMPLETED, FAILED -> end: end
+      STANDBY -> tell: go on
+    call tell
+    join tell -> all
+      branch _note: tell -> note -> all
+        call note
+        end
+      branch _all: tell -> all
+        end
+""",
+    # Each branch has its own call of a block that they share.
+    "a block in two branches": """
+plan app
+  call create
+  join create -> both
+    branch _left: create -> left -> note -> both
+      call left
+      call note
+      end
+    branch _right: create -> right -> note -> both
+      call right
+      call note
+      end
+  call done
+  end
+""",
+}
+"""What some of the graphs become."""
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_a_graph_becomes_a_plan(name: str) -> None:
+    assert "\n" + show(structured(GRAPHS[name])) == SHOWN[name]

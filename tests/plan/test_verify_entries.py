@@ -9,18 +9,7 @@ import pytest
 
 from plutoc.plan.build import build
 from plutoc.plan.errors import BadPlan
-from plutoc.plan.model import (
-    Arrived,
-    Body,
-    Call,
-    Dispatch,
-    End,
-    Loop,
-    Place,
-    Plan,
-    Step,
-    Switch,
-)
+from plutoc.plan.model import Arrived, Body, Call, Dispatch, End, Loop, Place, Plan, Step, Switch
 from plutoc.plan.optimise import optimised
 from plutoc.plan.rewrite import rewritten
 from plutoc.plan.verify import verify

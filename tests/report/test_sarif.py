@@ -148,11 +148,7 @@ def test_a_result_has_all_the_facts() -> None:
             {"physicalLocation": _place(file, (2, 3, 2, 6)), "message": {"text": "here"}}
         ],
         "relatedLocations": [
-            {
-                "id": 1,
-                "physicalLocation": _place(file, (3, 1, 3, 6)),
-                "message": {"text": "there"},
-            }
+            {"id": 1, "physicalLocation": _place(file, (3, 1, 3, 6)), "message": {"text": "there"}}
         ],
         "fixes": [
             {
@@ -160,10 +156,7 @@ def test_a_result_has_all_the_facts() -> None:
                     {
                         "artifactLocation": file,
                         "replacements": [
-                            {
-                                "deletedRegion": _region(2, 2, 2, 6),
-                                "insertedContent": {"text": ""},
-                            }
+                            {"deletedRegion": _region(2, 2, 2, 6), "insertedContent": {"text": ""}}
                         ],
                     }
                 ]
@@ -177,12 +170,7 @@ def _place(file: dict[str, str], region: tuple[int, int, int, int]) -> Json:
 
 
 def _region(line: int, column: int, end_line: int, end_column: int) -> Json:
-    return {
-        "startLine": line,
-        "startColumn": column,
-        "endLine": end_line,
-        "endColumn": end_column,
-    }
+    return {"startLine": line, "startColumn": column, "endLine": end_line, "endColumn": end_column}
 
 
 @pytest.mark.parametrize(

@@ -32,11 +32,7 @@ def fly(
         status = create_mission(run, Status.UNEXECUTED)
         # allocate = DroneAllocator(policy: choose)
         status = await allocate_drone(
-            run,
-            status,
-            block="allocate",
-            policy=policy,
-            allocate_within=None,
+            run, status, block="allocate", policy=policy, allocate_within=None
         )
         # launch = TripLauncher
         status = launch_trip(run, status)

@@ -45,18 +45,12 @@ def test_a_mission_that_is_paused_stays_so_when_the_app_dies() -> None:
     assert living.times("trip.launched")[-2] >= 100.0
 
 
-def test_a_delay_does_not_pass_while_its_mission_is_paused() -> None:
+@pytest.mark.parametrize("stopped", [False, True])
+def test_a_delay_does_not_pass_while_its_mission_is_paused(stopped: bool) -> None:
     living = Living(enterable(clock=True), apps.mission("a", apps.trip("1", 3, delay=20.0)))
     living.at(5.0, lambda: living.life.control.pause("a"))
-    living.at(50.0, lambda: living.life.control.go_on("a"))
-    assert living.run() == ["COMPLETED"]
-    assert living.times("trip.launched") == [65.0]
-
-
-def test_a_delay_does_not_pass_while_its_mission_is_paused_and_the_app_stopped() -> None:
-    living = Living(enterable(clock=True), apps.mission("a", apps.trip("1", 3, delay=20.0)))
-    living.at(5.0, lambda: living.life.control.pause("a"))
-    living.stop(10.0, rest=30.0)
+    if stopped:
+        living.stop(10.0, rest=30.0)
     living.at(50.0, lambda: living.life.control.go_on("a"))
     assert living.run() == ["COMPLETED"]
     assert living.times("trip.launched") == [65.0]

@@ -60,19 +60,12 @@ def test_added_trips_fly_and_are_not_repeated_by_a_further_round() -> None:
     assert flown == [(0, "A"), (0, "extra"), (1, "A")]
 
 
-def test_added_trips_of_one_name_get_names_of_their_own() -> None:
+@pytest.mark.parametrize("together", [1, 2])
+def test_added_trips_of_one_name_get_names_of_their_own(together: int) -> None:
+    """One after the other, or both at once."""
+
     def add_two(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
-        if len(mission.completed_trips) < 3:
-            return Verdict(add=(apps.trip("A", 5.0),))
-        return Verdict()
-
-    (mission,) = judged(add_two).missions
-    assert [trip.name for trip in mission.completed_trips] == ["A", "A 2", "A 3"]
-
-
-def test_trips_of_one_name_that_are_added_together_get_names_of_their_own() -> None:
-    def add_two(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
-        twins = tuple(apps.trip("A", 5.0) for _ in range(2))
+        twins = tuple(apps.trip("A", 5.0) for _ in range(together))
         return Verdict(add=twins if len(mission.completed_trips) < 3 else ())
 
     (mission,) = judged(add_two).missions

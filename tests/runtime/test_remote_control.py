@@ -218,14 +218,7 @@ def test_an_app_that_says_nothing_is_not_waited_for(note: Path, tmp_path: Path) 
 
 
 @pytest.mark.parametrize(
-    "answer",
-    [
-        b"",
-        b"[]\n",
-        b'{"ok": true, "said": 1}\n',
-        b"\xff" * (2 * MAX_LINE),
-        b"half",
-    ],
+    "answer", [b"", b"[]\n", b'{"ok": true, "said": 1}\n', b"\xff" * (2 * MAX_LINE), b"half"]
 )
 def test_an_answer_that_makes_no_sense_leaves_one_in_doubt(note: Path, answer: bytes) -> None:
     async def strange(reader: StreamReader, writer: StreamWriter) -> None:

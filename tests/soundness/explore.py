@@ -117,11 +117,7 @@ class Explorer:
             block = self.blocks[token.block]
             try:
                 found = outcomes(
-                    state,
-                    token,
-                    block,
-                    strict=self.strict,
-                    most_flights=self.most_flights,
+                    state, token, block, strict=self.strict, most_flights=self.most_flights
                 )
                 ways = list(found)
                 if not ways and block.emits and state.flight != R:

@@ -12,12 +12,7 @@ MOST_TRIPS = 3
 
 
 def outcomes(
-    state: State,
-    token: Token,
-    block: Block,
-    *,
-    strict: bool,
-    most_flights: int,
+    state: State, token: Token, block: Block, *, strict: bool, most_flights: int
 ) -> Iterator[tuple[Status | None, State]]:
     """Yield every status with which the mission can leave a block now, and what has become of it.
 

@@ -14,7 +14,7 @@ from plutoc.source import Source
 from tests.soundness.app import App
 from tests.soundness.endings import End, endings
 from tests.soundness.loops import looping_app
-from tests.soundness.test_endless import SPINNING
+from tests.soundness.test_endless import ENDLESS, HEAD
 
 
 def accepted(app: App) -> Checked | None:
@@ -51,8 +51,8 @@ def test_a_loop_that_should_have_been_refused_would_be_seen(
 ) -> None:
     """Through a modifier, by the number of its calls; and of repeaters alone, that no hook is in."""
     monkeypatch.setattr(statuses, "endless_loops", lambda steps: ())
-    noted = SPINNING.replace("more = MissionRepeater", "more = MissionModifier(hook: note)")
-    noted = noted.replace("app spinning {", "app spinning {\n  modifier note")
-    for text in (SPINNING, noted.replace("[watch, again, more]", "[watch, again]")):
+    for name in ("two repeaters that lead to each other", "a hook between changes nothing"):
+        _, arrows = ENDLESS[name]
+        text = f"{HEAD}{arrows}}}\n"
         checked, _ = analyse(Source(path="app.pluto", text=text))
         assert End.HANGS in endings(checked, 0)

@@ -26,77 +26,44 @@ app small {
 HEAD = "start -> create -> allocate -> launch"
 
 WRONG = {
-    "a status that no arrow takes": (
-        Verdict.STUCK,
-        f"""{HEAD} -> watch
-            watch -> end""",
-    ),
-    "a funnel that waits for a branch which goes round": (
-        Verdict.DEADLOCKED,
-        f"""{HEAD} -> [watch, mark]
+    "a status that no arrow takes": (Verdict.STUCK, f"""{HEAD} -> watch
+            watch -> end"""),
+    "a funnel that waits for a branch which goes round": (Verdict.DEADLOCKED, f"""{HEAD} -> [watch, mark]
             mark -> mark
             watch -> two
             two -> allocate when STANDBY
-            two -> end""",
-    ),
-    "branches at different funnels": (
-        Verdict.DEADLOCKED,
-        f"""{HEAD} -> [watch, timer]
+            two -> end"""),
+    "branches at different funnels": (Verdict.DEADLOCKED, f"""{HEAD} -> [watch, timer]
             watch -> two
             timer -> other
             other = GateFunnel
             [two, other] -> allocate when STANDBY
-            [two, other] -> end""",
-    ),
-    "two monitors and no gate": (
-        Verdict.FLOWN_TWICE,
-        f"""{HEAD} -> [watch, timer]
+            [two, other] -> end"""),
+    "two monitors and no gate": (Verdict.FLOWN_TWICE, f"""{HEAD} -> [watch, timer]
             [watch, timer] -> allocate when STANDBY
-            [watch, timer] -> end""",
-    ),
-    "a branch that ends": (
-        Verdict.LOST,
-        f"""{HEAD} -> [watch, timer]
+            [watch, timer] -> end"""),
+    "a branch that ends": (Verdict.LOST, f"""{HEAD} -> [watch, timer]
             watch -> one
             timer -> one when STANDBY, FAILED
             one -> allocate when STANDBY
-            one -> end""",
-    ),
-    "a gate without a fork": (
-        Verdict.LOST,
-        f"""{HEAD} -> watch -> one
+            one -> end"""),
+    "a gate without a fork": (Verdict.LOST, f"""{HEAD} -> watch -> one
             one -> allocate when STANDBY
-            one -> end""",
-    ),
-    "a launch without a drone": (
-        Verdict.NO_DRONE,
-        f"""{HEAD} -> watch
+            one -> end"""),
+    "a launch without a drone": (Verdict.NO_DRONE, f"""{HEAD} -> watch
             watch -> launch when STANDBY
-            watch -> end""",
-    ),
-    "a monitor without a launch": (
-        Verdict.NO_LAUNCH,
-        """start -> create -> still -> watch
-            watch -> end""",
-    ),
-    "no arrow to an end": (
-        Verdict.ENDLESS,
-        f"""{HEAD} -> still -> still""",
-    ),
-    "a fork that comes round to itself": (
-        Verdict.BREEDS,
-        f"""{HEAD} -> mark -> [mark, watch]
-            watch -> end""",
-    ),
-    "a branch that only the gate calls off": (
-        Verdict.UNCLOSED,
-        f"""{HEAD} -> [watch, mark]
+            watch -> end"""),
+    "a monitor without a launch": (Verdict.NO_LAUNCH, """start -> create -> still -> watch
+            watch -> end"""),
+    "no arrow to an end": (Verdict.ENDLESS, f"""{HEAD} -> still -> still"""),
+    "a fork that comes round to itself": (Verdict.BREEDS, f"""{HEAD} -> mark -> [mark, watch]
+            watch -> end"""),
+    "a branch that only the gate calls off": (Verdict.UNCLOSED, f"""{HEAD} -> [watch, mark]
             mark -> mark
             watch -> one
             one -> allocate when STANDBY
-            one -> end""",
-    ),
-}
+            one -> end"""),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("verdict, arrows", WRONG.values(), ids=list(WRONG))

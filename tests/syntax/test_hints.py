@@ -33,10 +33,7 @@ SAID = [
         "a -> b when status == FAILED",
         "only the names of statuses stand here, as in `when COMPLETED`",
     ),
-    (
-        "a -> b when FAILED, a -> c",
-        "a guard ends its statement: begin the next one on a new line",
-    ),
+    ("a -> b when FAILED, a -> c", "a guard ends its statement: begin the next one on a new line"),
     ("a -> b FAILED", "write `when FAILED`"),
     ("a -> b: FAILED", "write `when FAILED`"),
     ("a -> b [FAILED]", "write `when FAILED`"),
@@ -62,10 +59,7 @@ SAID = [
     ("a = K  b = L", "every statement begins on a line of its own"),
     ("category a x, y", "write `can` before it"),
     ("evaluator a, b", "write `evaluator` on a line of its own for each of them"),
-    (
-        "evaluator a()",
-        "remove the brackets: what a hook gets is clear from its being an evaluator",
-    ),
+    ("evaluator a()", "remove the brackets: what a hook gets is clear from its being an evaluator"),
     ("version 1.2.0", 'it stands in quotes, as in `version "1.2.0"`'),
     ("version", 'it stands in quotes, as in `version "1.2.0"`'),
     ('version: "1"', 'it stands in quotes, as in `version "1.2.0"`'),
@@ -79,10 +73,7 @@ SAID = [
     ('requires "a" "b"', "write `,` before it"),
     ('require "a"', "did you mean `requires`?"),
     ('dependencies "a", "b"', "did you mean `requires`?"),
-    (
-        "def a(mission):",
-        "Python stands in the package's hooks.py; here, a hook is only declared",
-    ),
+    ("def a(mission):", "Python stands in the package's hooks.py; here, a hook is only declared"),
     ("pluto 1", "`pluto 1` stands once, on the first line"),
 ]
 

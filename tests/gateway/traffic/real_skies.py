@@ -78,11 +78,7 @@ class RealSky(Sky):
     """Such drones behind a gateway; the others of the fleet stand in their docks."""
 
     def __init__(
-        self,
-        homes: list[Point],
-        places: dict[int, Point],
-        airspace: Airspace,
-        speed: float,
+        self, homes: list[Point], places: dict[int, Point], airspace: Airspace, speed: float
     ) -> None:
         category = replace(ENDURING, speed=speed * PACE)
         super().__init__(

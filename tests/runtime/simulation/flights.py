@@ -71,6 +71,19 @@ def fly(kernel: VirtualTime, coroutine: Coroutine[Any, Any, T]) -> T:
     return task.result()
 
 
+def at_home(faults: Faults | None = None, **given: Any) -> tuple[VirtualTime, Team]:
+    """Return a kernel in virtual time and the team in it."""
+    kernel = VirtualTime()
+    return kernel, team(kernel, faults, **given)
+
+
+def hovering(faults: Faults | None = None, **given: Any) -> tuple[VirtualTime, Team]:
+    """Return the same, with cf1 at its cruise height above its home, on its flight."""
+    kernel, navigation = at_home(faults, **given)
+    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    return kernel, navigation
+
+
 def failure(kernel: VirtualTime, coroutine: Coroutine[Any, Any, object]) -> FlightFailed:
     """Run a coroutine that must fail, and return how."""
     try:

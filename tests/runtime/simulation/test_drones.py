@@ -19,8 +19,10 @@ from tests.runtime.simulation.flights import (
     CLIMB,
     HOME,
     Team,
+    at_home,
     failure,
     fly,
+    hovering,
     order,
     team,
 )
@@ -47,8 +49,7 @@ def test_a_drone_begins_full_in_its_dock() -> None:
 
 def test_commands_return_when_they_are_done() -> None:
     """A climb at 0.3 m/s, five metres at the category's speed, and down again."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
+    kernel, navigation = at_home()
     telemetry = navigation.telemetry["cf1"]
     fly(kernel, navigation.takeoff("cf1", 1.2, order()))
     assert (kernel.now, telemetry.location, telemetry.landed) == (4, (1, 1, 1.2), False)
@@ -62,8 +63,7 @@ def test_commands_return_when_they_are_done() -> None:
 
 def test_a_drone_is_seen_between_two_places() -> None:
     """A look in the middle of a leg finds it there."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
+    kernel, navigation = at_home()
     fly(kernel, navigation.takeoff("cf1", 1.2, None))
     leg = kernel.spawn(navigation.go_to("cf1", (4, 5, 1.2)), FLEET, "leg")
     advance(kernel, 2.5)
@@ -74,8 +74,7 @@ def test_a_drone_is_seen_between_two_places() -> None:
 
 def test_a_battery_drains_in_the_air_and_charges_in_the_dock() -> None:
     """1/420 a second while it flies, 1/1200 at home, nothing elsewhere on the ground."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
+    kernel, navigation = at_home()
     telemetry = navigation.telemetry["cf1"]
 
     async def there() -> None:
@@ -144,8 +143,7 @@ def test_a_flight_takes_what_was_reckoned(stops: list[tuple[Point, str]]) -> Non
 
 def test_a_leg_is_one_event() -> None:
     """A day in the air costs as little as a second."""
-    kernel = VirtualTime()
-    navigation = team(kernel, category=Category(name="slow", speed=0.001, flight_time=1e6))
+    kernel, navigation = at_home(category=Category(name="slow", speed=0.001, flight_time=1e6))
 
     async def flight() -> int:
         await navigation.takeoff("cf1", 1.2, order())
@@ -159,8 +157,7 @@ def test_a_leg_is_one_event() -> None:
 
 def test_a_cancelled_drone_hovers_where_it_is() -> None:
     """Half-way is where it stays, draining, until it is told otherwise."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
+    kernel, navigation = at_home()
     telemetry = navigation.telemetry["cf1"]
     fly(kernel, navigation.takeoff("cf1", 1.2, order()))
     leg = kernel.spawn(navigation.go_to("cf1", (4, 5, 1.2)), FLEET, "leg")
@@ -177,8 +174,7 @@ def test_a_cancelled_drone_hovers_where_it_is() -> None:
 @pytest.mark.parametrize(("seconds", "height"), [(1.0, 0.3), (6.0, 0.6)])
 def test_climbs_and_landings_can_be_cancelled(seconds: float, height: float) -> None:
     """A drone that was on its way up or down hovers in between, and can still land."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
+    kernel, navigation = at_home()
 
     async def up_and_down() -> None:
         await navigation.takeoff("cf1", 1.2, order())
@@ -199,9 +195,7 @@ def test_climbs_and_landings_can_be_cancelled(seconds: float, height: float) -> 
 
 def test_a_cancelled_action_has_not_happened() -> None:
     """Nothing is picked by half."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    kernel, navigation = hovering()
     picking = kernel.spawn(navigation.act("cf1", "pick_item", {}, PILLS), FLEET, "pick")
     advance(kernel, 1.9)
     picking.cancel()
@@ -210,9 +204,7 @@ def test_a_cancelled_action_has_not_happened() -> None:
 
 def test_hovering_goes_on_until_it_is_cancelled() -> None:
     """Holding never returns by itself."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    kernel, navigation = hovering()
     hover = kernel.spawn(navigation.hold("cf1"), FLEET, "hover")
     advance(kernel, 300)
     assert not hover.is_set
@@ -222,9 +214,7 @@ def test_hovering_goes_on_until_it_is_cancelled() -> None:
 
 def test_sensors_show_the_world_where_the_drone_is() -> None:
     """Actions take their time, and give what is to be seen there."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    kernel, navigation = hovering()
     photo = fly(kernel, navigation.act("cf1", "take_photo", {}, None))
     assert isinstance(photo, Photo)
     assert photo.position == pytest.approx((1, 1, 1.2), abs=0.3)
@@ -238,9 +228,7 @@ def test_sensors_show_the_world_where_the_drone_is() -> None:
 
 def test_an_item_is_carried_from_pick_to_release() -> None:
     """Who carries what is known at any time."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    kernel, navigation = hovering()
     fly(kernel, navigation.act("cf1", "pick_item", {}, PILLS))
     assert navigation.carrying("cf1") is PILLS
     assert navigation.carrying("cf2") is None
@@ -270,9 +258,7 @@ def test_what_a_gripper_cannot_do_fails(
     before: Item | None, action: str, item: Item | None, reason: str
 ) -> None:
     """Picking twice, and releasing what is not there, fail the flight and say so."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    kernel, navigation = hovering()
     if before:
         fly(kernel, navigation.act("cf1", "pick_item", {}, before))
     error = failure(kernel, navigation.act("cf1", action, {}, item))
@@ -283,8 +269,7 @@ def test_what_a_gripper_cannot_do_fails(
 
 def test_a_drone_on_the_ground_refuses_to_fly_on() -> None:
     """It must take off first; landing again does nothing."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
+    kernel, navigation = at_home()
     for command in (
         navigation.go_to("cf1", (2, 2, 1)),
         navigation.act("cf1", "measure", {}, None),
@@ -299,17 +284,13 @@ def test_a_drone_on_the_ground_refuses_to_fly_on() -> None:
 
 def test_an_action_that_no_drone_has_is_refused() -> None:
     """The app's own actions are not navigation's."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    kernel, navigation = hovering()
     assert failure(kernel, navigation.act("cf1", "dance", {}, None)).failure is Failure.REFUSED
 
 
 def test_no_drone_is_commanded_twice_at_once() -> None:
     """Two commands at a time are a mistake of the caller, not a failed flight."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    kernel, navigation = hovering()
     kernel.spawn(navigation.hold("cf1"), FLEET, "hover")
     with pytest.raises(RuntimeError, match=r"cf1 was told to fly to \(2, 2\) while told to hover"):
         fly(kernel, navigation.go_to("cf1", (2, 2, 1)))
@@ -317,8 +298,7 @@ def test_no_drone_is_commanded_twice_at_once() -> None:
 
 def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
     """In any order of being told, the drone declared first comes first."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
+    kernel, navigation = at_home()
     arrived: list[str] = []
 
     async def rise(drone: str) -> None:

@@ -17,7 +17,18 @@ from plutoc_runtime.domain.model import Item, Point
 from plutoc_runtime.fleet.reach import docked
 from plutoc_runtime.time.kernel import FLEET
 from plutoc_runtime.time.virtual import VirtualTime
-from tests.runtime.simulation.flights import CLIMB, HOME, SCOUT, Team, failure, fly, order, team
+from tests.runtime.simulation.flights import (
+    CLIMB,
+    HOME,
+    SCOUT,
+    Team,
+    at_home,
+    failure,
+    fly,
+    hovering,
+    order,
+    team,
+)
 
 FAR = (4.0, 5.0, 1.2)
 PILLS = Item(name="pills", mass=0.004)
@@ -41,8 +52,7 @@ def place_at(seconds: float) -> Point:
 @given(st.integers(0, 500))
 def test_a_crash_comes_at_its_moment(seed: int) -> None:
     """The drone lies below where it was then, keeps its charge, and is lost."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(crash=1), seed=seed)
+    kernel, navigation = at_home(Faults(crash=1), seed=seed)
     moment = draw(Faults(crash=1), seed, order()).crash
     assert moment is not None
     error = failure(kernel, flight(navigation))
@@ -64,8 +74,7 @@ def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
     late: float, seed: int
 ) -> None:
     """A command is on its way for a while: what is drawn comes so long after the drone has left."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(link=1), seed=seed)
+    kernel, navigation = at_home(Faults(link=1), seed=seed)
     drawn = draw(Faults(link=1), seed, order()).link
     assert drawn is not None
     navigation.bodies["cf1"].begin(draw(Faults(link=1), seed, order()), kernel.now)
@@ -86,8 +95,7 @@ def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
 
 def test_a_drone_that_fails_as_it_leaves_the_ground_stays_there() -> None:
     """With nothing in its battery it does not rise, and it is not taken to be up there."""
-    kernel = VirtualTime()
-    navigation = team(kernel, battery_level=0.0)
+    kernel, navigation = at_home(battery_level=0.0)
     error = failure(kernel, navigation.takeoff("cf1", 1.2, order()))
     telemetry = navigation.telemetry["cf1"]
     assert error.failure is Failure.BATTERY
@@ -112,8 +120,7 @@ def test_a_failure_says_what_who_and_where(faults: Faults, sentence: str) -> Non
 
 def test_a_crash_loses_the_item() -> None:
     """What was aboard is gone."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(crash=1))
+    kernel, navigation = at_home(Faults(crash=1))
 
     async def carry() -> None:
         await navigation.takeoff("cf1", 1.2, None)
@@ -127,8 +134,7 @@ def test_a_crash_loses_the_item() -> None:
 
 def test_a_lost_link_brings_the_drone_down_by_itself() -> None:
     """It lands below where it was, takes no commands, and flies home when the link is back."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(link=1), seed=2)
+    kernel, navigation = at_home(Faults(link=1), seed=2)
     telemetry = navigation.telemetry["cf1"]
     error = failure(kernel, flight(navigation))
     moment, (x, y, z) = kernel.now, telemetry.location
@@ -167,8 +173,7 @@ def test_the_outage_counts_from_the_loss_and_ends_on_the_ground() -> None:
 
 def test_an_empty_battery_is_noticed_at_that_moment() -> None:
     """With a hundredth left it flies for 4.2 s and no longer; a person carries it home."""
-    kernel = VirtualTime()
-    navigation = team(kernel, battery_level=0.01)
+    kernel, navigation = at_home(battery_level=0.01)
     telemetry = navigation.telemetry["cf1"]
     error = failure(kernel, flight(navigation))
     assert error.failure is Failure.BATTERY
@@ -186,8 +191,7 @@ def test_an_empty_battery_is_noticed_at_that_moment() -> None:
 
 def test_a_drawn_empty_battery_is_empty() -> None:
     """A battery that fails has nothing left."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(battery=1))
+    kernel, navigation = at_home(Faults(battery=1))
     assert failure(kernel, flight(navigation)).failure is Failure.BATTERY
     assert navigation.telemetry["cf1"].battery_level == 0
 
@@ -206,9 +210,7 @@ def test_a_battery_may_run_out_during_the_failsafe_landing() -> None:
 
 def test_a_mishap_comes_even_without_commands() -> None:
     """A drone that was left hovering falls when its battery is empty, and says so later."""
-    kernel = VirtualTime()
-    navigation = team(kernel, battery_level=0.02)
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    kernel, navigation = hovering(battery_level=0.02)
     fly(kernel, kernel.sleep(1000))
     telemetry = navigation.telemetry["cf1"]
     assert telemetry.location == HOME
@@ -218,8 +220,7 @@ def test_a_mishap_comes_even_without_commands() -> None:
 
 def test_a_failed_action_took_its_time() -> None:
     """The drone is well, hovers, and flies home when it is recovered."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(action=1))
+    kernel, navigation = at_home(Faults(action=1))
     assert failure(kernel, flight(navigation)).failure is Failure.ACTION
     assert kernel.now == pytest.approx(CLIMB + 10 + 1)
     assert not navigation.telemetry["cf1"].landed
@@ -230,9 +231,7 @@ def test_a_failed_action_took_its_time() -> None:
 
 def test_a_failed_action_of_the_apps_own_fails_at_once() -> None:
     """Hovering for it is refused; nothing was picked by an action that failed."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(action=1))
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    kernel, navigation = hovering(Faults(action=1))
     error = failure(kernel, navigation.hold("cf1"))
     assert str(error) == "the action failed: cf1 could not do it at (1, 1)"
     assert kernel.now == CLIMB
@@ -242,8 +241,7 @@ def test_a_failed_action_of_the_apps_own_fails_at_once() -> None:
 
 def test_what_goes_wrong_ends_with_the_landing() -> None:
     """The next flight, without an order, goes well; so does the rest of one that is on its way."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(crash=1, action=1))
+    kernel, navigation = at_home(Faults(crash=1, action=1))
     drawn = draw(Faults(crash=1, action=1), 1, order(seconds=9999))
     assert drawn.crash is not None
     assert drawn.crash > 100
@@ -263,8 +261,7 @@ def test_what_goes_wrong_ends_with_the_landing() -> None:
 
 def test_a_new_order_in_the_air_draws_anew() -> None:
     """A drone that flies on to another trip does not rise, but can crash on that trip."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(crash=1))
+    kernel, navigation = at_home(Faults(crash=1))
     fly(kernel, navigation.takeoff("cf1", 1.2, None))
     fly(kernel, kernel.sleep(50))
     fly(kernel, navigation.takeoff("cf1", 1.2, order("x/y/0/2", seconds=8)))
@@ -279,8 +276,7 @@ def test_a_new_order_in_the_air_draws_anew() -> None:
 def test_recovery_flies_around_what_may_not_be_entered() -> None:
     """The way home after a failed action is the map's."""
     airspace = Airspace(no_fly=(((2, 0), (2.5, 0), (2.5, 5), (2, 5)),))
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(action=1), airspace=airspace)
+    kernel, navigation = at_home(Faults(action=1), airspace=airspace)
 
     async def around() -> None:
         await navigation.takeoff("cf1", 1.2, order())
@@ -298,8 +294,7 @@ def test_recovery_flies_around_what_may_not_be_entered() -> None:
 def test_a_drone_without_a_way_home_is_fetched() -> None:
     """It stays where it is, and a person carries it."""
     airspace = Airspace(no_fly=(((2, 0), (2.5, 0), (2.5, 20), (2, 20)),))
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(action=1), airspace=airspace)
+    kernel, navigation = at_home(Faults(action=1), airspace=airspace)
     failure(kernel, flight(navigation))  # a test may fly where no drone may
     begun = kernel.now
     assert fly(kernel, navigation.recover("cf1"))
@@ -309,8 +304,7 @@ def test_a_drone_without_a_way_home_is_fetched() -> None:
 
 def test_a_battery_that_ends_on_the_way_home_is_carried_there() -> None:
     """Recovery always ends at home, unless the drone crashed."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(action=1), battery_level=18 / 420)
+    kernel, navigation = at_home(Faults(action=1), battery_level=18 / 420)
     assert failure(kernel, flight(navigation)).failure is Failure.ACTION
     assert fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(18 + 300)
@@ -319,8 +313,7 @@ def test_a_battery_that_ends_on_the_way_home_is_carried_there() -> None:
 
 def test_recovery_takes_off_what_is_still_aboard() -> None:
     """The person at home has the item; the next mission finds it empty."""
-    kernel = VirtualTime()
-    navigation = team(kernel)
+    kernel, navigation = at_home()
 
     async def aborted() -> None:
         await navigation.takeoff("cf1", 1.2, None)
@@ -340,8 +333,7 @@ def test_a_drone_that_is_well_and_at_home_is_recovered_at_once() -> None:
 
 def test_a_cancelled_recovery_can_be_asked_for_again() -> None:
     """Half-way home the drone hovers; asked again, it comes."""
-    kernel = VirtualTime()
-    navigation = team(kernel, Faults(action=1))
+    kernel, navigation = at_home(Faults(action=1))
     failure(kernel, flight(navigation))
     recovery = kernel.spawn(navigation.recover("cf1"), FLEET, "recovery")
     fly(kernel, kernel.sleep(5))

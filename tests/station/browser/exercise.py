@@ -44,12 +44,13 @@ DONE = {("pick_item", "Mission 3/1/0"): 1, ("release_item", "Mission 3/2/0"): 1}
 """What the simulated world has seen of it that must not be done twice; trips are named by number."""
 
 
-def put_in(station: Station) -> None:
-    """Give a station the whole plan, behind the page's back."""
+def put_in(station: Station) -> Station:
+    """Give a station the whole plan, behind the page's back; return it."""
     revision = station.get("/api/plan")["revision"]
     status, answer = station.put("/api/plan", {"revision": revision, "missions": missions()})
     assert status == 200, answer
     assert answer["problems"] == []
+    return station
 
 
 def missions() -> list[dict[str, Any]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.station.browser.exercise import PLAN, Place
 
@@ -12,6 +12,9 @@ A_FLIGHT = 120_000
 """Milliseconds until a flight that does not end is called a failure."""
 
 ADD_MISSION = re.compile("^Add (the first )?mission$")
+
+ANOTHER_WAS_QUICKER = "409 (Conflict)"
+"""A page that is told so draws on top of that; a browser calls the answer an error."""
 
 DRAWN = "() => new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)))"
 
@@ -117,3 +120,17 @@ def labels(page: Page) -> set[str]:
     """Return what the fields that are seen are called."""
     panel = page.get_by_role("tabpanel")
     return {text.strip() for text in panel.locator("label:visible").all_inner_texts()}
+
+
+def holding_the_first(page: Page) -> list[Route]:
+    """Keep the first change of the plan that is sent on its way, until the test lets it go on."""
+    held: list[Route] = []
+
+    def hold(route: Route) -> None:
+        if held or route.request.method != "PUT":
+            route.fallback()
+        else:
+            held.append(route)
+
+    page.route("**/api/plan", hold)
+    return held

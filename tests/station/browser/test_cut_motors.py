@@ -32,8 +32,7 @@ STUCK = """
 @pytest.fixture
 def aloft(serve: Serve, visit: Visit) -> Iterator[tuple[Station, Page, Locator]]:
     """A slow flight, and the button that drops the first drone that is in the air."""
-    station = serve("drugs_distribution", "--speed", "1")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--speed", "1"))
     page = visit(station)
     start(page)
     open_page(page, "Monitor")

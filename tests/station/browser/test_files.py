@@ -49,8 +49,7 @@ def test_a_file_that_is_no_plan_is_refused_with_its_lines_and_nothing_changes(
     serve: Serve, visit: Visit, watch: Watch, tmp_path: Path
 ) -> None:
     watch.expected += ["400"]
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     before = station.get("/api/plan")
     page = visit(station)
     wrong = tmp_path / "wrong.toml"

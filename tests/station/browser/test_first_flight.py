@@ -66,8 +66,7 @@ def test_three_missions_are_drawn_by_drag_and_drop_and_flown_to_their_end(
 def test_drones_that_are_called_home_in_mid_flight_go_on_where_they_were(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     page = visit(station)
     start(page)
     until(lambda: ("pick_item", "Mission 3/1/0") in station.done(), "the pills are picked")

@@ -23,8 +23,7 @@ from tests.station.browser.steps import (
 def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     page = visit(station)
     start(page)
     expect(page.get_by_role("table", name="Missions")).to_be_visible()  # it leads to the Monitor
@@ -40,8 +39,7 @@ def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
 def test_a_start_that_is_answered_late_does_not_take_one_away_from_where_one_has_gone(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     page = visit(station)
     held: list[Route] = []
     page.route("**/api/start", lambda route: held.append(route))
@@ -58,8 +56,7 @@ def test_a_start_that_is_answered_late_does_not_take_one_away_from_where_one_has
 def test_the_whole_plan_flies_again_when_all_has_ended_and_nothing_old_is_shown(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     page = visit(station)
     start(page)
     until(lambda: station.phase == "over", "the first flight is over")
@@ -74,8 +71,7 @@ def test_the_whole_plan_flies_again_when_all_has_ended_and_nothing_old_is_shown(
 @pytest.mark.long  # whole flights, as in tests/station/flights/test_again.py
 def test_what_was_stopped_is_put_away_and_the_plan_begins_anew(serve: Serve, visit: Visit) -> None:
     """Its missions can be changed again."""
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     page = visit(station)
     start(page)
     until(lambda: station.phase == "flying", "it flies")
@@ -92,8 +88,7 @@ def test_what_was_stopped_is_put_away_and_the_plan_begins_anew(serve: Serve, vis
 
 @pytest.mark.long  # a slow flight; test_first_flight.py calls drones home
 def test_landing_now_is_heard_while_all_fly_home(serve: Serve, visit: Visit) -> None:
-    station = serve("drugs_distribution", "--speed", "5")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--speed", "5"))
     page = visit(station)
     start(page)
     until(lambda: any(one["x"] > 6 for one in station.now()["drones"]), "one is far away")

@@ -86,8 +86,7 @@ def elsewhere() -> Iterator[int]:
 @pytest.fixture
 def station(serve: Serve) -> Station:
     """A station whose missions fly, slowly."""
-    station = serve("drugs_distribution", "--speed", "1")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--speed", "1"))
     assert station.post("/api/start", {"id": "start"})[0] == 200
     until(lambda: station.phase == "flying", "the missions fly")
     return station

@@ -21,9 +21,7 @@ from tests.station.browser.watched import Watch
 @pytest.fixture
 def station(serve: Serve) -> Station:
     """A station with the exercise's plan."""
-    station = serve("drugs_distribution")
-    put_in(station)
-    return station
+    return put_in(serve("drugs_distribution"))
 
 
 @pytest.fixture
@@ -39,9 +37,17 @@ def lost(page: Page) -> Locator:
     return page.get_by_role("alert").filter(has_text="Connection lost")
 
 
-def is_carried(station: Station) -> bool:
-    """Whether the pills have been picked: the flight is in its middle."""
-    return ("pick_item", "Mission 3/1/0") in station.done()
+def flies_until_the_pills_are_picked(page: Page, station: Station) -> None:
+    """Start, and wait until the flight is in its middle."""
+    start(page)
+    until(lambda: ("pick_item", "Mission 3/1/0") in station.done(), "the pills are picked")
+
+
+def completes_all_once(page: Page, station: Station) -> None:
+    """Watch all missions to their end; nothing was done twice."""
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE
 
 
 @pytest.mark.long  # a whole flight once more
@@ -49,14 +55,11 @@ def test_a_browser_that_is_closed_changes_nothing_and_another_one_sees_the_fligh
     station: Station, visit: Visit
 ) -> None:
     page = visit(station)
-    start(page)
-    until(lambda: is_carried(station), "the pills are picked")
+    flies_until_the_pills_are_picked(page, station)
     page.context.close()
     again = visit(station)
     open_page(again, "Monitor")
-    sees_all(again, "Completed")
-    assert station.statuses() == COMPLETED
-    assert station.done() == DONE
+    completes_all_once(again, station)
 
 
 def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_itself(
@@ -64,8 +67,7 @@ def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_i
 ) -> None:
     watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
     page = visit(station, port=cable.port)
-    start(page)
-    until(lambda: is_carried(station), "the pills are picked")
+    flies_until_the_pills_are_picked(page, station)
     cable.cut()
     expect(lost(page)).to_be_visible()
     cable.mend()
@@ -73,9 +75,7 @@ def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_i
     cable.hush()
     expect(lost(page)).to_be_visible()
     cable.mend()
-    sees_all(page, "Completed")
-    assert station.statuses() == COMPLETED
-    assert station.done() == DONE
+    completes_all_once(page, station)
 
 
 def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
@@ -83,8 +83,7 @@ def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
 ) -> None:
     watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
     page = visit(station)
-    start(page)
-    until(lambda: is_carried(station), "the pills are picked")
+    flies_until_the_pills_are_picked(page, station)
     station.kill()
     expect(lost(page)).to_be_visible()
     station.start()
@@ -92,9 +91,7 @@ def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
     expect(resume).to_be_visible()
     assert station.phase == "interrupted"  # it launches nothing by itself
     resume.click()
-    sees_all(page, "Completed")
-    assert station.statuses() == COMPLETED
-    assert station.done() == DONE
+    completes_all_once(page, station)
 
 
 @pytest.mark.long  # a whole flight once more
@@ -102,15 +99,11 @@ def test_a_server_that_is_supervised_goes_on_by_itself(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
     watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
-    station = serve("drugs_distribution", "--supervise")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--supervise"))
     page = visit(station)
-    start(page)
-    until(lambda: is_carried(station), "the pills are picked")
+    flies_until_the_pills_are_picked(page, station)
     os.kill(brain_of(station.pid), signal.SIGKILL)
-    sees_all(page, "Completed")
-    assert station.statuses() == COMPLETED
-    assert station.done() == DONE
+    completes_all_once(page, station)
 
 
 def brain_of(supervisor: int) -> int:

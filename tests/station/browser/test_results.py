@@ -16,8 +16,7 @@ from tests.station.browser.test_monitor import FIELD, panel
 def test_a_measurement_is_listed_with_what_where_when_and_for_whom(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution", "--speed", "60")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--speed", "60"))
     page = visit(station)
     start(page)
     panel(page, "Results").get_by_role("button", name="Measurements").click()

@@ -12,8 +12,10 @@ from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import COMPLETED, DONE, put_in
 from tests.station.browser.serving import Station, until
 from tests.station.browser.steps import (
+    ANOTHER_WAS_QUICKER,
     add_mission,
     drag,
+    holding_the_first,
     missions_listed,
     open_page,
     row_of,
@@ -21,10 +23,6 @@ from tests.station.browser.steps import (
     start,
 )
 from tests.station.browser.watched import Watch
-
-# A page that is told that another was quicker draws on top of that: a browser calls the answer an
-# error.
-ANOTHER_WAS_QUICKER = "409 (Conflict)"
 
 
 def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit, watch: Watch) -> None:
@@ -46,15 +44,7 @@ def test_what_two_draw_in_one_moment_is_kept_of_both(
     watch.expected.append(ANOTHER_WAS_QUICKER)
     station = serve("drugs_distribution")
     one, other = visit(station), visit(station)
-    held: list[Route] = []
-
-    def hold_the_first(route: Route) -> None:
-        if held or route.request.method != "PUT":
-            route.fallback()
-        else:
-            held.append(route)
-
-    one.route("**/api/plan", hold_the_first)
+    held = holding_the_first(one)
     with one.expect_request(lambda request: request.method == "PUT"):
         add_mission(one, "From here")
     add_mission(other, "From there")
@@ -76,8 +66,7 @@ def _names(station: Station) -> list[str]:
 def test_two_who_press_start_at_once_start_once_and_see_the_same(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution", "--speed", "60")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--speed", "60"))
     one, other = visit(station), visit(station)
     held: list[Route] = []
     for page in (one, other):
@@ -97,8 +86,7 @@ def test_two_who_press_start_at_once_start_once_and_see_the_same(
 
 def test_many_starts_in_one_moment_start_once(serve: Serve) -> None:
     """Each with an id of its own: as from so many browsers."""
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     with ThreadPoolExecutor(8) as browsers:
         answers = list(
             browsers.map(lambda n: station.post("/api/start", {"id": f"start-{n}"}), range(8))
@@ -113,8 +101,7 @@ def test_many_starts_in_one_moment_start_once(serve: Serve) -> None:
 def test_a_mission_that_one_pauses_is_paused_for_the_other_who_lets_it_go_on(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     one, other = visit(station), visit(station)
     start(one)
     open_page(other, "Monitor")

@@ -34,8 +34,7 @@ def test_without_the_token_one_sees_where_to_find_it_and_can_paste_the_whole_add
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
     watch.expected += ["401"]
-    station = serve("drugs_distribution", "--name", "ward.example")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--name", "ward.example"))
     page = visit(station, path="/")
     expect(page.get_by_role("heading")).to_contain_text("token")
     expect(page.get_by_text("Mission 1")).to_have_count(0)
@@ -53,8 +52,7 @@ def test_one_browser_is_told_the_token_once_until_it_is_told_to_forget_it(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
     """Another tab knows it, and so does one that was opened after all were closed; no cookie does."""
-    station = serve("drugs_distribution", "--name", "ward.example")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--name", "ward.example"))
     first = visit(station)
     expect(missions_listed(first)).to_have_count(3)
     context = first.context
@@ -78,8 +76,7 @@ def test_a_token_that_is_forgotten_or_replaced_elsewhere_leaves_no_page_whose_st
 ) -> None:
     """A page that is open keeps its own; if that is forgotten, it is closed, too."""
     watch.expected += ["401"]
-    station = serve("drugs_distribution", "--name", "ward.example", "--speed", "2")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--name", "ward.example", "--speed", "2"))
     one = visit(station)
     another = one.context.new_page()
     another.goto(f"http://127.0.0.1:{station.port}/#token=wrong")

@@ -95,8 +95,7 @@ def test_page_and_world_agree_on_each_drone_after_every_end_and_every_new_start(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
     watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
-    station = serve("drugs_distribution", "--speed", "8")
-    put_in(station)
+    station = put_in(serve("drugs_distribution", "--speed", "8"))
     page = visit(station)
     start(page)
     open_page(page, "Monitor")
@@ -182,8 +181,7 @@ def gateway_of(station: Station) -> int:
 
 
 def test_with_every_drone_lost_no_start_is_offered(serve: Serve, visit: Visit) -> None:
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     station.end()
     fallen = {f"cf{n}": {"reason": "it fell", "at": None} for n in range(1, 5)}
     known = {"lost": fallen, "mended": [], "retired": []}

@@ -11,10 +11,14 @@ from playwright.sync_api import Locator, Page, Route, expect
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import put_in
 from tests.station.browser.serving import Station, until
-from tests.station.browser.steps import card_of, open_page, select_mission
+from tests.station.browser.steps import (
+    ANOTHER_WAS_QUICKER,
+    card_of,
+    holding_the_first,
+    open_page,
+    select_mission,
+)
 from tests.station.browser.watched import Watch
-
-ANOTHER_WAS_QUICKER = "409 (Conflict)"
 
 
 @pytest.fixture
@@ -24,6 +28,17 @@ def planned(ward: Station) -> Station:
     assert ward.put("/api/plan", {"revision": revision, "missions": []})[0] == 200
     put_in(ward)
     return ward
+
+
+Two = tuple[Page, Page, list[Route]]
+
+
+@pytest.fixture
+def two(planned: Station, visit: Visit, watch: Watch) -> Two:
+    """Two pages of it, and the other one's first change, which is held on its way."""
+    watch.expected.append(ANOTHER_WAS_QUICKER)
+    one, other = visit(planned), visit(planned)
+    return one, other, holding_the_first(other)
 
 
 def opened(page: Page, mission: str, trip: int) -> Locator:
@@ -45,20 +60,6 @@ def target(station: Station, mission: int, trip: int) -> list[float]:
 def told(page: Page) -> Locator:
     """Return what stands beside Start."""
     return page.locator("#why")
-
-
-def holding_the_first(page: Page) -> list[Route]:
-    """Keep the first change that is sent on its way, until the test lets it go on."""
-    held: list[Route] = []
-
-    def hold(route: Route) -> None:
-        if held or route.request.method != "PUT":
-            route.fallback()
-        else:
-            held.append(route)
-
-    page.route("**/api/plan", hold)
-    return held
 
 
 def go_on(page: Page, held: list[Route]) -> None:
@@ -150,11 +151,9 @@ def test_a_height_that_cannot_be_flown_is_marked_itself_and_not_the_place_below(
 
 
 def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
-    planned: Station, visit: Visit, watch: Watch
+    planned: Station, two: Two
 ) -> None:
-    watch.expected.append(ANOTHER_WAS_QUICKER)
-    one, other = visit(planned), visit(planned)
-    held = holding_the_first(other)
+    one, other, held = two
     for page in (one, other):
         select_mission(page, "Mission 2")
     with other.expect_request(lambda request: request.method == "PUT"):
@@ -176,11 +175,9 @@ def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
 
 
 def test_two_who_move_one_trip_along_x_and_along_y_both_find_it_there(
-    planned: Station, visit: Visit, watch: Watch
+    planned: Station, two: Two
 ) -> None:
-    watch.expected.append(ANOTHER_WAS_QUICKER)
-    one, other = visit(planned), visit(planned)
-    held = holding_the_first(other)
+    one, other, held = two
     x, y = (
         opened(one, "Mission 2", 1).get_by_label("x (m)"),
         opened(other, "Mission 2", 1).get_by_label("y (m)"),
@@ -197,11 +194,9 @@ def test_two_who_move_one_trip_along_x_and_along_y_both_find_it_there(
 
 
 def test_who_writes_into_a_mission_that_another_one_deletes_is_told(
-    planned: Station, visit: Visit, watch: Watch
+    planned: Station, two: Two
 ) -> None:
-    watch.expected.append(ANOTHER_WAS_QUICKER)
-    one, other = visit(planned), visit(planned)
-    held = holding_the_first(other)
+    one, other, held = two
     for page in (one, other):
         select_mission(page, "Mission 2")
     with other.expect_request(lambda request: request.method == "PUT"):
@@ -217,8 +212,7 @@ def test_who_types_into_a_mission_that_another_one_starts_is_told(
 ) -> None:
     """All that is drawn is there already, but what was typed is not."""
     watch.expected.append(ANOTHER_WAS_QUICKER)
-    station = serve("drugs_distribution")
-    put_in(station)
+    station = put_in(serve("drugs_distribution"))
     page = visit(station)
     held = holding_the_first(page)
     select_mission(page, "Mission 2")
@@ -234,12 +228,8 @@ def test_who_types_into_a_mission_that_another_one_starts_is_told(
     expect(name).to_have_value("Mission 2")
 
 
-def test_one_who_changes_another_field_hears_nothing(
-    planned: Station, visit: Visit, watch: Watch
-) -> None:
-    watch.expected.append(ANOTHER_WAS_QUICKER)
-    one, other = visit(planned), visit(planned)
-    held = holding_the_first(other)
+def test_one_who_changes_another_field_hears_nothing(planned: Station, two: Two) -> None:
+    one, other, held = two
     select_mission(one, "Mission 1")
     select_mission(other, "Mission 2")
     with other.expect_request(lambda request: request.method == "PUT"):

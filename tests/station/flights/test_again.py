@@ -9,7 +9,7 @@ from typing import Any
 from pluto_fleet.journal.lock import holder
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
-from tests.station.flights.test_flights import comes_to, flies, refused, tell
+from tests.station.flights.test_flights import comes_to, flies, flying, refused, tell
 
 
 def ends(station: Station) -> dict[str, Any]:
@@ -25,9 +25,7 @@ def test_what_was_not_completed_flies_again_alone_also_after_a_crash_of_the_stat
     serve: Serve,
 ) -> None:
     """Nothing is flown twice but what a person chose, and then from its beginning."""
-    station = serve("drugs_distribution", "--speed", "60")
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve("drugs_distribution", "--speed", "60"))
     one = key_of(station, "Mission 1")
     assert "belongs to the flight that is under way" in refused(station, "start", missions=[one])[1]
     tell(station, "cancel", mission="Mission 1")
@@ -50,9 +48,7 @@ def test_what_was_not_completed_flies_again_alone_also_after_a_crash_of_the_stat
 def test_no_start_flies_beside_or_again_what_a_command_goes_on_with(
     serve: Serve,
 ) -> None:
-    station = serve("drugs_distribution", "--speed", "20")
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve("drugs_distribution", "--speed", "20"))
     station.kill()
     (journal,) = station.journals()
     words = [os.fspath(station.app.program), "resume", os.fspath(journal)]
@@ -80,7 +76,7 @@ def test_of_what_was_put_away_the_next_start_leaves_out_what_was_completed(serve
     assert set(ends(station).values()) == {"COMPLETED", "BROKEN_OFF"}
     said = tell(station, "start")
     assert said.startswith(f"{3 - len(done)} mission")
-    until(flies(station), "something flies")
+    flies(station)
     assert not {*done} & {*station.statuses()}
     wrong = refused(station, "start", missions=["Mission 1"])[1]
     assert wrong.startswith('no mission of the plan has the key "Mission 1"')

@@ -17,7 +17,7 @@ from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.reader import Reader
 from tests.station.browser.serving import PATIENCE, Station, until
 from tests.station.flights.conftest import Serve
-from tests.station.flights.test_flights import comes_to, events, flies, refused, tell
+from tests.station.flights.test_flights import comes_to, events, flying, refused, tell
 from tests.station.world import disagreements, truth
 
 
@@ -103,8 +103,7 @@ def test_after_each_end_drones_are_shown_where_they_lie_before_and_after_a_resum
 
 def loses_one(station: Station) -> str:
     """Cut the motors of a drone in flight, see the flight to its end, and say which one it was."""
-    tell(station, "start")
-    until(flies(station), "something flies")
+    flying(station)
     who = str(events(station, "trip.launched")[0]["drone"])
     tell(station, "cut-motors", drone=who)
     comes_to(station, "over")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
 from itertools import count
@@ -54,14 +53,27 @@ def row(station: Station, mission: str) -> dict[str, Any]:
     return next(row for row in station.now()["missions"] if row["name"] == mission)
 
 
-def flies(station: Station) -> Callable[[], bool]:
-    return lambda: len(events(station, "trip.launched")) > 0
+def flies(station: Station) -> None:
+    until(lambda: len(events(station, "trip.launched")) > 0, "something flies")
+
+
+def flying(station: Station) -> Station:
+    """Start the whole plan, and wait until something flies."""
+    tell(station, "start")
+    flies(station)
+    return station
 
 
 def each_trip_was_done_once(station: Station) -> bool:
     done = [(e["mission"], e["trip"], e["round"]) for e in events(station, "trip.completed")]
     twice_in_the_world = [deed for deed, times in station.done().items() if times > 1]
     return len(done) == len(set(done)) and not twice_in_the_world
+
+
+def completes_all_once(station: Station) -> None:
+    comes_to(station, "over")
+    assert set(station.statuses().values()) == {"COMPLETED"}
+    assert each_trip_was_done_once(station)
 
 
 def test_missions_fly_to_their_end_and_can_be_flown_once_more(serve: Serve) -> None:
@@ -85,9 +97,7 @@ def test_two_starts_start_once(serve: Serve) -> None:
 
 
 def test_a_command_that_is_repeated_under_its_name_is_carried_out_once(serve: Serve) -> None:
-    station = serve()
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve())
     skip: dict[str, object] = {"id": "the-same", "mission": "Mission 1", "trip": "C"}
     first, again = station.post("/api/skip", skip), station.post("/api/skip", skip)
     assert first == again
@@ -98,25 +108,21 @@ def test_a_command_that_is_repeated_under_its_name_is_carried_out_once(serve: Se
 def test_all_fly_home_by_a_stop_and_go_on_where_they_were(serve: Serve) -> None:
     station = serve()
     homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
-    tell(station, "start")
-    until(flies(station), "something flies")
+    flying(station)
     assert tell(station, "stop", how="rtl") == "stopping: all drones fly home and land"
     comes_to(station, "stopped")
     for drone in station.now()["drones"]:
         assert [drone["x"], drone["y"], drone["z"]] == homes[drone["id"]]
     assert refused(station, "start")[1].startswith("the last flight has not ended")
     assert tell(station, "resume") == "going on where it was"
-    comes_to(station, "over")
-    assert set(station.statuses().values()) == {"COMPLETED"}
-    assert each_trip_was_done_once(station)
+    completes_all_once(station)
 
 
 def test_motors_are_cut_one_drone_at_a_time_and_the_others_finish(serve: Serve) -> None:
     """The flight fails, the drone is lost until it is brought back, all others go on."""
     station = serve()
     assert refused(station, "cut-motors", drone="cf1") == (409, "nothing flies")
-    tell(station, "start")
-    until(flies(station), "something flies")
+    flying(station)
     who = events(station, "trip.launched")[0]["drone"]
     assert tell(station, "cut-motors", drone=who) == f"the motors of {who} are cut"
     until(lambda: any(e["drone"] == who for e in events(station, "drone.lost")), "it is lost")
@@ -131,9 +137,7 @@ def test_motors_are_cut_one_drone_at_a_time_and_the_others_finish(serve: Serve) 
 def test_a_killed_station_shows_what_was_interrupted_and_flies_nothing_before_it_is_told(
     serve: Serve,
 ) -> None:
-    station = serve()
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve())
     assert station.post("/api/retire", {"id": "before", "drone": "cf4"})[0] == 200
     station.kill()
     station.start()
@@ -147,15 +151,11 @@ def test_a_killed_station_shows_what_was_interrupted_and_flies_nothing_before_it
     )
     assert len(events(station, "trip.launched")) == launched
     tell(station, "resume")
-    comes_to(station, "over")
-    assert set(station.statuses().values()) == {"COMPLETED"}
-    assert each_trip_was_done_once(station)
+    completes_all_once(station)
 
 
 def test_what_was_interrupted_can_be_put_away_and_something_else_flown(serve: Serve) -> None:
-    station = serve()
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve())
     station.kill()
     station.start()
     assert tell(station, "discard") == "put away; its journal is kept"
@@ -168,9 +168,7 @@ def test_what_was_interrupted_can_be_put_away_and_something_else_flown(serve: Se
 
 
 def test_ctrl_c_lands_all_drones_and_the_next_station_goes_on(serve: Serve) -> None:
-    station = serve()
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve())
     station.end()
     assert "stopping: the drones land where they are" in station.said()
     assert events(station, "stopped")[0]["how"] == "land"
@@ -182,9 +180,7 @@ def test_ctrl_c_lands_all_drones_and_the_next_station_goes_on(serve: Serve) -> N
 
 
 def test_a_supervised_station_goes_on_by_itself_when_it_is_killed(serve: Serve) -> None:
-    station = serve("drugs_distribution", "--supervise")
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve("drugs_distribution", "--supervise"))
     before = station.get("/api/app")["server"]
     serving = int((station.folder / "station" / "lock").read_text())
     assert serving != station.pid
@@ -197,9 +193,7 @@ def test_a_supervised_station_goes_on_by_itself_when_it_is_killed(serve: Serve) 
             return False
 
     until(is_another, "another process serves")
-    comes_to(station, "over")
-    assert set(station.statuses().values()) == {"COMPLETED"}
-    assert each_trip_was_done_once(station)
+    completes_all_once(station)
 
 
 def test_missions_that_were_drawn_meanwhile_set_out_beside_those_that_fly(serve: Serve) -> None:
@@ -213,7 +207,7 @@ def test_missions_that_were_drawn_meanwhile_set_out_beside_those_that_fly(serve:
     }
     drawn = {"revision": plan["revision"], "missions": [*plan["missions"], added]}
     assert station.put("/api/plan", drawn)[0] == 200
-    until(flies(station), "something flies")
+    flies(station)
     assert tell(station, "start") == "1 mission started"
     comes_to(station, "over")
     assert station.statuses()["More"] == "COMPLETED"
@@ -223,16 +217,12 @@ def test_missions_that_were_drawn_meanwhile_set_out_beside_those_that_fly(serve:
 def test_a_priority_can_be_changed_while_missions_fly_and_only_in_apps_that_have_one(
     serve: Serve,
 ) -> None:
-    station = serve("drugs_distribution_retry")
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve("drugs_distribution_retry"))
     waiting = next(r for r in station.now()["missions"] if r["current"] is not None)
     trip = waiting["trips"][-1][0]
     tell(station, "prioritise", mission=waiting["name"], trip=trip, priority=7)
     assert row(station, waiting["name"])["trips"][-1][4] == 7
-    without = serve()
-    tell(without, "start")
-    until(flies(without), "something flies")
+    without = flying(serve())
     given = {"mission": "Mission 1", "trip": "A", "priority": 7}
     assert refused(without, "prioritise", **given) == (
         409,
@@ -257,9 +247,7 @@ def test_a_port_that_is_taken_is_said_so(serve: Serve, tmp_path: Any) -> None:
 
 
 def test_a_flight_over_another_map_is_not_drawn_over_this_one(serve: Serve, tmp_path: Any) -> None:
-    station = serve()
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve())
     station.end()
     app = station.app
     fleet = tmp_path / "fleet.toml"
@@ -276,9 +264,7 @@ def test_a_flight_over_another_map_is_not_drawn_over_this_one(serve: Serve, tmp_
 
 
 def test_what_was_gone_on_with_elsewhere_cannot_be_put_away(serve: Serve) -> None:
-    station = serve()
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve())
     tell(station, "stop", how="land")
     comes_to(station, "stopped")
     elsewhere = Lock.take(station.journals()[0])
@@ -291,9 +277,7 @@ def test_what_was_gone_on_with_elsewhere_cannot_be_put_away(serve: Serve) -> Non
 
 
 def test_the_clock_does_not_go_back_when_all_drones_are_down(serve: Serve) -> None:
-    station = serve()
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve())
     tell(station, "stop", how="rtl")
     times = [station.now()["state"]["time"]]
 
@@ -319,9 +303,7 @@ def test_no_other_user_may_look_into_the_folder_of_a_station(serve: Serve) -> No
 
 
 def test_what_could_not_be_written_down_is_not_shown_to_have_happened(serve: Serve) -> None:
-    station = serve("drugs_distribution", "--speed", "10")
-    tell(station, "start")
-    until(flies(station), "something flies")
+    station = flying(serve("drugs_distribution", "--speed", "10"))
     prlimit(station.pid, RLIMIT_FSIZE, (60_000, RLIM_INFINITY))  # room to read it, none to go on
     comes_to(station, "interrupted")
     seen = station.now()
@@ -329,9 +311,7 @@ def test_what_could_not_be_written_down_is_not_shown_to_have_happened(serve: Ser
     assert {mission["status"] for mission in seen["missions"]} == {"STANDBY"}
     prlimit(station.pid, RLIMIT_FSIZE, (RLIM_INFINITY, RLIM_INFINITY))
     tell(station, "resume")
-    comes_to(station, "over")
-    assert set(station.statuses().values()) == {"COMPLETED"}
-    assert each_trip_was_done_once(station)
+    completes_all_once(station)
 
 
 def test_an_unreadable_journal_keeps_no_station_from_being_served(

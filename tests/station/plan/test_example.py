@@ -36,15 +36,7 @@ def shown(app: App, fleet: FleetFile) -> MissionPlan:
 
 
 def fly(app: App, fleet: FleetFile, missions: list[Mission[Any]]) -> None:
-    simulate(
-        app,
-        missions,
-        fleet,
-        seed=1,
-        faults=Faults(),
-        until=None,
-        on_event=lambda _: None,
-    )
+    simulate(app, missions, fleet, seed=1, faults=Faults(), until=None, on_event=lambda _: None)
 
 
 @pytest.mark.parametrize("name", NAMES)
