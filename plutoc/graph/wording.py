@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from plutoc.diagnostic import Related
 from plutoc.graph.names import near
-from plutoc.source import Source, Span
 from plutoc.syntax.errors import described
 from plutoc_runtime.domain.quantities import Type
 
@@ -76,7 +74,3 @@ def a_kind(kind: Type) -> str:
 
 def article(word: str) -> str:
     return f"{'an' if word[0] in 'aeiou' else 'a'} {word}"
-
-
-def related(source: Source, span: Span, label: str) -> Related:
-    return Related(source=source, span=span, label=label)

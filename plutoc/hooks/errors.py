@@ -8,6 +8,7 @@ from itertools import zip_longest
 
 from plutoc.diagnostic import Diagnostic, Related, error, warning
 from plutoc.emit.lock import PROBE
+from plutoc.graph.wording import all_of, article
 from plutoc.hooks.expected import Expected
 from plutoc.source import Source, Span
 
@@ -87,11 +88,11 @@ def not_a_function(at: At) -> Diagnostic:
 
 def wrong_count(at: At, takes: Sequence[str]) -> Diagnostic:
     """A hook with too few parameters for what it gets by position."""
-    got = f"only {_listed(takes)}" if takes else "nothing"
+    got = f"only {all_of(takes)}" if takes else "nothing"
     return at.error(
         "P3005",
-        f"`{at.hook.name}` gets {_listed(at.hook.passed)}, and takes {got}",
-        label=f"too few parameters for {_a(at.hook)}",
+        f"`{at.hook.name}` gets {all_of(at.hook.passed)}, and takes {got}",
+        label=f"too few parameters for {article(at.hook.kind.value)}",
     )
 
 
@@ -144,7 +145,7 @@ def may_not_wait(at: At) -> Diagnostic:
     """A policy that is an `async def`."""
     return at.error(
         "P3010",
-        f"{_a(at.hook)} answers at once: `{at.hook.name}` cannot be an `async def`",
+        f"{article(at.hook.kind.value)} answers at once: `{at.hook.name}` cannot be an `async def`",
         label="write `def`",
     )
 
@@ -179,7 +180,7 @@ def wrong_annotation(at: At, name: str, written: str, gets: str) -> Diagnostic:
 
 def wrong_return(at: At, written: str, wanted: str) -> Diagnostic:
     """A hook that says that it returns what the app can do nothing with."""
-    nothing = f"{_a(at.hook)} without `emits` returns nothing"
+    nothing = f"{article(at.hook.kind.value)} without `emits` returns nothing"
     return at.error(
         "P3014",
         f"`{at.hook.name}` returns `{written}`, and "
@@ -202,7 +203,7 @@ def policy_waits(at: At) -> Diagnostic:
     """A policy with an `await`."""
     return at.error(
         "P3010",
-        f"{_a(at.hook)} answers at once: `{at.hook.name}` cannot wait for anything",
+        f"{article(at.hook.kind.value)} answers at once: `{at.hook.name}` cannot wait for anything",
         label="waits",
     )
 
@@ -226,7 +227,7 @@ def left_over(app: Source, hooks: Source, span: Span, name: str, kind: str) -> D
         action = name.removesuffix("_done")
         was = f"told whether `{action}` was done, and the app has no action `{action}` any more"
     else:
-        was = f"was {_article(kind)} {kind} of the app, which does not declare it any more"
+        was = f"was {article(kind)} of the app, which does not declare it any more"
     return warning(
         "P3017",
         f"`{name}` {was}",
@@ -250,14 +251,5 @@ def _first_difference(text: str, other: str) -> Span:
     return Span(start, start)
 
 
-def _a(hook: Expected) -> str:
-    return f"{_article(hook.kind.value)} {hook.kind.value}"
-
-
 def _article(word: str) -> str:
     return "an" if word[0] in "aeiou" else "a"
-
-
-def _listed(names: Sequence[str]) -> str:
-    quoted = [f"`{name}`" for name in names]
-    return " and ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
