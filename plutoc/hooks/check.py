@@ -16,14 +16,9 @@ from plutoc.hooks.types import of_types
 from plutoc.source import Source
 
 
-def check_hooks(checked: Checked, hooks: Source | None) -> tuple[Diagnostic, ...]:
-    """Return the warnings, of which there are none yet; raise `Rejected` with all errors.
-
-    Without a hooks.py there is nothing to check: the first one will be written with all stubs.
-    """
-    found = [] if hooks is None else list(_found(checked, hooks))
-    if hooks is not None and not found:
-        found = list(_left(hooks))
+def check_hooks(checked: Checked, hooks: Source) -> tuple[Diagnostic, ...]:
+    """Return the warnings, of which there are none yet; raise `Rejected` with all errors."""
+    found = list(_found(checked, hooks)) or list(_left(hooks))
     if found:
         raise Rejected(found)
     return ()
