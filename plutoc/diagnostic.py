@@ -7,8 +7,9 @@ code is never used twice, not even after its diagnostic is gone.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass
 from enum import Enum
+from functools import partial
 
 from plutoc.source import Source, Span
 
@@ -20,7 +21,7 @@ class Severity(Enum):
     WARNING = "warning"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Related:
     """Another place that has to do with it, and how."""
 
@@ -37,60 +38,24 @@ class Fix:
     text: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Diagnostic:
     """One finding: what is wrong, where, what has to do with it, and what to do."""
 
     code: str
-    severity: Severity
     message: str
     source: Source
     span: Span
+    _: KW_ONLY
+    severity: Severity
     label: str = ""
     related: tuple[Related, ...] = ()
     help: str | None = None
     fix: Fix | None = None
 
 
-def error(
-    code: str,
-    message: str,
-    source: Source,
-    span: Span,
-    *,
-    label: str = "",
-    related: tuple[Related, ...] = (),
-    help: str | None = None,
-    fix: Fix | None = None,
-) -> Diagnostic:
-    """Return an error of these facts."""
-    return Diagnostic(
-        code=code,
-        severity=Severity.ERROR,
-        message=message,
-        source=source,
-        span=span,
-        label=label,
-        related=related,
-        help=help,
-        fix=fix,
-    )
-
-
-def warning(
-    code: str,
-    message: str,
-    source: Source,
-    span: Span,
-    *,
-    label: str = "",
-    related: tuple[Related, ...] = (),
-    help: str | None = None,
-    fix: Fix | None = None,
-) -> Diagnostic:
-    """Return a warning of these facts."""
-    found = error(code, message, source, span, label=label, related=related, help=help, fix=fix)
-    return replace(found, severity=Severity.WARNING)
+error = partial(Diagnostic, severity=Severity.ERROR)
+warning = partial(Diagnostic, severity=Severity.WARNING)
 
 
 def arranged(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:

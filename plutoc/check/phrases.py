@@ -9,7 +9,9 @@ from plutoc.check.branches import Astray
 from plutoc.check.flow import Fork, Hop, Way, ordered
 from plutoc.diagnostic import Diagnostic, Fix, Related
 from plutoc.graph.model import END, Edge, Graph, Node
+from plutoc.graph.wording import all_of
 from plutoc.source import Span
+from plutoc.syntax.tokens import joined
 from plutoc_runtime.domain.status import Status
 
 _WIDEST_WAY = 88
@@ -19,12 +21,12 @@ _LONGEST_WAY = 60
 
 def listed(statuses: Sequence[Status], last: str = "and") -> str:
     """`STANDBY, COMPLETED and FAILED`."""
-    return _listed([status.value for status in statuses], last)
+    return joined([status.value for status in statuses], last)
 
 
 def names(blocks: Sequence[str]) -> str:
     """`watch`, `timer` and `first`, each in quotes."""
-    return _listed([f"`{name}`" for name in blocks], "and")
+    return all_of(blocks)
 
 
 def accepts(node: Node) -> str:
@@ -138,9 +140,3 @@ def taken_by(node: Node, status: Status, taker: str | None) -> str:
     if taker is None:
         return f"add a block that accepts {status.value}"
     return f"add `{node.name} -> {taker} when {status.value}`"
-
-
-def _listed(words: Sequence[str], last: str) -> str:
-    if len(words) < 2:
-        return "".join(words)
-    return f"{', '.join(words[:-1])} {last} {words[-1]}"

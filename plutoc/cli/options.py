@@ -106,6 +106,24 @@ def _format(parser: ArgumentParser) -> None:
     )
 
 
+def _fleet(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--fleet",
+        metavar="F.toml",
+        type=Path,
+        help="the map and the drones (default: fleet.toml beside the missions or the app)",
+    )
+
+
+def _writes_nothing(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing; exit with 1 if something would change"
+    )
+    parser.add_argument(
+        "--diff", action="store_true", help="write nothing; print what would change"
+    )
+
+
 def _new(parser: ArgumentParser) -> None:
     parser.add_argument("name", metavar="NAME", help="the app's name, such as crop_watch")
 
@@ -133,12 +151,7 @@ def _compile(parser: ArgumentParser) -> None:
         type=Path,
         help="the package's folder (default: one named after the app, beside the file)",
     )
-    parser.add_argument(
-        "--check", action="store_true", help="write nothing; exit with 1 if something would change"
-    )
-    parser.add_argument(
-        "--diff", action="store_true", help="write nothing; print what would change"
-    )
+    _writes_nothing(parser)
     parser.add_argument(
         "--force", action="store_true", help="overwrite files of ours that were edited by hand"
     )
@@ -170,12 +183,7 @@ def _run(parser: ArgumentParser) -> None:
         type=Path,
         help="the missions file (default: missions.toml beside the app)",
     )
-    parser.add_argument(
-        "--fleet",
-        metavar="F.toml",
-        type=Path,
-        help="the map and the drones (default: fleet.toml beside the missions or the app)",
-    )
+    _fleet(parser)
     parser.add_argument(
         "--seed", metavar="N", type=_whole, help="what chance depends on (default 0)"
     )
@@ -214,12 +222,7 @@ def _test(parser: ArgumentParser) -> None:
         type=Path,
         help="try with these missions (default: small ones at random that fit the app)",
     )
-    parser.add_argument(
-        "--fleet",
-        metavar="F.toml",
-        type=Path,
-        help="the map and the drones (default: fleet.toml beside the missions or the app)",
-    )
+    _fleet(parser)
     parser.add_argument(
         "--strike",
         metavar="WHAT@ROW,…",
@@ -241,12 +244,7 @@ def _fmt(parser: ArgumentParser) -> None:
         nargs="+",
         help="apps, .pluto files; - for standard input, with the result on standard output",
     )
-    parser.add_argument(
-        "--check", action="store_true", help="write nothing; exit with 1 if something would change"
-    )
-    parser.add_argument(
-        "--diff", action="store_true", help="write nothing; print what would change"
-    )
+    _writes_nothing(parser)
 
 
 def _graph(parser: ArgumentParser) -> None:

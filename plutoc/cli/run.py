@@ -42,10 +42,7 @@ def run(options: Options) -> int:
     with _compiled(options.file, source) as (path, app):
         arguments = ["simulate", os.fspath(missions)]
         arguments += ["--fleet", os.fspath(fleet)] if fleet else []
-        for flag in ("seed", "fail", "runs", "until"):
-            value = getattr(options, flag)
-            arguments += [f"--{flag}={value}"] if value is not None else []
-        arguments += ["--json"] if options.json else []
+        arguments += _flags(options, "seed", "fail", "runs", "until")
         return _call(path, app, arguments)
 
 
@@ -57,11 +54,15 @@ def test(options: Options) -> int:
     with _compiled(options.file, read_app(options.file)) as (path, app):
         arguments = ["--fleet", os.fspath(fleet)] if fleet else []
         arguments += ["--missions", os.fspath(options.missions)] if options.missions else []
-        for flag in ("seeds", "seed", "strike", "weather"):
-            value = getattr(options, flag)
-            arguments += [f"--{flag}={value}"] if value is not None else []
-        arguments += ["--json"] if options.json else []
+        arguments += _flags(options, "seeds", "seed", "strike", "weather")
         return _call(path, TRIALS, [app, "--file", os.fspath(options.file), *arguments])
+
+
+def _flags(options: Options, *names: str) -> list[str]:
+    """Return the flags of these names that were given, and `--json` if it was."""
+    values = ((name, getattr(options, name)) for name in names)
+    given = [f"--{name}={value}" for name, value in values if value is not None]
+    return [*given, "--json"] if options.json else given
 
 
 @contextmanager

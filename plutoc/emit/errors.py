@@ -19,6 +19,12 @@ class Place:
     source: Source
     span: Span
 
+    def error(
+        self, code: str, message: str, *, label: str = "its package", help: str
+    ) -> Diagnostic:
+        """Return an error that is told here."""
+        return error(code, message, self.source, self.span, label=label, help=help)
+
 
 def place_of(graph: Graph) -> Place:
     """Return where an app is declared."""
@@ -69,23 +75,18 @@ def _said_there(path: str) -> str:
 
 def foreign_file(place: Place, path: str) -> Diagnostic:
     """A file that we never wrote, where one of ours would go."""
-    return error(
+    return place.error(
         "P4002",
         f"`{path}` was not written by plutoc, and the package needs a file of this name",
-        place.source,
-        place.span,
-        label="its package",
         help="give your file another name; `--force` overwrites it",
     )
 
 
 def not_ours(place: Place, folder: str) -> Diagnostic:
     """A folder with other things in it."""
-    return error(
+    return place.error(
         "P4003",
         f"`{folder}` is not empty, and it is not a package that plutoc wrote",
-        place.source,
-        place.span,
         label="its package would go there",
         help="name a new or empty folder with `-o`",
     )
@@ -93,11 +94,9 @@ def not_ours(place: Place, folder: str) -> Diagnostic:
 
 def another_app(place: Place, folder: str, other: str) -> Diagnostic:
     """A folder with another app's package."""
-    return error(
+    return place.error(
         "P4004",
         f"`{folder}` is the package of another app, `{other}`",
-        place.source,
-        place.span,
         label="its package would go there",
         help="name another folder with `-o`; if the app was renamed, remove the old package or"
         " move it away, and bring its `hooks.py` along",
@@ -106,12 +105,9 @@ def another_app(place: Place, folder: str, other: str) -> Diagnostic:
 
 def damaged_lock(place: Place, path: str, why: str) -> Diagnostic:
     """A record of what was written that cannot be read."""
-    return error(
+    return place.error(
         "P4005",
         f"`{path}` is damaged: {why}",
-        place.source,
-        place.span,
-        label="its package",
         help="by it one knows which files were edited by hand. Take it from your version control"
         f" again (in a merge, {_both_sides_again(Path(path))}); `--force` writes the whole package"
         " anew",
@@ -120,23 +116,18 @@ def damaged_lock(place: Place, path: str, why: str) -> Diagnostic:
 
 def in_the_way(place: Place, path: str, what: str, wanted: str) -> Diagnostic:
     """A link, a folder or a file where something else must be."""
-    return error(
+    return place.error(
         "P4006",
         f"`{path}` is {what}, and {wanted} must be there",
-        place.source,
-        place.span,
-        label="its package",
         help="move it away, or name another folder with `-o`",
     )
 
 
 def never_written(place: Place, folder: str) -> Diagnostic:
     """`--check` of a package that does not exist."""
-    return error(
+    return place.error(
         "P4007",
         f"there is no package in `{folder}` yet",
-        place.source,
-        place.span,
         label="nothing was generated of this app",
         help=f"run {_compiling(place, folder)}",
     )
@@ -152,12 +143,9 @@ def outdated(
     files = "1 file" if len(paths) == 1 else f"{len(paths)} files"
     shown = "\n".join(f"  {path}" for path in paths[:_SHOWN])
     more = f"\n  … and {len(paths) - _SHOWN} more" if len(paths) > _SHOWN else ""
-    return error(
+    return place.error(
         "P4008",
         f"`{folder}` is out of date{since}: {files} would change",
-        place.source,
-        place.span,
-        label="its package",
         help=f"run {_compiling(place, folder)}{settles}; `--diff` shows what would change in\n"
         f"{shown}{more}",
     )
@@ -176,25 +164,19 @@ def _compiling(place: Place, folder: str) -> str:
 
 def not_embeddable(place: Place, sentence: str) -> Diagnostic:
     """A block whose code cannot be carried along."""
-    return error(
+    return place.error(
         "P4009",
         f"the package cannot carry this app's blocks along: {sentence}",
-        place.source,
-        place.span,
-        label="its package",
         help="tell the people who made that block, or use another one",
     )
 
 
 def newer(place: Place, folder: str, made_by: str, ours: str) -> Diagnostic:
     """A package that a newer compiler wrote."""
-    return error(
+    return place.error(
         "P4010",
         f"`{folder}` was made by plutoc {made_by}, which is newer than this plutoc {ours}: upgrade"
         f" plutoc, or go back to {ours} on purpose with `--force`",
-        place.source,
-        place.span,
-        label="its package",
         help="`pip install --upgrade plutoc` brings the newest one; by an older one, what has been"
         " mended since would be undone",
     )

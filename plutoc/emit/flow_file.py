@@ -30,18 +30,6 @@ class Function:
     lines: list[str]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FlowFile:
-    """What the template places."""
-
-    app: str
-    imports: list[str]
-    start: str
-    lines: list[str]
-    branches: list[Function]
-    app_arguments: list[str]
-
-
 def flow_file(plan: Plan) -> str:
     """Return the text of `flow.py`, not yet formatted."""
     graph = plan.checked.graph
@@ -65,14 +53,12 @@ def flow_file(plan: Plan) -> str:
     written = "\n".join([start, *lines, *app_arguments, *of_functions])
     return render(
         "flow.py",
-        FlowFile(
-            app=graph.name,
-            imports=import_lines([*_imports(graph, written), *imports_of(scope.names)]),
-            start=start,
-            lines=lines,
-            branches=functions,
-            app_arguments=app_arguments,
-        ),
+        app=graph.name,
+        imports=import_lines([*_imports(graph, written), *imports_of(scope.names)]),
+        start=start,
+        lines=lines,
+        branches=functions,
+        app_arguments=app_arguments,
     )
 
 

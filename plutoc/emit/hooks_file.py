@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from textwrap import wrap
 
 from plutoc.block import HookKind
@@ -26,49 +25,19 @@ TRIP_OFFERS = (
 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HooksFile:
-    """What the template places."""
-
-    app: str
-    imports: list[str]
-    offers: list[str]
-    """Sentences on what a mission and a trip offer, in lines."""
-    stubs: list[Stub]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Stubs:
-    """What the template of stubs alone places."""
-
-    stubs: list[Stub]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HooksTest:
-    """What the template of the tests places."""
-
-    app: str
-    judge: str
-    """An evaluator to show an example with; empty where there is none."""
-    hooks: list[str]
-
-
 def hooks_file(checked: Checked) -> str:
     """Return the text of `hooks.py`."""
     graph, found = checked.graph, stubs(checked)
     return formatted(
         render(
             "hooks.py",
-            HooksFile(
-                app=graph.name,
-                imports=import_lines(_imports(graph, found)),
-                offers=[
-                    *_offers("mission", MISSION_OFFERS, graph, Entity.MISSION),
-                    *_offers("trip", TRIP_OFFERS, graph, Entity.TRIP),
-                ],
-                stubs=found,
-            ),
+            app=graph.name,
+            imports=import_lines(_imports(graph, found)),
+            offers=[
+                *_offers("mission", MISSION_OFFERS, graph, Entity.MISSION),
+                *_offers("trip", TRIP_OFFERS, graph, Entity.TRIP),
+            ],
+            stubs=found,
         )
     )
 
@@ -76,14 +45,15 @@ def hooks_file(checked: Checked) -> str:
 def hooks_test(graph: Graph) -> str:
     """Return the text of `tests/test_hooks.py`."""
     judges = [hook.name for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
-    view = HooksTest(app=graph.name, judge="".join(judges[:1]), hooks=in_order(graph))
-    return formatted(render("test_hooks.py", view))
+    # the evaluator to show an example with; empty where there is none
+    judge = "".join(judges[:1])
+    return formatted(render("test_hooks.py", app=graph.name, judge=judge, hooks=in_order(graph)))
 
 
 def stub(checked: Checked, name: str) -> str:
     """Return the stub of one hook, as it stands in `hooks.py`."""
     found = [one for one in stubs(checked) if one.name == name]
-    return formatted(render("stubs.py", Stubs(stubs=found))).strip() + "\n"
+    return formatted(render("stubs.py", stubs=found)).strip() + "\n"
 
 
 def _offers(what: str, basics: str, graph: Graph, entity: Entity) -> list[str]:

@@ -42,34 +42,20 @@ class CategoryEntry:
     written: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ModelFile:
-    """What the template places."""
-
-    app: str
-    imports: list[str]
-    mission: list[Attribute]
-    trip: list[Attribute]
-    fields: list[str]
-    categories: list[CategoryEntry]
-
-
 def model_file(graph: Graph) -> str:
     """Return the text of `model.py`, not yet formatted."""
     fields = fields_of(graph)
     return render(
         "model.py",
-        ModelFile(
-            app=graph.name,
-            imports=import_lines(_imports(fields)),
-            mission=_attributes(fields, Entity.MISSION),
-            trip=_attributes(fields, Entity.TRIP),
-            fields=[_field(field) for field in fields],
-            categories=[
-                CategoryEntry(declaration=category.declaration, written=_category(category))
-                for category in graph.categories
-            ],
-        ),
+        app=graph.name,
+        imports=import_lines(_imports(fields)),
+        mission=_attributes(fields, Entity.MISSION),
+        trip=_attributes(fields, Entity.TRIP),
+        fields=[_field(field) for field in fields],
+        categories=[
+            CategoryEntry(declaration=category.declaration, written=_category(category))
+            for category in graph.categories
+        ],
     )
 
 

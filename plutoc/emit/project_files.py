@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from plutoc.emit.markup import header, one_line, toml_text
 from plutoc.emit.python import Import, import_lines
 from plutoc.emit.render import render
@@ -12,83 +10,40 @@ from plutoc.graph.model import Graph
 from plutoc_runtime.command import SEAM
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Headed:
-    """A file that only needs its header."""
-
-    header: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Entry:
-    """`__main__.py`."""
-
-    app: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Exports:
-    """`__init__.py`."""
-
-    app: str
-    imports: list[str]
-    exports: list[str]
-    homes: list[tuple[str, str]]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Project:
-    """`pyproject.toml`."""
-
-    header: str
-    app: str
-    distribution: str
-    version: str
-    description: str
-    libraries: list[str]
-    direct: bool
-    seam: str
-    carry: bool
-
-
 def init_file(graph: Graph, *, former: bool) -> str:
     """Return the text of `__init__.py`, not yet formatted."""
     exports = exports_of(graph, former=former)
     imports = [Import(module=module, name=name) for name, module in exports.items()]
     return render(
         "init.py",
-        Exports(
-            app=graph.name,
-            imports=import_lines(imports),
-            exports=list(exports),
-            homes=list(exports.items()),
-        ),
+        app=graph.name,
+        imports=import_lines(imports),
+        exports=list(exports),
+        homes=list(exports.items()),
     )
 
 
 def main_file(graph: Graph) -> str:
     """Return the text of `__main__.py`, not yet formatted."""
-    return render("main.py", Entry(app=graph.name))
+    return render("main.py", app=graph.name)
 
 
 def project_file(graph: Graph, source_name: str, *, carry: bool = False) -> str:
     """Return the text of `pyproject.toml`; `carry`: the library is inside the package."""
     return render(
         "pyproject.toml",
-        Project(
-            header=header(source_name),
-            app=graph.name,
-            distribution=toml_text(graph.name.rstrip("_")),  # a distribution cannot end with one
-            version=toml_text(graph.version),
-            description=toml_text(one_line(graph.title) or graph.name),
-            libraries=[toml_text(library.requirement) for library in graph.libraries],
-            direct=any(library.direct for library in graph.libraries),
-            seam=".".join(map(str, SEAM)),
-            carry=carry,
-        ),
+        header=header(source_name),
+        app=graph.name,
+        distribution=toml_text(graph.name.rstrip("_")),  # a distribution cannot end with one
+        version=toml_text(graph.version),
+        description=toml_text(one_line(graph.title) or graph.name),
+        libraries=[toml_text(library.requirement) for library in graph.libraries],
+        direct=any(library.direct for library in graph.libraries),
+        seam=".".join(map(str, SEAM)),
+        carry=carry,
     )
 
 
 def attributes_file(source_name: str) -> str:
     """Return the text of `.gitattributes`."""
-    return render("gitattributes", Headed(header=header(source_name)))
+    return render("gitattributes", header=header(source_name))

@@ -8,7 +8,7 @@ from plutoc.block import Block
 from plutoc.emit.markup import fence, header, markdown, toml_text
 from plutoc.emit.model_file import fields_of
 from plutoc.emit.render import render
-from plutoc.emit.test_file import MissionTable, able, sample
+from plutoc.emit.test_file import able, sample
 from plutoc.graph.model import Graph
 
 
@@ -29,49 +29,28 @@ class FieldRow:
     doc: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Readme:
-    """What the template places."""
-
-    header: str
-    app: str
-    distribution: str
-    title: str
-    fence: str
-    picture: str
-    gates: bool
-    dotted: bool
-    kinds: list[KindRow]
-    sample: MissionTable
-    fields: list[FieldRow]
-    category: str
-    hooks: bool
-
-
 def readme(graph: Graph, source_name: str, picture: str) -> str:
     """Return the text of `README.md`."""
     mission = sample(graph)
     drone = able(graph, *mission.actions) or graph.categories[0]
     return render(
         "README.md",
-        Readme(
-            header=header(source_name),
-            app=graph.name,
-            distribution=graph.name.rstrip("_"),
-            title=markdown(graph.title),
-            fence=fence(picture),
-            picture=picture.rstrip("\n"),
-            dotted="-.->" in picture,
-            gates=any(node.block.gate is not None for node in graph.nodes),
-            kinds=[_kind(block) for block in dict.fromkeys(node.block for node in graph.nodes)],
-            sample=mission,
-            fields=[
-                FieldRow(name=field.name, on=field.on.value, doc=markdown(field.doc))
-                for field in fields_of(graph)
-            ],
-            category=toml_text(drone.name),
-            hooks=bool(graph.actions or graph.hooks),
-        ),
+        header=header(source_name),
+        app=graph.name,
+        distribution=graph.name.rstrip("_"),
+        title=markdown(graph.title),
+        fence=fence(picture),
+        picture=picture.rstrip("\n"),
+        dotted="-.->" in picture,
+        gates=any(node.block.gate is not None for node in graph.nodes),
+        kinds=[_kind(block) for block in dict.fromkeys(node.block for node in graph.nodes)],
+        sample=mission,
+        fields=[
+            FieldRow(name=field.name, on=field.on.value, doc=markdown(field.doc))
+            for field in fields_of(graph)
+        ],
+        category=toml_text(drone.name),
+        hooks=bool(graph.actions or graph.hooks),
     )
 
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import black
 from black.mode import TargetVersion
@@ -12,9 +10,6 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from plutoc.emit.markup import header
 from plutoc.emit.python import LINE_LENGTH
-
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
 
 _TEMPLATES = Path(__file__).with_name("templates")
 _ENVIRONMENT = Environment(
@@ -28,9 +23,8 @@ _ENVIRONMENT = Environment(
 _MODE = black.Mode(line_length=LINE_LENGTH, target_versions={TargetVersion.PY311})
 
 
-def render(template: str, view: DataclassInstance) -> str:
-    """Return a template with the view's fields in their places."""
-    values = {field.name: getattr(view, field.name) for field in fields(view)}
+def render(template: str, **values: object) -> str:
+    """Return a template with the values in their places."""
     return _ENVIRONMENT.get_template(f"{template}.jinja").render(values)
 
 

@@ -102,12 +102,13 @@ def _action(action: Action, taken: set[str]) -> Stub:
 def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
     match hook.kind:
         case HookKind.EVALUATOR:
+            verdict = f"{hook.name} accepts every mission as yet: write it in hooks.py"
             return Stub(
                 name=hook.name,
                 coroutine="",
                 signature="(mission: Mission, results: Results) -> Verdict",
                 doc=["Judge a finished mission by what its actions gave."],
-                lines=[f'return Verdict(ok=True, log=("{_all_pass(hook.name)}",))'],
+                lines=[f'return Verdict(ok=True, log=("{verdict}",))'],
                 uses=("Mission", "Results", "Verdict"),
             )
         case HookKind.POLICY:
@@ -180,13 +181,5 @@ def _units(parameters: tuple[Parameter, ...]) -> list[str]:
     return [f"{', '.join(with_units)}."] if with_units else []
 
 
-def _yet(name: str) -> str:
-    return f"{name} does nothing yet: write it in hooks.py"
-
-
-def _all_pass(name: str) -> str:
-    return f"{name} accepts every mission as yet: write it in hooks.py"
-
-
 def _log(name: str) -> str:
-    return f'context.log("{_yet(name)}")'
+    return f'context.log("{name} does nothing yet: write it in hooks.py")'

@@ -27,17 +27,9 @@ class MissionTable:
     """What its drone must be able to do."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FlowTest:
-    """What the template places."""
-
-    app: str
-    missions: list[MissionTable]
-
-
 def flow_test(graph: Graph) -> str:
     """Return the text of `tests/test_flow.py`, not yet formatted."""
-    return render("test_flow.py", FlowTest(app=graph.name, missions=_missions(graph)))
+    return render("test_flow.py", app=graph.name, missions=_missions(graph))
 
 
 def sample(graph: Graph) -> MissionTable:

@@ -6,8 +6,7 @@ import re
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
-from plutoc.diagnostic import Diagnostic, in_order
-from plutoc.graph.wording import related
+from plutoc.diagnostic import Diagnostic, Related, in_order
 from plutoc.source import Source
 from plutoc_runtime.domain.text import counted
 
@@ -40,7 +39,7 @@ def _with_places(first: Diagnostic, more: Sequence[Diagnostic]) -> Diagnostic:
     if left > 0:
         labels[-1] = f"here, too, and in {counted(left, 'more place')}"
     places = tuple(
-        related(other.source, other.span, label) for other, label in zip(more, labels, strict=False)
+        Related(other.source, other.span, label) for other, label in zip(more, labels, strict=False)
     )
     return replace(first, related=(*first.related, *places))
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from plutoc.diagnostic import Diagnostic, error
+from plutoc.diagnostic import Diagnostic, Related, error
 from plutoc.edits import without_arrow
 from plutoc.graph.names import in_snake_case
-from plutoc.graph.wording import all_of, alternatives, meant, related
+from plutoc.graph.wording import all_of, alternatives, meant
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
 from plutoc_runtime.domain.status import IN_GRAPH, Status
@@ -78,7 +78,7 @@ def edge_twice(
         source,
         span,
         label="the second time",
-        related=(related(source, first, "the first time"),),
+        related=(Related(source, first, "the first time"),),
         help="remove one of them",
         fix=without_arrow(source, names, span, guard),
     )

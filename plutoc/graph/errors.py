@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from plutoc.diagnostic import Diagnostic, error, warning
+from plutoc.diagnostic import Diagnostic, Related, error, warning
 from plutoc.edits import without_item, without_statement
 from plutoc.graph.names import LONGEST, Style, in_plain_letters, in_snake_case
 from plutoc.graph.wording import (
@@ -12,7 +12,6 @@ from plutoc.graph.wording import (
     alternatives,
     either,
     meant,
-    related,
     strange_letter,
     there_are,
 )
@@ -82,7 +81,7 @@ def declared_twice(
         source,
         name.span,
         label="the second time",
-        related=(related(source, first.span, "the first time"),),
+        related=(Related(source, first.span, "the first time"),),
         help="remove one of them" if same else "give one of them another name",
     )
 
@@ -94,7 +93,7 @@ def differs_in_case_only(source: Source, name: Name, first: Name) -> Diagnostic:
         f"`{name.text}` and `{first.text}` differ only in upper and lower case",
         source,
         name.span,
-        related=(related(source, first.span, f"`{first.text}`"),),
+        related=(Related(source, first.span, f"`{first.text}`"),),
         help="give one of them another name",
     )
 
@@ -203,7 +202,7 @@ def named_twice(source: Source, name: Name, first: Name) -> Diagnostic:
         source,
         name.span,
         label="the second time",
-        related=(related(source, first.span, "the first time"),),
+        related=(Related(source, first.span, "the first time"),),
         help="remove one of them",
         fix=without_item(source, name.span),
     )

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from plutoc.diagnostic import Diagnostic, error, warning
+from plutoc.diagnostic import Diagnostic, Related, error, warning
 from plutoc.edits import without_item
-from plutoc.graph.wording import related
 from plutoc.source import Source, Span
 from plutoc.syntax.tokens import shortened
 from plutoc.syntax.tree import Text
@@ -66,7 +65,7 @@ def second_setting(source: Source, word: str, span: Span, first: Span) -> Diagno
         source,
         span,
         label="the second time",
-        related=(related(source, first, "the first time"),),
+        related=(Related(source, first, "the first time"),),
         help=_ALL_IN_ONE[word],
     )
 
@@ -81,7 +80,7 @@ def required_twice(
         source,
         text.span,
         label="the second time",
-        related=(related(source, first.span, "the first time"),),
+        related=(Related(source, first.span, "the first time"),),
         help=f"write one for both: `{_quoted(both)}`" if both else "remove one of them",
         fix=without_item(source, text.span) if same else None,
     )

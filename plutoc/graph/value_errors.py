@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Container, Sequence
 
-from plutoc.diagnostic import Diagnostic, Fix, error
-from plutoc.graph.wording import a_kind, either, meant, related, there_are, unit_meant
+from plutoc.diagnostic import Diagnostic, Fix, Related, error
+from plutoc.graph.wording import a_kind, either, meant, there_are, unit_meant
 from plutoc.source import Source, Span
 from plutoc.syntax.texts import written_out
 from plutoc.syntax.tree import Name
@@ -34,7 +34,7 @@ def argument_twice(source: Source, name: Name, first: Span) -> Diagnostic:
         source,
         name.span,
         label="the second time",
-        related=(related(source, first, "the first time"),),
+        related=(Related(source, first, "the first time"),),
         help="remove one of them",
     )
 
@@ -165,5 +165,5 @@ def wrong_hook(
         f"`{given}` is {role}; {wanted} is wanted here",
         source,
         span,
-        related=(related(source, declared, f"declared as {role}"),),
+        related=(Related(source, declared, f"declared as {role}"),),
     )

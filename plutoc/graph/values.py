@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import value_errors
 from plutoc.graph.model import Plain
+from plutoc.graph.wording import a_kind
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, Bool, List, Name, Number, Quantity, Text, Value
 from plutoc_runtime.domain.quantities import QUANTITIES, UNITS, Type, to_si
@@ -87,7 +88,7 @@ def _quantity(
 
 def wanted(kind: Type) -> str:
     """Say what a parameter of that type takes: "a mass"."""
-    return _WANTED.get(kind) or f"{'an' if kind.value[0] in 'aeiou' else 'a'} {kind.value}"
+    return _WANTED.get(kind) or a_kind(kind)
 
 
 def at_least(least: float, kind: Type) -> str:

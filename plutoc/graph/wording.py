@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from plutoc.diagnostic import Related
 from plutoc.graph.names import near
-from plutoc.source import Source, Span
 from plutoc.syntax.errors import described
+from plutoc.syntax.tokens import joined
 from plutoc_runtime.domain.quantities import Type
 
 _UNITS = {
@@ -58,16 +57,15 @@ def there_are(names: Sequence[str], what: str) -> str | None:
 
 
 def either(names: Sequence[str]) -> str:
-    return _joined(names, " or ")
+    return _quoted(names, "or")
 
 
 def all_of(names: Sequence[str]) -> str:
-    return _joined(names, " and ")
+    return _quoted(names, "and")
 
 
-def _joined(names: Sequence[str], last: str) -> str:
-    quoted = [f"`{name}`" for name in names]
-    return last.join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
+def _quoted(names: Sequence[str], last: str) -> str:
+    return joined([f"`{name}`" for name in names], last)
 
 
 def a_kind(kind: Type) -> str:
@@ -76,7 +74,3 @@ def a_kind(kind: Type) -> str:
 
 def article(word: str) -> str:
     return f"{'an' if word[0] in 'aeiou' else 'a'} {word}"
-
-
-def related(source: Source, span: Span, label: str) -> Related:
-    return Related(source=source, span=span, label=label)

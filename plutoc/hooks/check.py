@@ -13,17 +13,12 @@ from plutoc.hooks.expected import Expected, expected, probes
 from plutoc.hooks.module import Function, Module, arg_span, name_span, read, waits, yields
 from plutoc.hooks.python import Unreadable, check_compiles
 from plutoc.hooks.types import of_types
-from plutoc.source import Source, Span
+from plutoc.source import Source
 
 
-def check_hooks(checked: Checked, hooks: Source | None) -> tuple[Diagnostic, ...]:
-    """Return the warnings, of which there are none yet; raise `Rejected` with all errors.
-
-    Without a hooks.py there is nothing to check: the first one will be written with all stubs.
-    """
-    found = [] if hooks is None else list(_found(checked, hooks))
-    if hooks is not None and not found:
-        found = list(_left(hooks))
+def check_hooks(checked: Checked, hooks: Source) -> tuple[Diagnostic, ...]:
+    """Return the warnings, of which there are none yet; raise `Rejected` with all errors."""
+    found = list(_found(checked, hooks)) or list(_left(hooks))
     if found:
         raise Rejected(found)
     return ()
@@ -83,37 +78,39 @@ def _of_definition(
     checked: Checked, hooks: Source, hook: Expected, module: Module
 ) -> Iterator[Diagnostic]:
     """What is imported, assigned or decorated can be anything: it is believed."""
-    app = checked.graph.source
     definition = module.defined.get(hook.name)
+    if definition is None:
+        return
+    at = errors.At(
+        app=checked.graph.source, hooks=hooks, hook=hook, span=name_span(hooks, definition)
+    )
     if isinstance(definition, ast.ClassDef):
-        yield errors.not_a_function(app, hooks, hook, name_span(hooks, definition))
-    elif definition is not None and not definition.decorator_list:
-        span = name_span(hooks, definition)
+        yield errors.not_a_function(at)
+    elif not definition.decorator_list:
         if isinstance(definition, ast.AsyncFunctionDef) and not hook.may_wait:
-            yield errors.may_not_wait(app, hooks, hook, span)
+            yield errors.may_not_wait(at)
         elif yields(definition):
-            yield errors.generator(app, hooks, hook, span)
+            yield errors.generator(at)
         elif isinstance(definition, ast.FunctionDef) and waits(definition):
             wrong = errors.must_wait if hook.may_wait else errors.policy_waits
-            yield wrong(app, hooks, hook, span)
-        mistakes = list(_of_parameters(app, hooks, hook, definition, span))
-        yield from mistakes or of_types(checked.graph, hooks, hook, definition, module)
+            yield wrong(at)
+        mistakes = list(_of_parameters(at, definition))
+        yield from mistakes or of_types(checked.graph, at, definition, module)
 
 
-def _of_parameters(
-    app: Source, hooks: Source, hook: Expected, function: Function, span: Span
-) -> Iterator[Diagnostic]:
+def _of_parameters(at: errors.At, function: Function) -> Iterator[Diagnostic]:
     """Find what would go wrong when the app calls it."""
+    hook = at.hook
     arguments = function.args
     by_place = [*arguments.posonlyargs, *arguments.args]
     count = len(hook.passed)
     if len(by_place) < count and arguments.vararg is None:
-        yield errors.wrong_count(app, hooks, hook, span, [arg.arg for arg in by_place])
+        yield errors.wrong_count(at, [arg.arg for arg in by_place])
         return
     for arg, gets in zip(by_place, hook.passed, strict=False):
         # Its name is free, as long as it is not the name of something else that comes.
         if arg.arg != gets and arg.arg in (*hook.passed, *hook.own_names):
-            yield errors.wrong_order(app, hooks, hook, arg_span(hooks, arg), arg.arg, gets)
+            yield errors.wrong_order(at.on(arg_span(at.hooks, arg)), arg.arg, gets)
             return
     rest = by_place[count:]
     by_name = {arg.arg for arg in (*rest, *arguments.kwonlyargs)}
@@ -128,15 +125,15 @@ def _of_parameters(
     renamed = _renamed(missing, strange)
     for name in hook.own_names:
         if name in only_by_place:
-            yield errors.by_position_only(app, hooks, hook, span, name)
+            yield errors.by_position_only(at, name)
         elif name in renamed:
-            at = arg_span(hooks, renamed[name])
-            yield errors.renamed_parameter(app, hooks, hook, at, renamed[name].arg, name)
+            arg = renamed[name]
+            yield errors.renamed_parameter(at.on(arg_span(at.hooks, arg)), arg.arg, name)
         elif name in missing:
-            yield errors.missing_parameter(app, hooks, hook, span, name)
+            yield errors.missing_parameter(at, name)
     for arg in strange:
         if arg not in renamed.values():
-            yield errors.unfilled_parameter(app, hooks, hook, arg_span(hooks, arg), arg.arg)
+            yield errors.unfilled_parameter(at.on(arg_span(at.hooks, arg)), arg.arg)
 
 
 def _renamed(missing: Sequence[str], strange: Sequence[ast.arg]) -> dict[str, ast.arg]:

@@ -3,12 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import zip_longest
 
 from plutoc.diagnostic import Diagnostic, Related, error, warning
 from plutoc.emit.lock import PROBE
+from plutoc.graph.wording import all_of, article
 from plutoc.hooks.expected import Expected
 from plutoc.source import Source, Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class At:
+    """A place in the function of a hook."""
+
+    app: Source
+    hooks: Source
+    hook: Expected
+    span: Span
+
+    def on(self, span: Span) -> At:
+        """Return another place in the same function."""
+        return replace(self, span=span)
+
+    def error(self, code: str, message: str, *, label: str, waits: bool = False) -> Diagnostic:
+        """Return an error here, with the first line that the function should have."""
+        line = self.hook.first_line
+        return error(
+            code,
+            message,
+            self.hooks,
+            self.span,
+            label=label,
+            related=(Related(source=self.app, span=self.hook.span, label="declared here"),),
+            help="let it begin like this:\n"
+            + (f"async {line}" if waits and not line.startswith("async ") else line),
+        )
 
 
 def not_python(hooks: Source, span: Span, why: str) -> Diagnostic:
@@ -47,213 +77,133 @@ def missing(app: Source, hook: Expected, path: str, near: str | None) -> Diagnos
     )
 
 
-def not_a_function(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+def not_a_function(at: At) -> Diagnostic:
     """A class with the name of a hook."""
-    return _on_hook(
+    return at.error(
         "P3004",
-        f"`{hook.name}` is a class, and the app calls it as a function",
-        app,
-        hooks,
-        hook,
-        span,
+        f"`{at.hook.name}` is a class, and the app calls it as a function",
         label="a class",
     )
 
 
-def wrong_count(
-    app: Source, hooks: Source, hook: Expected, span: Span, takes: Sequence[str]
-) -> Diagnostic:
+def wrong_count(at: At, takes: Sequence[str]) -> Diagnostic:
     """A hook with too few parameters for what it gets by position."""
-    got = f"only {_listed(takes)}" if takes else "nothing"
-    return _on_hook(
+    got = f"only {all_of(takes)}" if takes else "nothing"
+    return at.error(
         "P3005",
-        f"`{hook.name}` gets {_listed(hook.passed)}, and takes {got}",
-        app,
-        hooks,
-        hook,
-        span,
-        label=f"too few parameters for {_a(hook)}",
+        f"`{at.hook.name}` gets {all_of(at.hook.passed)}, and takes {got}",
+        label=f"too few parameters for {article(at.hook.kind.value)}",
     )
 
 
-def wrong_order(
-    app: Source, hooks: Source, hook: Expected, span: Span, name: str, gets: str
-) -> Diagnostic:
+def wrong_order(at: At, name: str, gets: str) -> Diagnostic:
     """A parameter with the name of what comes in another place."""
-    return _on_hook(
+    return at.error(
         "P3006",
-        f"`{name}` of `{hook.name}` would get the {gets}",
-        app,
-        hooks,
-        hook,
-        span,
+        f"`{name}` of `{at.hook.name}` would get the {gets}",
         label=f"the {gets} arrives here",
     )
 
 
-def missing_parameter(
-    app: Source, hooks: Source, hook: Expected, span: Span, name: str
-) -> Diagnostic:
+def missing_parameter(at: At, name: str) -> Diagnostic:
     """A parameter that the app declares and the hook does not take."""
-    return _on_hook(
+    return at.error(
         "P3007",
-        f"`{hook.name}` does not take `{name}`, which the app declares",
-        app,
-        hooks,
-        hook,
-        span,
+        f"`{at.hook.name}` does not take `{name}`, which the app declares",
         label=f"no parameter `{name}`",
     )
 
 
-def renamed_parameter(
-    app: Source, hooks: Source, hook: Expected, span: Span, given: str, name: str
-) -> Diagnostic:
+def renamed_parameter(at: At, given: str, name: str) -> Diagnostic:
     """A declared parameter that the hook calls by another name."""
-    return _on_hook(
+    return at.error(
         "P3007",
-        f"`{hook.name}` does not take `{name}`, which the app declares, but `{given}`",
-        app,
-        hooks,
-        hook,
-        span,
+        f"`{at.hook.name}` does not take `{name}`, which the app declares, but `{given}`",
         label=f"nothing gives `{given}` a value; is it `{name}`?",
     )
 
 
-def unfilled_parameter(
-    app: Source, hooks: Source, hook: Expected, span: Span, name: str
-) -> Diagnostic:
+def unfilled_parameter(at: At, name: str) -> Diagnostic:
     """A parameter that is given no value."""
-    return _on_hook(
+    return at.error(
         "P3008",
-        f"`{hook.name}` asks for `{name}`, and nothing gives it a value",
-        app,
-        hooks,
-        hook,
-        span,
+        f"`{at.hook.name}` asks for `{name}`, and nothing gives it a value",
         label="neither declared in the app nor with a default",
     )
 
 
-def by_position_only(
-    app: Source, hooks: Source, hook: Expected, span: Span, name: str
-) -> Diagnostic:
+def by_position_only(at: At, name: str) -> Diagnostic:
     """A parameter that is given by name and can only be given by its place."""
-    return _on_hook(
+    return at.error(
         "P3009",
-        f"`{hook.name}` takes `{name}` only by its place, and the app gives it by name",
-        app,
-        hooks,
-        hook,
-        span,
+        f"`{at.hook.name}` takes `{name}` only by its place, and the app gives it by name",
         label="write it behind a `*`",
     )
 
 
-def may_not_wait(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+def may_not_wait(at: At) -> Diagnostic:
     """A policy that is an `async def`."""
-    return _on_hook(
+    return at.error(
         "P3010",
-        f"{_a(hook)} answers at once: `{hook.name}` cannot be an `async def`",
-        app,
-        hooks,
-        hook,
-        span,
+        f"{article(at.hook.kind.value)} answers at once: `{at.hook.name}` cannot be an `async def`",
         label="write `def`",
     )
 
 
-def generator(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+def generator(at: At) -> Diagnostic:
     """A hook with a `yield`, which the app would never run."""
-    return _on_hook(
+    return at.error(
         "P3011",
-        f"`{hook.name}` contains `yield`, so calling it does nothing",
-        app,
-        hooks,
-        hook,
-        span,
+        f"`{at.hook.name}` contains `yield`, so calling it does nothing",
         label="a generator",
     )
 
 
-def unknown_annotation(
-    app: Source,
-    hooks: Source,
-    hook: Expected,
-    span: Span,
-    name: str,
-    near: str | None,
-    exported: bool,
-) -> Diagnostic:
+def unknown_annotation(at: At, name: str, near: str | None, exported: bool) -> Diagnostic:
     """A name in the types of a hook that the file does not have."""
     label = f"did you mean `{near}`?" if near else "nothing of this name"
-    return _on_hook(
+    return at.error(
         "P3012",
-        f"`{name}`, a type of `{hook.name}`, is neither imported nor defined in this file",
-        app,
-        hooks,
-        hook,
-        span,
+        f"`{name}`, a type of `{at.hook.name}`, is neither imported nor defined in this file",
         label=f"write `from . import {name}`" if exported else label,
     )
 
 
-def wrong_annotation(
-    app: Source, hooks: Source, hook: Expected, span: Span, name: str, written: str, gets: str
-) -> Diagnostic:
+def wrong_annotation(at: At, name: str, written: str, gets: str) -> Diagnostic:
     """A parameter with the type of something else than what arrives."""
-    return _on_hook(
+    return at.error(
         "P3013",
-        f"`{name}` of `{hook.name}` is written as `{written}`, and gets {_article(gets)} `{gets}`",
-        app,
-        hooks,
-        hook,
-        span,
+        f"`{name}` of `{at.hook.name}` is written as `{written}`, and gets {_article(gets)} `{gets}`",
         label=f"{_article(gets)} `{gets}` arrives here",
     )
 
 
-def wrong_return(
-    app: Source, hooks: Source, hook: Expected, span: Span, written: str, wanted: str
-) -> Diagnostic:
+def wrong_return(at: At, written: str, wanted: str) -> Diagnostic:
     """A hook that says that it returns what the app can do nothing with."""
-    nothing = f"{_a(hook)} without `emits` returns nothing"
-    return _on_hook(
+    nothing = f"{article(at.hook.kind.value)} without `emits` returns nothing"
+    return at.error(
         "P3014",
-        f"`{hook.name}` returns `{written}`, and "
+        f"`{at.hook.name}` returns `{written}`, and "
         + (nothing if wanted == "None" else f"the app needs {_article(wanted)} `{wanted}`"),
-        app,
-        hooks,
-        hook,
-        span,
         label=f"must be `{wanted}`",
     )
 
 
-def must_wait(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+def must_wait(at: At) -> Diagnostic:
     """A hook with an `await` that is no `async def`."""
-    return _on_hook(
+    return at.error(
         "P3015",
-        f"`{hook.name}` waits for something, and only an `async def` can",
-        app,
-        hooks,
-        hook,
-        span,
-        label=f"needs `async def {hook.name}`",
+        f"`{at.hook.name}` waits for something, and only an `async def` can",
+        label=f"needs `async def {at.hook.name}`",
         waits=True,
     )
 
 
-def policy_waits(app: Source, hooks: Source, hook: Expected, span: Span) -> Diagnostic:
+def policy_waits(at: At) -> Diagnostic:
     """A policy with an `await`."""
-    return _on_hook(
+    return at.error(
         "P3010",
-        f"{_a(hook)} answers at once: `{hook.name}` cannot wait for anything",
-        app,
-        hooks,
-        hook,
-        span,
+        f"{article(at.hook.kind.value)} answers at once: `{at.hook.name}` cannot wait for anything",
         label="waits",
     )
 
@@ -277,7 +227,7 @@ def left_over(app: Source, hooks: Source, span: Span, name: str, kind: str) -> D
         action = name.removesuffix("_done")
         was = f"told whether `{action}` was done, and the app has no action `{action}` any more"
     else:
-        was = f"was {_article(kind)} {kind} of the app, which does not declare it any more"
+        was = f"was {article(kind)} of the app, which does not declare it any more"
     return warning(
         "P3017",
         f"`{name}` {was}",
@@ -301,39 +251,5 @@ def _first_difference(text: str, other: str) -> Span:
     return Span(start, start)
 
 
-def _on_hook(
-    code: str,
-    message: str,
-    app: Source,
-    hooks: Source,
-    hook: Expected,
-    span: Span,
-    *,
-    label: str,
-    waits: bool = False,
-) -> Diagnostic:
-    """An error in a function, with the first line that it should have."""
-    line = hook.first_line
-    return error(
-        code,
-        message,
-        hooks,
-        span,
-        label=label,
-        related=(Related(source=app, span=hook.span, label="declared here"),),
-        help="let it begin like this:\n"
-        + (f"async {line}" if waits and not line.startswith("async ") else line),
-    )
-
-
-def _a(hook: Expected) -> str:
-    return f"{_article(hook.kind.value)} {hook.kind.value}"
-
-
 def _article(word: str) -> str:
     return "an" if word[0] in "aeiou" else "a"
-
-
-def _listed(names: Sequence[str]) -> str:
-    quoted = [f"`{name}`" for name in names]
-    return " and ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)

@@ -12,7 +12,6 @@ from plutoc.hooks import errors
 from plutoc.hooks.annotations import Meaning, Scope, meaning, unknown_names
 from plutoc.hooks.expected import Expected
 from plutoc.hooks.module import Function, Module, node_span
-from plutoc.source import Source
 from plutoc.syntax.tokens import shortened
 from plutoc_runtime.domain.quantities import PYTHON
 
@@ -39,28 +38,27 @@ _LONGEST = 40
 
 
 def of_types(
-    graph: Graph, hooks: Source, hook: Expected, function: Function, module: Module
+    graph: Graph, at: errors.At, function: Function, module: Module
 ) -> Iterator[Diagnostic]:
     """Find types that nothing has, and those of something else; silent where it cannot be known."""
     generic = frozenset(one.name for one in getattr(function, "type_params", ()))
     scope = Scope(module=module, app=graph.name, parameters=generic)
-    app = graph.source
-    for annotation, name, arrives in _expected(hook, function):
+    for annotation, name, arrives in _expected(at.hook, function):
         unknown = list(unknown_names(annotation, scope))
         for one in unknown:
             meant = next(iter(near(one.name, one.options)), None)
-            span = node_span(hooks, one.place)
-            yield errors.unknown_annotation(app, hooks, hook, span, one.name, meant, one.exported)
+            place = at.on(node_span(at.hooks, one.place))
+            yield errors.unknown_annotation(place, one.name, meant, one.exported)
         allowed = _meaning(annotation, scope)
         if unknown or arrives is None or allowed is None or _NEVER_WRONG in allowed:
             continue
-        span = node_span(hooks, annotation)
-        written = shortened(hooks.quote(span), _LONGEST)
+        place = at.on(node_span(at.hooks, annotation))
+        written = shortened(at.hooks.quote(place.span), _LONGEST)
         if name is None:
             if arrives not in allowed:
-                yield errors.wrong_return(app, hooks, hook, span, written, arrives)
+                yield errors.wrong_return(place, written, arrives)
         elif not allowed & {arrives, *_TAKES.get(arrives, ())}:
-            yield errors.wrong_annotation(app, hooks, hook, span, name, written, arrives)
+            yield errors.wrong_annotation(place, name, written, arrives)
 
 
 def _expected(

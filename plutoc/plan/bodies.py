@@ -34,18 +34,18 @@ def falls(body: Body) -> bool:
 
 def breaks(body: Body) -> bool:
     """Does a `Break` in the body leave the loop around it?"""
-    return any(
-        isinstance(step, Break)
-        or (isinstance(step, Switch) and any(breaks(arm.body) for arm in step.arms))
-        for step in body
-    )
+    return _jumps(body, Break)
 
 
 def continues(body: Body) -> bool:
     """Does a `Continue` in the body begin the loop around it again?"""
+    return _jumps(body, Continue)
+
+
+def _jumps(body: Body, jump: type[Break | Continue]) -> bool:
     return any(
-        isinstance(step, Continue)
-        or (isinstance(step, Switch) and any(continues(arm.body) for arm in step.arms))
+        isinstance(step, jump)
+        or (isinstance(step, Switch) and any(_jumps(arm.body, jump) for arm in step.arms))
         for step in body
     )
 

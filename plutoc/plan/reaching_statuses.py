@@ -8,7 +8,7 @@ the checks have seen to leave it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from plutoc.check.model import Checked
@@ -52,25 +52,19 @@ NONE = frozenset[Status]()
 NOTHING: Coming = frozenset()
 
 
+@dataclass(slots=True, kw_only=True, eq=False)
 class _Frame:
     """The function that is walked, and the jumps that were met in the innermost loop."""
 
-    __slots__ = ("broken", "continued", "ends", "gone", "known")
-
-    def __init__(self) -> None:
-        self.ends: set[Status] = set()
-        self.continued: set[Status | Resuming] = set()
-        self.broken: set[Status | Resuming] = set()
-        self.gone: dict[str, Coming] = {}
-        """What came to each label."""
-        self.known: dict[int, tuple[set[Status | Resuming], set[Status | Resuming]]] = {}
-        """For each loop, by identity: what came to its head, and what leaves it by `Break`."""
-
-    def inside(self, broken: set[Status | Resuming]) -> _Frame:
-        """Return the same function, seen from inside a loop."""
-        inner = _Frame()
-        inner.ends, inner.gone, inner.known, inner.broken = self.ends, self.gone, self.known, broken
-        return inner
+    ends: set[Status] = field(default_factory=set)
+    continued: set[Status | Resuming] = field(default_factory=set)
+    broken: set[Status | Resuming] = field(default_factory=set)
+    gone: dict[str, Coming] = field(default_factory=dict)
+    """What came to each label."""
+    known: dict[int, tuple[set[Status | Resuming], set[Status | Resuming]]] = field(
+        default_factory=dict
+    )
+    """For each loop, by identity: what came to its head, and what leaves it by `Break`."""
 
 
 class _Walk:
@@ -152,7 +146,7 @@ class _Walk:
         known, broken = frame.known.setdefault(id(step), (set(), set()))
         while not coming <= known:
             known |= coming
-            inside = frame.inside(broken)
+            inside = replace(frame, continued=set(), broken=broken)
             coming = self.body(step.body, frozenset(known), inside) | inside.continued
         return frozenset(broken)
 

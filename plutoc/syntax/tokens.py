@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from lark import Token
 
@@ -76,7 +76,7 @@ def expected(types: Iterable[str], name: str = "a name") -> str:
     for kind, words in _NAMED.items():
         if kind in left:
             said.append(name if kind == "NAME" else words)
-    return alternatives(said)
+    return joined(said, "or")
 
 
 def found(token: Token) -> str:
@@ -89,6 +89,6 @@ def shortened(text: str, longest: int = 30) -> str:
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
-def alternatives(words: list[str]) -> str:
-    """Join with commas and an "or" before the last one."""
-    return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+def joined(words: Sequence[str], last: str) -> str:
+    """Join with commas, and with `last`, an "or" or an "and", before the last one."""
+    return f" {last} ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
