@@ -11,8 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.station.plan.errors import Stale
-from pluto_fleet.station.plan.plan import MissionPlan
+from pluto_fleet.station.plan.plan import MissionPlan, Stale
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Mission
 from tests.runtime.files.an_app import APP

@@ -13,7 +13,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import cut_off, printable
 
 from ..commands import NEEDS, Malformed
-from ..plan.errors import Stale
+from ..plan.plan import Stale
 from . import refusals
 from .audit import Audit
 from .guard import Access, Guard, Rate, refusal, with_safe_headers
