@@ -114,10 +114,6 @@ class MissionPlan:
         added = example_missions(self._app, self._fleet, names)
         self._change([*self._missions, *self._shaped(added)])
 
-    def export_toml(self) -> str:
-        """Return the plan as a missions file."""
-        return self.text()
-
     # What flies
 
     def launchable(
@@ -184,7 +180,7 @@ class MissionPlan:
         """Nothing flies any more: every mission may be changed, and launched again."""
         self._mark(lambda _: False)
 
-    def text(self, keys: Collection[str] | None = None) -> str:
+    def export_toml(self, keys: Collection[str] | None = None) -> str:
         """Return the missions file of these missions, or of all."""
         chosen = [one for one in self._missions if keys is None or one["key"] in keys]
         return text_of(self._app, chosen)
