@@ -74,47 +74,28 @@ def version_changed(old: Graph, new: Graph) -> Change:
 # What must be installed
 
 
-def library_added(now: Sequence[Library]) -> Change:
-    """The package needs a library more."""
-    return _library(
-        "library_added", f"the package now requires {_required(now)}: pip installs it, too", (), now
-    )
-
-
-def library_removed(was: Sequence[Library]) -> Change:
-    """The package needs a library less."""
-    return _library(
-        "library_removed",
-        f"the package no longer requires {_required(was)}: hooks.py cannot count on it",
-        was,
-        (),
-    )
-
-
 def library_changed(was: Sequence[Library], now: Sequence[Library]) -> Change:
-    """The package needs a library in other versions, or under another condition."""
-    return _library(
-        "library_changed",
-        f"the package now requires {_required(now)}; before, {_required(was)}",
-        was,
-        now,
-    )
-
-
-def _required(libraries: Sequence[Library]) -> str:
-    return listed([code(library.requirement) for library in libraries])
-
-
-def _library(kind: str, sentence: str, was: Sequence[Library], now: Sequence[Library]) -> Change:
+    """The package needs a library more or less, or in other versions or under another condition."""
+    if not was:
+        kind, said = "library_added", f"now requires {_required(now)}: pip installs it, too"
+    elif not now:
+        kind = "library_removed"
+        said = f"no longer requires {_required(was)}: hooks.py cannot count on it"
+    else:
+        kind, said = "library_changed", f"now requires {_required(now)}; before, {_required(was)}"
     return Change(
         kind=kind,
         importance=Importance.PEOPLE,
-        sentence=sentence,
+        sentence=f"the package {said}",
         before=tuple(library.requirement for library in was) or None,
         after=tuple(library.requirement for library in now) or None,
         was=tuple(library.span for library in was),
         now=tuple(library.span for library in now),
     )
+
+
+def _required(libraries: Sequence[Library]) -> str:
+    return listed([code(library.requirement) for library in libraries])
 
 
 # What people enter
