@@ -20,9 +20,9 @@ def blocks(both: Both, told: Sequence[Change]) -> Iterator[Change]:
         if old.name != new.name:
             yield messages.block_renamed(old, new, alone=new.name not in about)
     for node in both.gone():
-        yield messages.block_removed(node)
+        yield messages.block_of_one(node, is_new=False)
     for node in both.added():
-        yield messages.block_added(node)
+        yield messages.block_of_one(node, is_new=True)
 
 
 def settings(both: Both) -> Iterator[Change]:

@@ -22,10 +22,10 @@ def limits(both: Both) -> Iterator[Change]:
     before, after = _limits(both.old), _limits(both.new)
     for what, nodes in before.items():
         if what not in after:
-            yield messages.limit_removed(what, nodes)
+            yield messages.limit_of_one(what, nodes, is_new=False)
     for what, nodes in after.items():
         if what not in before:
-            yield messages.limit_added(what, nodes)
+            yield messages.limit_of_one(what, nodes, is_new=True)
 
 
 def branches(both: Both, moved: Sequence[Reroute]) -> Iterator[Change]:
@@ -40,12 +40,12 @@ def branches(both: Both, moved: Sequence[Reroute]) -> Iterator[Change]:
         for name in dict.fromkeys(one.before):
             known, node = both.old.called([name])[0], both.old.graph.node.get(name)
             if known not in now and not _is_told(node, after):
-                yield messages.branch_removed(both.old.graph, one, name, stays, spans)
+                yield messages.branch_of_one(both.old.graph, one, name, stays, spans, is_new=False)
         for name in now:
             if name in was and was[name] != now[name]:
                 yield messages.branch_repeated(one, name, was[name], now[name], spans)
             elif name not in was and not _is_told(both.new.graph.node.get(name), before):
-                yield messages.branch_added(both.new.graph, one, name, stays, spans)
+                yield messages.branch_of_one(both.new.graph, one, name, stays, spans, is_new=True)
 
 
 def gates(both: Both) -> Iterator[Change]:

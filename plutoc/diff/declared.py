@@ -33,13 +33,11 @@ def _libraries(old: Graph, new: Graph) -> Iterator[Change]:
     before, after = _by_name(old), _by_name(new)
     for name, now in after.items():
         was = before.get(name, ())
-        if not was:
-            yield messages.library_added(now)
-        elif not _same_libraries(was, now):
+        if not (was and _same_libraries(was, now)):
             yield messages.library_changed(was, now)
     for name, was in before.items():
         if name not in after:
-            yield messages.library_removed(was)
+            yield messages.library_changed(was, ())
 
 
 def _by_name(graph: Graph) -> dict[str, tuple[Library, ...]]:

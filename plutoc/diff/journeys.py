@@ -37,7 +37,8 @@ def reroutes(both: Both) -> tuple[Reroute, ...]:
         if key not in found:
             found[key] = one
         elif role(one.new) not in _WATCH:
-            found[key] = _with(found[key], one.statuses)
+            known = found[key]
+            found[key] = replace(known, statuses=(*known.statuses, *one.statuses))
     return tuple(found.values())
 
 
@@ -112,11 +113,6 @@ def _each(both: Both) -> Iterator[Reroute]:
 
 def _way(both: Both, one: Reroute) -> tuple[Status, tuple[str, ...], tuple[str, ...]]:
     return one.statuses[0], both.old.known(one.before), both.new.known(one.after)
-
-
-def _with(one: Reroute, statuses: tuple[Status, ...]) -> Reroute:
-    known = (*one.statuses, *statuses)
-    return Reroute(old=one.old, new=one.new, statuses=known, before=one.before, after=one.after)
 
 
 def _stays(both: Both, one: Reroute) -> bool:

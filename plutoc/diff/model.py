@@ -59,6 +59,29 @@ class Change:
     """Places in the new source."""
 
 
+def one_sided(
+    kind: str,
+    importance: Importance,
+    sentence: str,
+    *,
+    is_new: bool,
+    blocks: tuple[str, ...] = (),
+    fact: Fact = None,
+    spans: tuple[Span, ...] = (),
+) -> Change:
+    """Return a change whose fact and places are in one of the apps only."""
+    return Change(
+        kind=kind,
+        importance=importance,
+        sentence=sentence,
+        blocks=blocks,
+        before=None if is_new else fact,
+        after=fact if is_new else None,
+        was=() if is_new else spans,
+        now=spans if is_new else (),
+    )
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Difference:
     """All that changed in meaning from one source to another, most important first."""

@@ -10,7 +10,6 @@ from plutoc.diff.both import Both, Side
 from plutoc.diff.messages import blocks as messages
 from plutoc.diff.model import Change, Importance
 from plutoc.diff.roles import awaited
-from plutoc.graph.model import Node
 from plutoc_runtime.domain.status import Status
 
 _HELD, _UNMENDED, _UNBOUNDED = "P2054", "P2055", "P2056"
@@ -34,36 +33,22 @@ def warned(both: Both, told: Sequence[Change]) -> Iterator[Change]:
         if code == _HELD:  # each block has its own: they are told one by one
             was = [one for one in was if _called(one, both.old.names) not in still]
             now = [one for one in now if one.message not in known]
-            yield from (_added(both.new, one) for one in now)
-            yield from (_removed(both.old, one) for one in was)
-            continue
-        come = [one for one in now if one.message not in known] or now
-        gone = [one for one in was if _called(one, both.old.names) not in still] or was
-        yield from (_added(both.new, one) for one in come[: max(len(now) - len(was), 0)])
-        yield from (_removed(both.old, one) for one in gone[: max(len(was) - len(now), 0)])
+            come, gone = now, was
+        else:
+            come = [one for one in now if one.message not in known] or now
+            come = come[: max(len(now) - len(was), 0)]
+            gone = [one for one in was if _called(one, both.old.names) not in still] or was
+            gone = gone[: max(len(was) - len(now), 0)]
+        yield from (_change(both.new, one, is_new=True) for one in come)
+        yield from (_change(both.old, one, is_new=False) for one in gone)
 
 
-def _added(side: Side, warning: Diagnostic) -> Change:
-    node = _node_of(side, warning)
+def _change(side: Side, warning: Diagnostic, *, is_new: bool) -> Change:
+    node = next((n for n in side.graph.nodes if n.name_span == warning.span), None)
     if warning.code == _HELD and node:
-        return messages.held_added(_wait(node), node)
-    return messages.warning_added(warning, _importance(warning), node)
-
-
-def _removed(side: Side, warning: Diagnostic) -> Change:
-    node = _node_of(side, warning)
-    if warning.code == _HELD and node:
-        return messages.held_removed(_wait(node), node)
-    return messages.warning_removed(warning, _importance(warning), node)
-
-
-def _wait(node: Node) -> str:
-    return awaited(node) or f"wait at `{node.name}`"
-
-
-def _node_of(side: Side, warning: Diagnostic) -> Node | None:
-    """Return the block that a warning points at."""
-    return next((n for n in side.graph.nodes if n.name_span == warning.span), None)
+        wait = awaited(node) or f"wait at `{node.name}`"
+        return messages.held(wait, node, is_new=is_new)
+    return messages.warning_of_one(warning, _importance(warning), node, is_new=is_new)
 
 
 def _importance(warning: Diagnostic) -> Importance:

@@ -8,6 +8,7 @@ from json import dumps
 from typing import NamedTuple
 
 from plutoc.diff.model import Change, Difference, Importance
+from plutoc.report.json import Place, place
 from plutoc.report.terminal import BLUE, BOLD, RED, paint
 from plutoc.source import Source, Span
 from plutoc_runtime.domain.text import counted, printable
@@ -26,7 +27,6 @@ _MOST_FOR_A_CHANGE = 3
 _TICKS = re.compile(r"`+")
 _MOST_CHANGES, _MOST_LINES, _WIDEST = 40, 60, 160
 """Of a section, of each source, and of a line: a comment on GitHub has room for 65,536 characters."""
-_Place = dict[str, str | int]
 
 
 class ShownLine(NamedTuple):
@@ -183,17 +183,5 @@ def _change(found: Difference, change: Change) -> dict[str, object]:
     }
 
 
-def _places(source: Source, spans: Sequence[Span]) -> list[_Place]:
-    return [_place(source, span) for span in spans]
-
-
-def _place(source: Source, span: Span) -> _Place:
-    line, column = source.position(span.start)
-    end_line, end_column = source.position(span.end)
-    return {
-        "file": source.path,
-        "line": line,
-        "column": column,
-        "end_line": end_line,
-        "end_column": end_column,
-    }
+def _places(source: Source, spans: Sequence[Span]) -> list[Place]:
+    return [{"file": source.path, **place(source, span)} for span in spans]

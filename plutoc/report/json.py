@@ -19,24 +19,25 @@ def render_line(diagnostic: Diagnostic) -> str:
         "severity": diagnostic.severity.value,
         "message": diagnostic.message,
         "file": source.path,
-        **_place(source, diagnostic.span),
+        **place(source, diagnostic.span),
         "help": diagnostic.help,
         "related": [
             {
                 "file": related.source.path,
-                **_place(related.source, related.span),
+                **place(related.source, related.span),
                 "label": related.label,
             }
             for related in diagnostic.related
         ],
-        "fix": [{**_place(source, fix.span), "text": fix.text}] if fix else None,
+        "fix": [{**place(source, fix.span), "text": fix.text}] if fix else None,
         "rendered": render_one(diagnostic, colour=False),
     }
     # ASCII only: a line of this cannot be broken by what an odd source holds.
     return json.dumps(facts, ensure_ascii=True)
 
 
-def _place(source: Source, span: Span) -> Place:
+def place(source: Source, span: Span) -> Place:
+    """Return where a span begins and ends, in the words of all JSON reports."""
     line, column = source.position(span.start)
     end_line, end_column = source.position(span.end)
     return {"line": line, "column": column, "end_line": end_line, "end_column": end_column}

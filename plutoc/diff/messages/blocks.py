@@ -5,7 +5,7 @@ from __future__ import annotations
 from plutoc.block import Block, Choice, Param
 from plutoc.diagnostic import Diagnostic
 from plutoc.diff.both import Side
-from plutoc.diff.model import Change, Fact, Importance
+from plutoc.diff.model import Change, Fact, Importance, one_sided
 from plutoc.diff.phrases import amount, so_often
 from plutoc.diff.roles import Role, limited, role
 from plutoc.graph.model import Node, Parameter, Plain
@@ -135,27 +135,16 @@ def block_renamed(old: Node, new: Node, alone: bool) -> Change:
     return _set("block_renamed", Importance.FORM, sentence, (old, new), old.name, new.name)
 
 
-def block_added(node: Node) -> Change:
-    """The old app has no such block."""
-    return Change(
-        kind="block_added",
-        importance=Importance.FORM,
-        sentence=f"block `{node.name}` is new, a `{node.block.name}`",
+def block_of_one(node: Node, *, is_new: bool) -> Change:
+    """Only one of the apps has such a block."""
+    return one_sided(
+        "block_added" if is_new else "block_removed",
+        Importance.FORM,
+        f"block `{node.name}` is {'new' if is_new else 'gone'}, a `{node.block.name}`",
         blocks=(node.name,),
-        after=node.block.name,
-        now=(node.name_span,),
-    )
-
-
-def block_removed(node: Node) -> Change:
-    """The new app has no such block."""
-    return Change(
-        kind="block_removed",
-        importance=Importance.FORM,
-        sentence=f"block `{node.name}` is gone, a `{node.block.name}`",
-        blocks=(node.name,),
-        before=node.block.name,
-        was=(node.name_span,),
+        fact=node.block.name,
+        spans=(node.name_span,),
+        is_new=is_new,
     )
 
 
@@ -171,48 +160,35 @@ def arranged_otherwise() -> Change:
 # Warnings
 
 
-def held_added(awaited: str, node: Node) -> Change:
-    """A mission waits with a drone that no other can use."""
-    return Change(
-        kind="held_added",
-        importance=Importance.SAFETY,
-        sentence=f"a drone is held during the {awaited}: missions come to `{node.name}` with one"
-        " allocated, which no other mission can use",
+def held(awaited: str, node: Node, *, is_new: bool) -> Change:
+    """A mission waits with a drone that no other can use, or does so no more."""
+    if is_new:
+        sentence = (
+            f"a drone is held during the {awaited}: missions come to `{node.name}` with one"
+            " allocated, which no other mission can use"
+        )
+    else:
+        sentence = f"a drone is no longer held during the {awaited}"
+    return one_sided(
+        "held_added" if is_new else "held_removed",
+        Importance.SAFETY,
+        sentence,
         blocks=(node.name,),
-        now=(node.name_span,),
+        spans=(node.name_span,),
+        is_new=is_new,
     )
 
 
-def held_removed(awaited: str, node: Node) -> Change:
-    """A mission waits with a drone no more."""
-    return Change(
-        kind="held_removed",
-        importance=Importance.SAFETY,
-        sentence=f"a drone is no longer held during the {awaited}",
-        blocks=(node.name,),
-        was=(node.name_span,),
-    )
-
-
-def warning_added(warning: Diagnostic, importance: Importance, node: Node | None) -> Change:
-    """The checks warn of something that they did not warn of before."""
-    return Change(
-        kind="warning_added",
-        importance=importance,
-        sentence=f"a warning is new: {warning.message} ({warning.code})",
+def warning_of_one(
+    warning: Diagnostic, importance: Importance, node: Node | None, *, is_new: bool
+) -> Change:
+    """The checks warn of something in one of the apps only."""
+    return one_sided(
+        "warning_added" if is_new else "warning_removed",
+        importance,
+        f"a warning is {'new' if is_new else 'gone'}: {warning.message} ({warning.code})",
         blocks=(node.name,) if node else (),
-        after=warning.code,
-        now=(warning.span,),
-    )
-
-
-def warning_removed(warning: Diagnostic, importance: Importance, node: Node | None) -> Change:
-    """The checks warn of something no more."""
-    return Change(
-        kind="warning_removed",
-        importance=importance,
-        sentence=f"a warning is gone: {warning.message} ({warning.code})",
-        blocks=(node.name,) if node else (),
-        before=warning.code,
-        was=(warning.span,),
+        fact=warning.code,
+        spans=(warning.span,),
+        is_new=is_new,
     )

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from plutoc.block import HookKind, Param
 from plutoc.diff.match import Declared, kind_of
-from plutoc.diff.model import Change, Fact, Importance
+from plutoc.diff.model import Change, Fact, Importance, one_sided
 from plutoc.diff.phrases import amount, code, listed, named
 from plutoc.graph.model import Action, Category, Graph, Hook, Library, Node, Parameter
 from plutoc.source import Span
@@ -74,47 +74,28 @@ def version_changed(old: Graph, new: Graph) -> Change:
 # What must be installed
 
 
-def library_added(now: Sequence[Library]) -> Change:
-    """The package needs a library more."""
-    return _library(
-        "library_added", f"the package now requires {_required(now)}: pip installs it, too", (), now
-    )
-
-
-def library_removed(was: Sequence[Library]) -> Change:
-    """The package needs a library less."""
-    return _library(
-        "library_removed",
-        f"the package no longer requires {_required(was)}: hooks.py cannot count on it",
-        was,
-        (),
-    )
-
-
 def library_changed(was: Sequence[Library], now: Sequence[Library]) -> Change:
-    """The package needs a library in other versions, or under another condition."""
-    return _library(
-        "library_changed",
-        f"the package now requires {_required(now)}; before, {_required(was)}",
-        was,
-        now,
-    )
-
-
-def _required(libraries: Sequence[Library]) -> str:
-    return listed([code(library.requirement) for library in libraries])
-
-
-def _library(kind: str, sentence: str, was: Sequence[Library], now: Sequence[Library]) -> Change:
+    """The package needs a library more or less, or in other versions or under another condition."""
+    if not was:
+        kind, said = "library_added", f"now requires {_required(now)}: pip installs it, too"
+    elif not now:
+        kind = "library_removed"
+        said = f"no longer requires {_required(was)}: hooks.py cannot count on it"
+    else:
+        kind, said = "library_changed", f"now requires {_required(now)}; before, {_required(was)}"
     return Change(
         kind=kind,
         importance=Importance.PEOPLE,
-        sentence=sentence,
+        sentence=f"the package {said}",
         before=tuple(library.requirement for library in was) or None,
         after=tuple(library.requirement for library in now) or None,
         was=tuple(library.span for library in was),
         now=tuple(library.span for library in now),
     )
+
+
+def _required(libraries: Sequence[Library]) -> str:
+    return listed([code(library.requirement) for library in libraries])
 
 
 # What people enter
@@ -123,24 +104,16 @@ def _library(kind: str, sentence: str, was: Sequence[Library], now: Sequence[Lib
 def fields_added(on: Entity, fields: Sequence[tuple[Field, Node]]) -> Change:
     """There is something more to enter."""
     about = [f"`{field.name}` ({_small(field.doc)})" for field, _ in fields]
-    return _fields(
-        "fields_added",
-        f"{_OWNERS[on]} can now have {listed(about)}, in missions files",
-        fields,
-        is_new=True,
-    )
+    sentence = f"{_OWNERS[on]} can now have {listed(about)}, in missions files"
+    return _fields("fields_added", sentence, fields, is_new=True)
 
 
 def fields_removed(on: Entity, fields: Sequence[tuple[Field, Node]]) -> Change:
     """There is something less to enter."""
     names = named([field.name for field, _ in fields], "or")
     them = "it" if len(fields) == 1 else "them"
-    return _fields(
-        "fields_removed",
-        f"{_OWNERS[on]} can no longer have {names}: missions files with {them} are refused",
-        fields,
-        is_new=False,
-    )
+    sentence = f"{_OWNERS[on]} can no longer have {names}: missions files with {them} are refused"
+    return _fields("fields_removed", sentence, fields, is_new=False)
 
 
 _OWNERS = {Entity.MISSION: "a mission", Entity.TRIP: "a trip"}
@@ -149,17 +122,14 @@ _OWNERS = {Entity.MISSION: "a mission", Entity.TRIP: "a trip"}
 def _fields(
     kind: str, sentence: str, fields: Sequence[tuple[Field, Node]], *, is_new: bool
 ) -> Change:
-    names = tuple(field.name for field, _ in fields)
-    spans = tuple(dict.fromkeys(node.name_span for _, node in fields))
-    return Change(
-        kind=kind,
-        importance=Importance.PEOPLE,
-        sentence=sentence,
+    return one_sided(
+        kind,
+        Importance.PEOPLE,
+        sentence,
         blocks=tuple(dict.fromkeys(node.name for _, node in fields)),
-        before=None if is_new else names,
-        after=names if is_new else None,
-        was=() if is_new else spans,
-        now=spans if is_new else (),
+        fact=tuple(field.name for field, _ in fields),
+        spans=tuple(dict.fromkeys(node.name_span for _, node in fields)),
+        is_new=is_new,
     )
 
 
@@ -242,6 +212,8 @@ _WORDS = {
     HookKind.MODIFIER: "modifier",
     HookKind.POLICY: "policy",
 }
+_IN_PLANS = (HookKind.ACTION, HookKind.EVALUATOR)
+"""What missions files name."""
 
 
 def hook_added(one: Declared) -> Change:
@@ -262,10 +234,7 @@ def hook_added(one: Declared) -> Change:
 def hook_removed(one: Declared) -> Change:
     """There is a function less to write."""
     kind = kind_of(one)
-    refused = {
-        HookKind.ACTION: ": missions files that name it are refused",
-        HookKind.EVALUATOR: ": missions files that name it are refused",
-    }.get(kind, "")
+    refused = ": missions files that name it are refused" if kind in _IN_PLANS else ""
     return _said(
         "hook_removed",
         f"there is no {_WORDS[kind]} `{one.name}` any more{refused}",
@@ -286,9 +255,6 @@ def hook_renamed(old: Declared, new: Declared) -> Change:
         old.span,
         new.span,
     )
-
-
-_IN_PLANS = (HookKind.ACTION, HookKind.EVALUATOR)
 
 
 def repeat_changed(old: Action, new: Action) -> Change:

@@ -6,34 +6,27 @@ from collections.abc import Sequence
 
 from plutoc.block import Gate, Param
 from plutoc.check.model import Fork
-from plutoc.diff.model import Change, Importance, Reroute, Spans
+from plutoc.diff.model import Change, Importance, Reroute, Spans, one_sided
 from plutoc.diff.phrases import amount, named
 from plutoc.graph.model import END, Graph, Node
 
 
-def limit_added(what: str, nodes: Sequence[Node]) -> Change:
-    """A time in flight is watched that nothing watched before."""
-    fallback = _fallback(nodes[0])
-    without = f"it is {fallback}" if fallback else "there is no limit"
-    return Change(
-        kind="limit_added",
-        importance=Importance.SAFETY,
-        sentence=f"a trip's {what} is now watched: past it, the trip fails; where none is given, {without}",
+def limit_of_one(what: str, nodes: Sequence[Node], *, is_new: bool) -> Change:
+    """A time in flight is watched in one of the apps only."""
+    if is_new:
+        fallback = _fallback(nodes[0])
+        without = f"it is {fallback}" if fallback else "there is no limit"
+        said = f"now watched: past it, the trip fails; where none is given, {without}"
+    else:
+        said = "no longer watched"
+    return one_sided(
+        "limit_added" if is_new else "limit_removed",
+        Importance.SAFETY,
+        f"a trip's {what} is {said}",
         blocks=tuple(node.name for node in nodes),
-        after=what,
-        now=tuple(node.name_span for node in nodes),
-    )
-
-
-def limit_removed(what: str, nodes: Sequence[Node]) -> Change:
-    """A time in flight is watched no more."""
-    return Change(
-        kind="limit_removed",
-        importance=Importance.SAFETY,
-        sentence=f"a trip's {what} is no longer watched",
-        blocks=tuple(node.name for node in nodes),
-        before=what,
-        was=tuple(node.name_span for node in nodes),
+        fact=what,
+        spans=tuple(node.name_span for node in nodes),
+        is_new=is_new,
     )
 
 
@@ -44,20 +37,6 @@ def _fallback(node: Node) -> str | None:
         if isinstance(param, Param) and value is not None:
             return amount(value, param.type)
     return None
-
-
-def branch_added(
-    graph: Graph, one: Reroute, name: str, beside: Sequence[str], spans: Spans
-) -> Change:
-    """Something goes on beside something else that did not before."""
-    return _branch("branch_added", "now", graph, one, name, beside, spans)
-
-
-def branch_removed(
-    graph: Graph, one: Reroute, name: str, beside: Sequence[str], spans: Spans
-) -> Change:
-    """Something goes on beside something else no more."""
-    return _branch("branch_removed", "no longer", graph, one, name, beside, spans)
 
 
 def branch_repeated(one: Reroute, name: str, was: int, now: int, spans: Spans) -> Change:
@@ -79,20 +58,16 @@ def _often(number: int) -> str:
     return "once" if number == 1 else f"{'twice' if number == 2 else f'{number} times'} at once"
 
 
-def _branch(
-    kind: str,
-    since: str,
-    graph: Graph,
-    one: Reroute,
-    name: str,
-    beside: Sequence[str],
-    spans: Spans,
+def branch_of_one(
+    graph: Graph, one: Reroute, name: str, beside: Sequence[str], spans: Spans, *, is_new: bool
 ) -> Change:
+    """Something goes on beside something else in one of the apps only."""
     node = graph.node.get(name)
     calls = f", which calls `{node.hook.name}`," if node and node.hook else ""
     runs = "leads straight to the gate beside" if node and node.block.gate else "runs beside"
+    since = "now" if is_new else "no longer"
     return Change(
-        kind=kind,
+        kind="branch_added" if is_new else "branch_removed",
         importance=Importance.SAFETY if node and node.block.watches else Importance.MISSIONS,
         sentence=f"`{name}`{calls} {since} {runs} {named(beside)}",
         blocks=(one.new.name, *(() if name == END else (name,))),

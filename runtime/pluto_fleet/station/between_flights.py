@@ -28,7 +28,6 @@ from ..simulation.world_store import DRONES
 from . import rows
 
 if TYPE_CHECKING:
-
     from plutoc_runtime.domain.app import App
 
     from ..files.drones import DroneEntry
@@ -189,9 +188,8 @@ class FleetHistory:
             check(journal, header, self._app)
             if [header["sim"], header.get("crtp_sim") is not None] != self._kind:
                 return
-            same = shown_fleet(fleet_in(self._app, journal, header)) == shown_fleet(
-                self._config.fleet
-            )
+            flown = fleet_in(self._app, journal, header)
+            same = shown_fleet(flown) == shown_fleet(self._config.fleet)
             records = recovered(store).records
         if "lost" not in header:  # it was not begun by a station
             for drone, why in self.records.lost.items():
@@ -240,12 +238,8 @@ class FleetHistory:
         if drone not in self._fleet:
             names = ", ".join(map(quoted, self._fleet))
             raise BadInput(f"no drone {quoted(drone)} is in the fleet; there are: {names}")
-        commanded = {
-            "t": self.records.time,
-            "event": "commanded",
-            "id": id,
-            "command": "bring-back",
-        }
+        now = self.records.time
+        commanded = {"t": now, "event": "commanded", "id": id, "command": "bring-back"}
         if self._journal is not None and self._journal.exists():
             said = record_return(self._app, self._journal, drone, [commanded])
             self.read()
@@ -271,8 +265,7 @@ class FleetHistory:
         """Raise `BadInput` where another process commands the drones of the newest journal."""
         if (process := self.flown_elsewhere()) is not None:
             raise BadInput(
-                f"the last flight was gone on with elsewhere (process {process}): end it"
-                " there first"
+                f"the last flight was gone on with elsewhere (process {process}): end it there first"
             )
 
     def hand_on_the_world(self, journal: Path) -> None:

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
     from .graph.picture import Graph
 
-    # was an import of itself
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StationConfig:

@@ -33,7 +33,6 @@ from .plan.shape import BROKEN_OFF
 from .wait_reasons import WaitReasons
 
 if TYPE_CHECKING:
-    # was an import of itself
     from plutoc_runtime.domain.trace import Event
 
     from ..flight.fly import Recovered

@@ -107,7 +107,8 @@ class Station:
         arguments = checked(name, given)
         if id in self._answers:
             return await asyncio.shield(self._answers[id])
-        if self._was_done(id):
+        known = self.session.known if self.session is not None else None
+        if known is not None and id in known.commands:
             return "done already"
         answer = asyncio.ensure_future(self._do(name, id, arguments))
         self._answers[id] = answer
@@ -115,12 +116,6 @@ class Station:
         while len(self._answers) > ANSWERS_KEPT and next(iter(self._answers.values())).done():
             self._answers.popitem(last=False)
         return await asyncio.shield(answer)  # the page may go: it is done all the same
-
-    def _was_done(self, id: str) -> bool:
-        session = self.session
-        if session is None:
-            return False
-        return session.known is not None and id in session.known.commands
 
     async def _do(self, name: str, id: str, given: Mapping[str, object]) -> str:
         match name:
@@ -163,7 +158,7 @@ class Station:
             raise BadInput("there is no mission yet: make one first")
         if given["revision"] not in (None, self.plan.revision):
             raise BadInput("the plan has changed meanwhile: look at it, and start again")
-        text = self.plan.text(keys)
+        text = self.plan.export_toml(keys)
         self.plan.launched(keys)  # before anything flies: it may not be changed from now on
         try:
             if phase is Phase.FLYING:
@@ -374,9 +369,7 @@ class Station:
 
     def results(self) -> list[object]:
         """Return what the flight has brought in."""
-        if self.session is None:
-            return []
-        return self.session.feed.brought()
+        return self.session.feed.brought() if self.session is not None else []
 
 
 _NOT_YET = "the drones are just being asked where they are: try again in a moment"

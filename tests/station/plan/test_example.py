@@ -127,4 +127,4 @@ def test_an_example_is_added_to_what_was_drawn() -> None:
     missions: Any = plan.data()["missions"]
     assert [one["name"] for one in missions] == [f"Example {i}" for i in range(1, 8)]
     assert plan.launchable()[1] == [one["key"] for one in missions]
-    assert shown(APP, FLEET).text() == shown(APP, FLEET).text()
+    assert shown(APP, FLEET).export_toml() == shown(APP, FLEET).export_toml()

@@ -11,8 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.station.plan.errors import Stale
-from pluto_fleet.station.plan.plan import MissionPlan
+from pluto_fleet.station.plan.plan import MissionPlan, Stale
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Mission
 from tests.runtime.files.an_app import APP
@@ -120,7 +119,9 @@ def test_hostile_texts_stay_texts(tmp_path: Path) -> None:
     """Nothing in a text can end it, and every character comes back."""
     hostile = '"]\n[[mission]]\n\x7f\x00\\u0041\U0001f681 \u2028 {{ }} <script>'
     parameters = {"dose": 1, "note": hostile, "a.b": 1}
-    text = drawn(mission("mission-one", trip(action="pollinate", parameters=parameters))).text()
+    text = drawn(
+        mission("mission-one", trip(action="pollinate", parameters=parameters))
+    ).export_toml()
     assert '"a.b" = 1' in text
     file = tmp_path / "m.toml"
     file.write_bytes(text.replace(', "a.b" = 1', "").encode())
@@ -131,7 +132,7 @@ def test_hostile_texts_stay_texts(tmp_path: Path) -> None:
 def test_an_unfinished_plan_is_exported_as_it_is() -> None:
     """What is not drawn yet is not there."""
     begun = mission("mission-one", trip(target=None, item={}), safe_time="3 m", name="")
-    assert drawn(begun, mission("mission-two", trips=[])).text() == (
+    assert drawn(begun, mission("mission-two", trips=[])).export_toml() == (
         '[[mission]]\nname = ""\nsafe_time = "3 m"\n\n'
         '  [[mission.trip]]\n  action = "take_photo"\n  item = {}\n\n'
         '[[mission]]\nname = "mission-two"\n'
@@ -229,7 +230,7 @@ def test_a_file_is_not_taken_on_an_old_plan() -> None:
 def test_some_missions_alone_are_a_file_too() -> None:
     """Those of these keys, in the plan's order."""
     plan = drawn(mission("mission-one"), mission("mission-two"), mission("mission-six"))
-    text = plan.text(["mission-six", "mission-one"])
+    text = plan.export_toml(["mission-six", "mission-one"])
     assert [line for line in text.split("\n") if line.startswith("name")] == [
         'name = "mission-one"',
         'name = "mission-six"',

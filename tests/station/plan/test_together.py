@@ -9,8 +9,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
-from pluto_fleet.station.plan.errors import Stale
-from pluto_fleet.station.plan.plan import MissionPlan
+from pluto_fleet.station.plan.plan import MissionPlan, Stale
 from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
 

@@ -8,10 +8,10 @@ from math import dist
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.actions import PICK, RELEASE, Action
+from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.text import mass
 
-from . import errors
 from .problems import read, unflyable_trips
 from .shape import Shape
 
@@ -67,7 +67,9 @@ def example_missions(app: App, fleet: FleetFile, taken: Sequence[str]) -> list[S
         if len(best) == len(wanted):
             break
     if not best:
-        raise errors.no_example()
+        raise BadInput(
+            "no example could be made: no drone of the fleet can do anything anywhere on this map"
+        )
     numbers = (f"Example {i}" for i in range(1, len(taken) + len(best) + 1))
     names = (name for name in numbers if name not in taken)
     return [{"name": name, **mission} for name, mission in zip(names, best, strict=False)]

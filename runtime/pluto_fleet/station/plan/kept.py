@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.fields import Entity
+from plutoc_runtime.domain.text import printable
 
-from . import errors
+from ...files.errors import listed, shown
 from .shape import MISSION_KEYS, TRIP_KEYS, Shape, fields_of, missions_from
 
 if TYPE_CHECKING:
@@ -22,6 +23,8 @@ LARGEST = 1 << 25
 """Bytes; a plan with every text as long as it may be is smaller."""
 
 VERSION = 1
+
+_NOT_JSON = "it is damaged, or is something else"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +66,7 @@ def read(path: Path, app: App) -> KeptPlan:
     try:
         data = _data(path)
         if data.get("app") != app.name:
-            raise _Unreadable(errors.of_another_app(data.get("app"), app.name))
+            raise _Unreadable(f"it is of {shown(data.get('app'))}, and this is {app.name}")
         return _kept(path, data, app)
     except _Unreadable as error:
         why = str(error)
@@ -71,33 +74,36 @@ def read(path: Path, app: App) -> KeptPlan:
     try:
         os.replace(path, aside)
     except OSError as error:
-        raise errors.in_the_way(path, why, error) from None
-    return KeptPlan(said=errors.not_a_plan(path, why, aside))
+        raise _in_the_way(path, why, error) from None
+    return KeptPlan(
+        said=f"The plan that was kept cannot be read: {why}. It lies in {printable(str(aside))}, "
+        f"and {printable(str(path))} begins anew."
+    )
 
 
 def _data(path: Path) -> dict[str, object]:
     try:
         if not path.is_file():
-            raise _Unreadable(errors.not_json())
+            raise _Unreadable(_NOT_JSON)
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
     except OSError as error:
-        raise _Unreadable(errors.unreadable(error)) from None
+        raise _Unreadable(_unreadable(error)) from None
     if len(content) > LARGEST:
-        raise _Unreadable(errors.too_much())
+        raise _Unreadable("it is larger than any plan")
     try:
         data = json.loads(content)
     except (ValueError, RecursionError):
-        raise _Unreadable(errors.not_json()) from None
+        raise _Unreadable(_NOT_JSON) from None
     if not isinstance(data, dict) or data.get("version") != VERSION:
-        raise _Unreadable(errors.not_json())
+        raise _Unreadable(_NOT_JSON)
     return data
 
 
 def _kept(path: Path, data: Mapping[str, object], app: App) -> KeptPlan:
     revision, given = data.get("revision"), data.get("missions")
     if isinstance(revision, bool) or not isinstance(revision, int) or revision < 0:
-        raise _Unreadable(errors.not_json())
+        raise _Unreadable(_NOT_JSON)
     missions, gone = _without_gone(given, app)
     try:
         shapes = missions_from(missions, app)
@@ -111,8 +117,12 @@ def _kept(path: Path, data: Mapping[str, object], app: App) -> KeptPlan:
     try:
         aside.write_bytes(path.read_bytes())
     except OSError as error:
-        raise errors.in_the_way(path, errors.unreadable(error), error) from None
-    return KeptPlan(missions=shapes, revision=revision, said=errors.not_all_taken(aside, gone))
+        raise _in_the_way(path, _unreadable(error), error) from None
+    said = (
+        f"The plan that was kept has {listed(gone)}, which this app does not have any more. The "
+        f"rest is here; as it was, it lies in {printable(str(aside))}."
+    )
+    return KeptPlan(missions=shapes, revision=revision, said=said)
 
 
 def _without_gone(given: object, app: App) -> tuple[list[Shape], list[str]]:
@@ -121,12 +131,12 @@ def _without_gone(given: object, app: App) -> tuple[list[Shape], list[str]]:
 
     def known(one: object, keys: Sequence[str]) -> Shape:
         if not isinstance(one, dict):
-            raise _Unreadable(errors.not_json())
+            raise _Unreadable(_NOT_JSON)
         gone.update(dict.fromkeys(key for key in one if key not in keys))
         return {key: value for key, value in one.items() if key in keys}
 
     if not isinstance(given, list):
-        raise _Unreadable(errors.not_json())
+        raise _Unreadable(_NOT_JSON)
     missions = []
     for element in given:
         mission = known(element, (*MISSION_KEYS, *fields_of(app, Entity.MISSION)))
@@ -136,6 +146,17 @@ def _without_gone(given: object, app: App) -> tuple[list[Shape], list[str]]:
             mission["trips"] = [known(trip, keys) for trip in trips]
         missions.append(mission)
     return missions, list(gone)
+
+
+def _unreadable(error: OSError) -> str:
+    return (error.strerror or str(error)).lower()
+
+
+def _in_the_way(path: Path, why: str, error: OSError) -> BadInput:
+    return BadInput(
+        f"{path}: the plan that was kept cannot be read ({why}), and cannot be put aside either: "
+        f"{error.strerror or error}"
+    )
 
 
 def _aside(path: Path) -> Path:

@@ -9,9 +9,11 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import errors
+from plutoc_runtime.domain.errors import BadInput, PlutoError
+from plutoc_runtime.domain.text import counted, printable, quoted
+
+from ...files.errors import shown
 from . import kept as on_disk
-from .errors import Stale
 from .example import example_missions
 from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, read
 from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
@@ -23,13 +25,15 @@ if TYPE_CHECKING:
 
     from ...files.fleet import FleetFile
 
-__all__ = ["MissionPlan", "Stale"]
-
 MOST_SHOWN = 1_000
 """Problems that pages get at most."""
 
 MOST_SAID = 10
 """Problems that the answer to Start names; pages show all where they are."""
+
+
+class Stale(PlutoError):
+    """The plan has changed since: what was drawn was drawn on an old one."""
 
 
 class MissionPlan:
@@ -110,10 +114,6 @@ class MissionPlan:
         added = example_missions(self._app, self._fleet, names)
         self._change([*self._missions, *self._shaped(added)])
 
-    def export_toml(self) -> str:
-        """Return the plan as a missions file."""
-        return self.text()
-
     # What flies
 
     def launchable(
@@ -131,7 +131,10 @@ class MissionPlan:
         of_these = (None, *keys)
         problems = [one.alone for one in self._problems() if one.mission in of_these]
         if problems:
-            raise errors.not_ready(problems, MOST_SAID)
+            more = len(problems) - MOST_SAID
+            if more > 0:
+                problems[MOST_SAID:] = [f"… and {counted(more, 'more problem')}"]
+            raise BadInput("\n".join(problems))
         missions, _ = read(self._app, self._fleet.airspace, waiting)
         return missions, keys
 
@@ -143,9 +146,14 @@ class MissionPlan:
         known = {str(mission["key"]): mission for mission in self._missions}
         for key in chosen:
             if key not in known:
-                raise errors.not_in_the_plan(key)
+                raise BadInput(
+                    f"no mission of the plan has the key {quoted(key)}: look at the plan again"
+                )
             if known[key]["launched"]:
-                raise errors.under_way(str(known[key]["name"]))
+                raise BadInput(
+                    f"mission {quoted(str(known[key]['name']))} belongs to the flight that is under"
+                    " way: it can be started again when that has ended"
+                )
         return [mission for mission in waiting if mission["key"] in chosen]
 
     def launched(self, keys: Collection[str]) -> None:
@@ -172,7 +180,7 @@ class MissionPlan:
         """Nothing flies any more: every mission may be changed, and launched again."""
         self._mark(lambda _: False)
 
-    def text(self, keys: Collection[str] | None = None) -> str:
+    def export_toml(self, keys: Collection[str] | None = None) -> str:
         """Return the missions file of these missions, or of all."""
         chosen = [one for one in self._missions if keys is None or one["key"] in keys]
         return text_of(self._app, chosen)
@@ -192,9 +200,11 @@ class MissionPlan:
 
     def _check_current(self, revision: object) -> None:
         if isinstance(revision, bool) or not isinstance(revision, int):
-            raise errors.not_a_number(revision)
+            raise BadInput(f"the plan's revision {shown(revision)} is not a whole number")
         if revision != self.revision:
-            raise errors.stale(revision, self.revision)
+            raise Stale(
+                f"the plan has been changed meanwhile: it is at {self.revision}, not at {revision}"
+            )
 
     def _overrules(self, given: Sequence[Shape]) -> bool:
         """Say whether a mission is drawn otherwise that has been launched meanwhile."""
@@ -237,7 +247,11 @@ class MissionPlan:
         try:
             on_disk.write(self._keep, self._app, self.revision, missions)
         except OSError as error:
-            self.trouble = errors.not_kept(self._keep, error)
+            self.trouble = (
+                f"The plan could not be written to {printable(str(self._keep))}:"
+                f" {error.strerror or error}. What you draw is not lost as long as this runs;"
+                " it is written with the next change, if it can be by then."
+            )
         else:
             self.trouble = ""
 

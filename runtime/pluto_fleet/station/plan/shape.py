@@ -11,10 +11,11 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.text import quoted
 
-from . import errors
+from ...files.errors import listed, shown
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -43,7 +44,7 @@ def missions_from(given: object, app: App) -> list[Shape]:
     """Return missions in one and the same shape; raise `BadInput` if they have no such shape."""
     elements = _list(given, "missions")
     if len(elements) > MOST_MISSIONS:
-        raise errors.too_many("missions", MOST_MISSIONS)
+        raise _too_many("missions", MOST_MISSIONS)
     missions = [_mission(one, f"mission {i}", app) for i, one in enumerate(elements, 1)]
     check_together(missions)
     return missions
@@ -52,14 +53,14 @@ def missions_from(given: object, app: App) -> list[Shape]:
 def check_together(missions: Sequence[Shape]) -> None:
     """Raise `BadInput` where they are too many, or two of them are called alike."""
     if len(missions) > MOST_MISSIONS:
-        raise errors.too_many("missions", MOST_MISSIONS)
+        raise _too_many("missions", MOST_MISSIONS)
     keys = [str(one["key"]) for mission in missions for one in (mission, *trips_of(mission))]
     if len(keys) - len(missions) > MOST_TRIPS:
-        raise errors.too_many("trips", MOST_TRIPS)
+        raise _too_many("trips", MOST_TRIPS)
     seen: set[str] = set()
     for key in keys:
         if key in seen:
-            raise errors.key_twice(key)
+            raise BadInput(f"two missions or trips have the key {quoted(key)}")
         seen.add(key)
 
 
@@ -78,9 +79,9 @@ def _mission(given: object, who: str, app: App) -> Shape:
     fields = fields_of(app, Entity.MISSION)
     data = _table(given, who, (*MISSION_KEYS, *fields))
     if data.get("launched") is not None and not isinstance(data["launched"], bool):
-        raise errors.wrong(f"{who}: launched", data["launched"], "true or false")
+        raise _wrong(f"{who}: launched", data["launched"], "true or false")
     if data.get("ended") not in (None, *ENDS):
-        raise errors.wrong(f"{who}: ended", data["ended"], " or ".join(ENDS))
+        raise _wrong(f"{who}: ended", data["ended"], " or ".join(ENDS))
     trips = _list(_given(data, "trips", who), f"{who}: trips")
     return {
         "key": _key(data, who),
@@ -110,7 +111,7 @@ def _trip(given: object, who: str, app: App) -> Shape:
 def _parameters(given: object, who: str) -> Shape:
     data = {} if given is None else _object(given, who)
     if len(data) > MOST_PARAMETERS:
-        raise errors.too_many("parameters for an action", MOST_PARAMETERS)
+        raise _too_many("parameters for an action", MOST_PARAMETERS)
     names = [_text(name, f"{who}: a name") for name in data]
     return _scalars(data, names, who)
 
@@ -126,10 +127,10 @@ def _place(given: object, who: str) -> list[object] | None:
         return None
     elements = _list(given, who)
     if len(elements) not in (2, 3):
-        raise errors.wrong(who, given, "a list of two or three numbers")
+        raise _wrong(who, given, "a list of two or three numbers")
     for element in elements:
         if isinstance(element, bool) or not isinstance(element, int | float):
-            raise errors.wrong(who, given, "a list of two or three numbers")
+            raise _wrong(who, given, "a list of two or three numbers")
         _number(element, who)
     return list(elements)
 
@@ -152,33 +153,33 @@ def _scalars(data: Mapping[str, object], keys: Sequence[str], who: str) -> Shape
 
 def _number(value: object, where: str) -> None:
     if not isinstance(value, int | float):
-        raise errors.wrong(where, value, "a number or a text")
+        raise _wrong(where, value, "a number or a text")
     if isinstance(value, float) and not isfinite(value):
-        raise errors.wrong(where, value, "a finite number")
+        raise _wrong(where, value, "a finite number")
     if abs(value) > LARGEST:
-        raise errors.too_large(where)
+        raise BadInput(f"{where} is too large a number")
 
 
 def _text(value: object, where: str) -> str:
     if not isinstance(value, str):
-        raise errors.wrong(where, value, "a text")
+        raise _wrong(where, value, "a text")
     if len(value) > LONGEST_TEXT:
-        raise errors.too_long(where, LONGEST_TEXT)
+        raise BadInput(f"{where} is longer than {LONGEST_TEXT} characters")
     if any("\ud800" <= character <= "\udfff" for character in value):
-        raise errors.no_text(where)
+        raise BadInput(f"{where} holds half a character: it is no text")
     return value
 
 
 def _key(data: Mapping[str, object], who: str) -> str:
     value = _given(data, "key", who)
     if not isinstance(value, str) or KEY.fullmatch(value) is None:
-        raise errors.wrong(f"{who}: key", value, "8 to 32 letters, digits, - and _")
+        raise _wrong(f"{who}: key", value, "8 to 32 letters, digits, - and _")
     return value
 
 
 def _given(data: Mapping[str, object], key: str, who: str) -> object:
     if key not in data:
-        raise errors.missing_key(who, key)
+        raise BadInput(f"{who} has no {key}")
     return data[key]
 
 
@@ -186,17 +187,25 @@ def _table(given: object, who: str, keys: Sequence[str]) -> dict[str, object]:
     data = _object(given, who)
     for key in data:
         if key not in keys:
-            raise errors.unknown_key(who, key, keys)
+            raise BadInput(f"{who} has an unknown key {quoted(key)}; it may have: {listed(keys)}")
     return data
 
 
 def _object(given: object, who: str) -> dict[str, object]:
     if not isinstance(given, dict):
-        raise errors.wrong(who, given, "an object")
+        raise _wrong(who, given, "an object")
     return given
 
 
 def _list(given: object, who: str) -> list[object]:
     if not isinstance(given, list):
-        raise errors.wrong(who, given, "a list")
+        raise _wrong(who, given, "a list")
     return given
+
+
+def _wrong(where: str, value: object, wanted: str) -> BadInput:
+    return BadInput(f"{where} {shown(value)} is not {wanted}")
+
+
+def _too_many(what: str, most: int) -> BadInput:
+    return BadInput(f"a plan has at most {most} {what}")

@@ -13,7 +13,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import cut_off, printable
 
 from ..commands import NEEDS, Malformed
-from ..plan.errors import Stale
+from ..plan.plan import Stale
 from . import refusals
 from .audit import Audit
 from .guard import Access, Guard, Rate, refusal, with_safe_headers
@@ -122,20 +122,18 @@ async def change(station: ServedStation, audit: Audit, request: Request) -> Repl
             revision, missions = _whole(given, "revision"), given.pop("missions", None)
             _nothing_else(given)
             edit = _at_once(lambda: plan.replace(revision, missions))
-            return await _edited(plan, audit, request, edit)
         case "/api/plan/import":
             revision, text = asked_number(request.query, "revision"), _text(body)
             edit = plan.import_file(text, revision, _file(request.query))
-            return await _edited(plan, audit, request, edit)
         case "/api/plan/example":
             given = parsed_object(body)
             revision = _whole(given, "revision")
             _nothing_else(given)
             edit = _at_once(lambda: plan.example(revision))
-            return await _edited(plan, audit, request, edit)
         case path:
             given = parsed_object(body)
             return await _commanded(station, audit, request, path.removeprefix("/api/"), given)
+    return await _edited(plan, audit, request, edit)
 
 
 async def _commanded(

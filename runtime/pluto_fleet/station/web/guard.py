@@ -55,9 +55,8 @@ class Guard:
 
     host: str  # where it listens
     port: int
-    names: tuple[
-        str, ...
-    ] = ()  # how else it is called: "station.example" or "station.example:8443"
+    names: tuple[str, ...] = ()
+    """How else it is called: "station.example" or "station.example:8443"."""
     token: str | None = field(default=None, repr=False)
 
 

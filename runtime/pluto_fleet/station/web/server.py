@@ -7,8 +7,8 @@ nothing could keep out the one who wants to press Stop.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
-from contextlib import aclosing, nullcontext, suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import aclosing, contextmanager, nullcontext, suppress
 from typing import TYPE_CHECKING
 from urllib.parse import parse_qsl
 
@@ -146,6 +146,14 @@ def _began(connection: LimitedConnection) -> float:
     return connection._began
 
 
+@contextmanager
+def _closed_where_gone() -> Iterator[None]:
+    try:
+        yield
+    except _GONE:
+        raise Closed from None
+
+
 class StarletteSocket:
     """A page that stays connected by a WebSocket."""
 
@@ -154,10 +162,8 @@ class StarletteSocket:
 
     async def open(self) -> None:
         """Take the connection."""
-        try:
+        with _closed_where_gone():
             await self._socket.accept()
-        except _GONE:
-            raise Closed from None
 
     async def refuse(self) -> None:
         """Take it not: the server says 403, and a browser tells its page no more than that."""
@@ -165,10 +171,8 @@ class StarletteSocket:
 
     async def receive(self) -> str:
         """Return what is said next; what is no text is as good as nothing."""
-        try:
+        with _closed_where_gone():
             message = await self._socket.receive()
-        except _GONE:
-            raise Closed from None
         if message["type"] == "websocket.disconnect":
             raise Closed
         text = message.get("text")
@@ -176,18 +180,14 @@ class StarletteSocket:
 
     async def send(self, text: str) -> None:
         """Send this, and wait while it is not read."""
-        try:
+        with _closed_where_gone():
             await self._socket.send_text(text)
-        except _GONE:
-            raise Closed from None
 
     async def close(self, code: int, why: str) -> None:
         """Hang up."""
         reason = why.encode()[:_LONGEST_REASON].decode(errors="ignore")
-        try:
+        with _closed_where_gone():
             await self._socket.close(code, reason)
-        except _GONE:
-            raise Closed from None
 
 
 def _request(scope: Scope, receive: Receive) -> Request:
