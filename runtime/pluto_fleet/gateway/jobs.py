@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import EventKind, Kernel, Key
 
-from ..jobs.job import Report
 from ..jobs.reports import DroneReport, Entry, JobState, reported_result
 
 if TYPE_CHECKING:
@@ -85,7 +84,7 @@ class AssignedJob:
         job = self._known
         self.state = JobState.BEGUN
         try:
-            self._jobs.write(self)
+            self._jobs.write(self.entry)
         except OSError as error:
             self.state = JobState.FLYING
             reason = f"{self.action} was not begun: it cannot be written down before: {error}"
@@ -194,7 +193,7 @@ class Jobs:
         if isinstance(known, AssignedJob) and known.flies:
             known.listener = report
         elif known is not None and known.state in _ENDED:
-            self._post(known.drone, partial(report, reported_result(known)))
+            self._post(known.drone, partial(report, reported_result(_entry(known))))
 
     def forget(self, id: str) -> None:
         """Drop a job that does not fly: its id may be given again."""
@@ -241,7 +240,7 @@ class Jobs:
 
     # What jobs tell
 
-    def write(self, job: AssignedJob) -> None:
+    def write(self, job: Entry) -> None:
         """Write down how a job stands, for good."""
         if self._ledger is not None:
             self._ledger.write(job)
@@ -251,7 +250,7 @@ class Jobs:
         if self._ledger is None:
             self._known.pop(job.id, None)
         elif begun:
-            self._keep(job)
+            self._keep(job.entry)
         if not job.hovers:
             self._current.pop(job.drone, None)
 
@@ -270,10 +269,7 @@ class Jobs:
         for id, job in self._known.items():
             if job.state is JobState.BEGUN and not _flies(job):
                 self._known[id] = self._settled(job, drones.get(job.drone))
-        return {
-            id: job.entry if isinstance(job, AssignedJob) else job
-            for id, job in self._known.items()
-        }
+        return {id: _entry(job) for id, job in self._known.items()}
 
     def _settled(self, job: AssignedJob | Entry, drone: DroneReport | None) -> AssignedJob | Entry:
         if drone is None or drone.done is None:
@@ -295,11 +291,10 @@ class Jobs:
                 self._known[id] = entry = _done(id, drone)
                 self._keep(entry)
 
-    def _keep(self, job: AssignedJob | Entry) -> None:
+    def _keep(self, job: Entry) -> None:
         """Write down what came of an action; if that fails, its drone still remembers it."""
-        if self._ledger is not None:
-            with suppress(OSError):
-                self._ledger.write(job)
+        with suppress(OSError):
+            self.write(job)
 
     def _post(self, drone: str, call: Callable[[], object]) -> None:
         self._kernel.schedule(self._kernel.now, EventKind.FLIGHT, self._keys[drone], call)
@@ -308,6 +303,10 @@ class Jobs:
 def _done(id: str, drone: DroneReport) -> Entry:
     value = (drone.done or {})[id]
     return Entry(id=id, drone=drone.drone, state=JobState.DONE, boot=drone.boot, value=value)
+
+
+def _entry(job: AssignedJob | Entry) -> Entry:
+    return job.entry if isinstance(job, AssignedJob) else job
 
 
 def _flies(job: AssignedJob | Entry) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 
@@ -64,31 +64,7 @@ class Entry:
     reason: str = ""
 
 
-class EndedJob(Protocol):
-    """A job that is over, wherever it is kept."""
-
-    @property
-    def state(self) -> JobState:
-        """How it ended."""
-        ...
-
-    @property
-    def value(self) -> object:
-        """What its action gave."""
-        ...
-
-    @property
-    def failure(self) -> str:
-        """The name of the `Failure`."""
-        ...
-
-    @property
-    def reason(self) -> str:
-        """Why it failed."""
-        ...
-
-
-def reported_result(job: EndedJob) -> object:
+def reported_result(job: Entry) -> object:
     """Return what was reported of a job that is over."""
     if job.state is JobState.FAILED:
         return FlightFailed(Failure[job.failure], job.reason)

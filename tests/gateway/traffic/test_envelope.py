@@ -96,4 +96,4 @@ def test_heights_and_targets_are_refused_and_never_made_to_fit() -> None:
         with pytest.raises(FlightFailed):
             envelope.straight((1, 1, 1.2), target)
         with pytest.raises(FlightFailed):
-            envelope.way("cf1", (1, 1, 1.2), target)
+            way_from(WALL, "cf1", (1, 1, 1.2), target)

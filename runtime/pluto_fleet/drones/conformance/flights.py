@@ -11,9 +11,9 @@ import time
 from collections.abc import Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
 from math import dist, nan
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
-from .recording import FlightRecord, Sample, Step, Truth
+from .recording import FlightRecord, Sample, Step
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator
@@ -21,28 +21,11 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
     from ..protocol import DroneNavigation
+    from .author import Author
 
 LOOK = 0.02
 """Seconds between two looks at the drone."""
 _MISTAKES: tuple[type[Exception], ...] = (Exception,)
-
-
-class Subject(Protocol):
-    """What the flights must know of the navigation that is tested."""
-
-    height: float
-    away: float
-    speed: float
-    rest: float
-    connect_limit: float
-
-    def make(self) -> DroneNavigation:
-        """Return a fresh navigation of a drone that is ready to fly."""
-        ...
-
-    def truth(self, navigation: DroneNavigation) -> Truth | None:
-        """Return how its drone really is, if anybody knows."""
-        ...
 
 
 class Ended(Exception):
@@ -52,7 +35,7 @@ class Ended(Exception):
 class Flight:
     """One flight under way."""
 
-    def __init__(self, subject: Subject, navigation: DroneNavigation) -> None:
+    def __init__(self, subject: Author, navigation: DroneNavigation) -> None:
         self.subject, self.navigation = subject, navigation
         self.record = FlightRecord(made=type(navigation))
         self.during = "before"
@@ -92,12 +75,6 @@ class Flight:
             raise Ended from step.error
         return step
 
-    async def goes(self, name: str, target: Point) -> Step:
-        """Fly somewhere."""
-        speed = self.subject.speed
-        limit = self.limit(dist(self.navigation.telemetry.position, target))
-        return await self.does(name, lambda: self.navigation.go_to(target, speed), limit)
-
     def limit(self, metres: float) -> float:
         """Return how long the runtime waits for a way of so many metres."""
         return metres / self.subject.speed * 3 + 10
@@ -134,7 +111,7 @@ class Flight:
 
 
 @asynccontextmanager
-async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
+async def flying(subject: Author, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
     """Make a navigation; however its flight ends, land it and close it."""
     flight = Flight(subject, make())
     drone = flight.navigation
@@ -156,7 +133,7 @@ async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> Async
                 await task
 
 
-async def tour(subject: Subject) -> FlightRecord:
+async def tour(subject: Author) -> FlightRecord:
     """Everything that a drone that is well must do."""
     async with flying(subject, subject.make) as flight:
         drone, speed, height = flight.navigation, subject.speed, subject.height
@@ -166,15 +143,16 @@ async def tour(subject: Subject) -> FlightRecord:
         await flight.rests()
         await flight.tries("go_to on the ground", lambda: drone.go_to((x, y, height), speed), 5.0)
         await flight.does("takeoff", lambda: drone.takeoff(height, speed), flight.limit(height))
-        for name, target, limit in (
+        for name, target, at in (
             ("go_to a place that is no number", (nan, y, height), speed),
             ("go_to below the ground", (x, y, -1.0), speed),
             ("go_to at no speed", (x + subject.away, y, height), 0.0),
         ):
-            await flight.tries(name, _go(drone, target, limit), 5.0)
+            await flight.tries(name, _go(drone, target, at), 5.0)
         await flight.rests()
-        there_ = (x + subject.away, y, height)
-        await flight.goes("go_to", there_)
+        there = (x + subject.away, y, height)
+        limit = flight.limit(dist(drone.telemetry.position, there))
+        await flight.does("go_to", lambda: drone.go_to(there, speed), limit)
         await flight.rests()
         await flight.does("preflight in the air", drone.preflight, 5.0)
         await _cancelled(flight, (home[0], home[1], height))
@@ -217,7 +195,7 @@ async def _cancelled(flight: Flight, target: Point) -> None:
     await flight.does("go_to that is cancelled", broken_off, flight.limit(2 * half))
 
 
-async def closed_in_the_air(subject: Subject) -> FlightRecord:
+async def closed_in_the_air(subject: Author) -> FlightRecord:
     """Let go of a drone that hovers, as a program does that ends too early."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
@@ -226,7 +204,7 @@ async def closed_in_the_air(subject: Subject) -> FlightRecord:
     return flight.record
 
 
-async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) -> FlightRecord:
+async def struck(subject: Author, strike: Callable[[DroneNavigation], object]) -> FlightRecord:
     """Let something happen to a drone on its way."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
@@ -251,14 +229,14 @@ async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) 
     return flight.record
 
 
-async def unreachable(subject: Subject, make: Callable[[], DroneNavigation]) -> FlightRecord:
+async def unreachable(subject: Author, make: Callable[[], DroneNavigation]) -> FlightRecord:
     """Connect to a drone that is not there."""
     async with flying(subject, make) as flight:
         await flight.tries("connect", flight.navigation.connect, subject.connect_limit)
     return flight.record
 
 
-async def cut(subject: Subject) -> FlightRecord:
+async def cut(subject: Author) -> FlightRecord:
     """Switch the motors off, a hand's breadth above the ground."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
