@@ -25,12 +25,13 @@ from .driver import (
     load,
     packet,
 )
-from .session import CrazyflieSession, SessionObserver
+from .session import CrazyflieSession
 from .worker import Worker
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
+    from .navigation import Crazyflie
     from .options import CrazyflieOptions
 
 
@@ -41,9 +42,7 @@ _ASK_AGAIN = 1.0
 """Seconds until something is asked again: were it answered twice, cflib would begin twice."""
 
 
-async def open_session(
-    drone: str, uri: str, folder: Path, observer: SessionObserver
-) -> CrazyflieSession:
+async def open_session(drone: str, uri: str, folder: Path, observer: Crazyflie) -> CrazyflieSession:
     """Return a connection on which the drone tells how it is; raise `LinkLost` if there is none."""
     session = CrazyflieSession(drone, uri, observer)
     try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.text import number
@@ -17,15 +18,7 @@ from ..drones.errors import (
     TargetTimeout,
 )
 from . import commander, messages, supervisor
-from .trajectory import (
-    NEAR,
-    SLACK,
-    braking,
-    hovers,
-    is_speed,
-    is_target,
-    speed_limits_of,
-)
+from .trajectory import NEAR, SLACK, braking, hovers, speed_limits_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
@@ -41,14 +34,14 @@ _SEEN = 1.0
 
 def check(drone: str, target: Point, speed: float) -> None:
     """Refuse, before anything moves, what cannot be flown."""
-    if not is_target(target):
+    if not all(map(isfinite, target)) or target[2] <= 0.0:
         raise OutsideArea(messages.outside(drone, target))
     check_speed(drone, speed)
 
 
 def check_speed(drone: str, speed: float) -> None:
     """Refuse what is no speed."""
-    if not is_speed(speed):
+    if not 0.0 < speed < inf:
         raise Rejected(f"{drone} cannot fly at {number(speed)} m/s: a speed must be above 0")
 
 

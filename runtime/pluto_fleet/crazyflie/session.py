@@ -13,10 +13,10 @@ from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from math import inf
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from ..drones.errors import Crashed, LinkLost, Locked, NavigationError
-from . import messages
+from . import logs, messages
 from .driver import HIGH_LEVEL, SUPERVISOR, release_link
 from .state import PositionConfidence, State
 from .worker import Worker
@@ -24,6 +24,8 @@ from .worker import Worker
 if TYPE_CHECKING:
     from cflib.crazyflie import Crazyflie as Cf
     from cflib.crtp.crtpstack import CRTPPacket
+
+    from .navigation import Crazyflie
 
 
 _ANSWER = 0x80
@@ -44,14 +46,11 @@ class Acknowledgements:
     def listen(self, cf: Cf, tell: Callable[..., None]) -> None:
         """Hear all answers; called in the worker, as they come in a thread of cflib's."""
 
-        def high_level(packet: CRTPPacket) -> None:
-            tell(self._hear, HIGH_LEVEL, packet.channel, bytes(packet.data))
+        def hear(packet: CRTPPacket) -> None:
+            tell(self._hear, packet.port, packet.channel, bytes(packet.data))
 
-        def supervisor(packet: CRTPPacket) -> None:
-            tell(self._hear, SUPERVISOR, packet.channel, bytes(packet.data))
-
-        cf.add_port_callback(HIGH_LEVEL, high_level)
-        cf.add_port_callback(SUPERVISOR, supervisor)
+        cf.add_port_callback(HIGH_LEVEL, hear)
+        cf.add_port_callback(SUPERVISOR, hear)
 
     def expect(self, key: Key) -> asyncio.Future[bytes]:
         """Begin to listen for the next answer to a command: before the command is sent."""
@@ -86,30 +85,10 @@ FRESH = 0.5
 """Seconds for which a new word is waited for before something is decided by it."""
 
 
-class SessionObserver(Protocol):
-    """Told what happens to a connection."""
-
-    def told(self, state: State) -> None:
-        """The drone told how it is."""
-        ...
-
-    def doubted(self, variance: float) -> None:
-        """The drone told how sure it is of its place: the variance, in square metres."""
-        ...
-
-    def gone(self, why: str) -> None:
-        """It tells nothing any more."""
-        ...
-
-    def releasing(self, gone: asyncio.Future[None]) -> None:
-        """The link is being put away, until this is done."""
-        ...
-
-
 class CrazyflieSession:
     """What is known of a drone while it is connected, and the one way to call cflib for it."""
 
-    def __init__(self, drone: str, uri: str, observer: SessionObserver) -> None:
+    def __init__(self, drone: str, uri: str, observer: Crazyflie) -> None:
         self.drone, self.uri = drone, uri
         self.loop = asyncio.get_running_loop()
         self.worker = Worker(drone)
@@ -122,6 +101,7 @@ class CrazyflieSession:
         self.asking = asyncio.Lock()
         """Held while a parameter is asked for."""
         self.acknowledged = Acknowledgements()
+        self.readings = logs.LogReader(self)
         self.confidence = PositionConfidence()
         self.lost_beyond = inf
         """Metres to which it must know where it is in the air."""

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.gateway.envelope import Envelope
-from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.airspace import Airspace, way_from
 from plutoc_runtime.domain.errors import FlightFailed
 from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.traffic.skies import Sky
