@@ -66,7 +66,8 @@ async def takeoff(session: CrazyflieSession, height: float, speed: float) -> Non
             )
     except (NotReady, Rejected):
         with suppress(NavigationError):
-            await _disarm(session)
+            if not (await session.fresh()).flies:
+                await supervisor.disarm(session)
         raise
 
     def risen(state: State) -> bool:
@@ -99,12 +100,6 @@ async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bo
 async def _is_disarmed(session: CrazyflieSession) -> bool:
     """Say whether it is disarmed within a moment: what it then does not do it was not told."""
     return await session.until(lambda state: not state.armed, _SEEN) is not None
-
-
-async def _disarm(session: CrazyflieSession) -> None:
-    """Disarm a drone that stays on the ground."""
-    if not (await session.fresh()).flies:
-        await supervisor.disarm(session)
 
 
 async def go_to(session: CrazyflieSession, target: Point, speed: float) -> None:

@@ -175,7 +175,7 @@ class Jobs:
 
     def _repeated(self, known: AssignedJob | Entry, report: Report) -> None:
         """Answer who gives a job once more by what is known of it, never by a flight."""
-        if known.state is JobState.BEGUN and not _flies(known):
+        if known.state is JobState.BEGUN and not known.flies:
             reason = f"it cannot be told whether the action of {known.id} was done"
             self._post(known.drone, partial(report, FlightFailed(Failure.UNKNOWN, reason)))
         else:
@@ -198,7 +198,7 @@ class Jobs:
     def forget(self, id: str) -> None:
         """Drop a job that does not fly: its id may be given again."""
         known = self._known.get(id)
-        if known is None or _flies(known):
+        if known is None or known.flies:
             return
         del self._known[id]
         if self._current.get(known.drone) is known:
@@ -267,7 +267,7 @@ class Jobs:
             for drone in drones.values():
                 self._believe(drone)
         for id, job in self._known.items():
-            if job.state is JobState.BEGUN and not _flies(job):
+            if job.state is JobState.BEGUN and not job.flies:
                 self._known[id] = self._settled(job, drones.get(job.drone))
         return {id: _entry(job) for id, job in self._known.items()}
 
@@ -307,10 +307,6 @@ def _done(id: str, drone: DroneReport) -> Entry:
 
 def _entry(job: AssignedJob | Entry) -> Entry:
     return job.entry if isinstance(job, AssignedJob) else job
-
-
-def _flies(job: AssignedJob | Entry) -> bool:
-    return isinstance(job, AssignedJob) and job.flies
 
 
 _MAY_FLY = frozenset({JobState.FAILED, JobState.BROKEN_OFF})
