@@ -45,13 +45,6 @@ def check_speed(drone: str, speed: float) -> None:
         raise Rejected(f"{drone} cannot fly at {number(speed)} m/s: a speed must be above 0")
 
 
-def knows_its_place(session: CrazyflieSession) -> None:
-    """Raise `PositionLost` for one that does not know any more where it is."""
-    variance = session.confidence.variance
-    if session.adrift and variance is not None:
-        raise PositionLost(messages.lost_its_place(session.drone, variance))
-
-
 async def takeoff(session: CrazyflieSession, height: float, speed: float) -> None:
     """Arm, rise straight up, and return when it hovers at this height."""
     x, y, z = session.well().position
@@ -69,16 +62,7 @@ async def takeoff(session: CrazyflieSession, height: float, speed: float) -> Non
             if not (await session.fresh()).flies:
                 await supervisor.disarm(session)
         raise
-
-    def risen(state: State) -> bool:
-        knows_its_place(session)
-        return _hovers(session, state, off)
-
-    def off(state: State) -> float:
-        return abs(state.position[2] - height)
-
-    if await session.until(risen, seconds + SLACK) is None:
-        raise TargetTimeout(messages.not_arrived(session.drone, "risen", off(session.now())))
+    await _hovering(session, lambda state: abs(state.position[2] - height), seconds, "risen")
 
 
 async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bool:
@@ -152,21 +136,25 @@ async def _fly_to(session: CrazyflieSession, target: Point, seconds: float, what
     """Send it somewhere, and wait until it is there and hovers."""
     session.commanded = True
     await commander.go_to(session, target, seconds, NEAR)
+    await _hovering(session, lambda state: state.distance(target), seconds, what)
+
+
+async def _hovering(
+    session: CrazyflieSession, off: Callable[[State], float], seconds: float, what: str
+) -> None:
+    """Wait until it is at the end of its trajectory, near and at rest, and knows where that is.
+
+    Raises `PositionLost` for one that does not know any more where it is.
+    """
 
     def there(state: State) -> bool:
-        knows_its_place(session)
-        return _hovers(session, state, off)
-
-    def off(state: State) -> float:
-        return state.distance(target)
+        variance = session.confidence.variance
+        if session.adrift and variance is not None:
+            raise PositionLost(messages.lost_its_place(session.drone, variance))
+        return state.finished and not session.doubts and hovers(session.recent, off)
 
     if await session.until(there, seconds + SLACK) is None:
         raise TargetTimeout(messages.not_arrived(session.drone, what, off(session.now())))
-
-
-def _hovers(session: CrazyflieSession, state: State, off: Callable[[State], float]) -> bool:
-    """Whether it is at the end of its trajectory, near and at rest, and knows where that is."""
-    return state.finished and not session.doubts and hovers(session.recent, off)
 
 
 async def _down(session: CrazyflieSession, ready: Callable[[State], bool], limit: float) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -56,8 +56,8 @@ class Executor:
         leaving: Leaving | None = None,
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
-        self._leaving = leaving
-        """Writes down which drone takes off; None, as in a simulation: it is not needed after a crash."""
+        self._leaving: Leaving = leaving or nullcontext
+        """Writes down which drone takes off; in a simulation that is not needed after a crash."""
         self._traffic = traffic
         """Keeps them apart from each other; None: they are not kept apart."""
         self._envelope = Envelope(airspace)
@@ -305,11 +305,8 @@ class Executor:
         controls, traffic, drone = self._controls, self._traffic, section.drone
         points = section.points[1:-1] if section.lands else section.points[1:]
         if section.stands:
-            if self._leaving is None:
+            with self._leaving(drone):
                 await controls.takeoff(drone, points[0][2])
-            else:
-                with self._leaving(drone):
-                    await controls.takeoff(drone, points[0][2])
             points = points[1:]
             if traffic is not None:
                 traffic.passed(drone)

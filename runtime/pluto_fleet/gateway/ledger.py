@@ -228,11 +228,9 @@ class CutMotors:
     """
 
     def __init__(self, ledger: Ledger | None, flies: Callable[[str], bool]) -> None:
-        self._ledger, self._flies = ledger, flies
-        self._cut: dict[str, bool] = {}
+        self._ledger, self._flies = ledger or Ledger(), flies
+        self._cut = dict.fromkeys(self._ledger.cut, False)
         """By drone: whether they were cut here, and not by an earlier gateway."""
-        if ledger is not None:
-            self._cut.update(dict.fromkeys(ledger.cut, False))
 
     def __contains__(self, drone: str) -> bool:
         here = self._cut.get(drone)
@@ -263,11 +261,9 @@ class CutMotors:
 
     def _write(self, drone: str, is_cut: bool) -> None:
         """Write it down, if that can be done: motors are not left on because a disk is full."""
-        if self._ledger is not None:
-            with suppress(OSError):
-                self._ledger.write_cut(drone, is_cut)
+        with suppress(OSError):
+            self._ledger.write_cut(drone, is_cut)
 
     def _make_sure(self) -> None:
-        if self._ledger is not None:
-            with suppress(OSError):
-                self._ledger.make_sure()
+        with suppress(OSError):
+            self._ledger.make_sure()

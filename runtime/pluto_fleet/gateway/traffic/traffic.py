@@ -107,8 +107,7 @@ class Traffic:
     def passed(self, drone: str) -> None:
         """A drone has come to the next point of its section."""
         self._claims[drone].at += 1
-        if self._waiting:
-            self._released(drone)
+        self._released(drone)
 
     def rests(self, drone: str) -> None:
         """A drone is at the end of its section."""
@@ -117,8 +116,7 @@ class Traffic:
         else:
             claim = self._claim(drone)
             claim.rests(claim.tail, self._kernel.now + STOPPING)
-        if self._waiting:
-            self._released(drone)
+        self._released(drone)
 
     def stopped(self, drone: str, fails: bool) -> None:
         """A drone has broken off what it was doing, or it fails."""
@@ -134,8 +132,7 @@ class Traffic:
         elif claim.moves:
             ahead = _ahead(claim.shape(self._kernel.now), self._overshoot)
             claim.rests(ahead, self._kernel.now + STOPPING)
-        if self._waiting:
-            self._released(drone)
+        self._released(drone)
 
     def _stop_before(self, drone: str) -> None:
         """Let none fly below a drone that sinks; one that is there already had better fly on."""
@@ -167,9 +164,10 @@ class Traffic:
 
     def _released(self, drone: str) -> None:
         """A drone has released something: look at those that it kept, at the end of this instant."""
-        if not self._free:
-            self._look_at(self._kernel.now, self._look_at_some)
-        self._free[drone] = None
+        if self._waiting:
+            if not self._free:
+                self._look_at(self._kernel.now, self._look_at_some)
+            self._free[drone] = None
 
     def _look_at(self, when: float, look: Callable[[], None]) -> Timer:
         return self._kernel.at(when, EventKind.CLOCK, FLEET, look)
