@@ -12,6 +12,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -127,7 +128,7 @@ class CrazyflieSession:
 
     # What cflib says
 
-    def tell(self, call: Callable[..., None], *args: object) -> None:
+    def tell(self, call: Callable[..., object], *args: object) -> None:
         """Carry something over to the event loop, from any thread."""
         with suppress(RuntimeError):  # the loop is closed
             self.loop.call_soon_threadsafe(call, *args)
@@ -140,7 +141,9 @@ class CrazyflieSession:
         cf.fully_connected.add_callback(lambda _: self.tell(self.complete.set))
         cf.connection_failed.add_callback(lambda _, why: self.tell(self.fail, why))
         cf.connection_lost.add_callback(lambda _, why: self.tell(self.fail, why))
-        cf.disconnected.add_callback(lambda _: self.tell(self._disconnected))
+        # why it was closed comes right after
+        close = partial(self.loop.call_later, 0.1, self.fail, "it was closed")
+        cf.disconnected.add_callback(lambda _: self.tell(close))
         cf.link_established.add_callback(lambda _: self._established(cf, resend=loses))
         self.acknowledged.listen(cf, self.tell)
 
@@ -152,9 +155,6 @@ class CrazyflieSession:
 
     def _answered(self) -> None:
         self.answered = True
-
-    def _disconnected(self) -> None:
-        self.loop.call_later(0.1, self.fail, "it was closed")  # why it was comes right after
 
     def fail(self, why: str) -> None:
         """The link is gone, for good."""

@@ -10,6 +10,7 @@ import asyncio
 import time
 from collections.abc import Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
+from functools import partial
 from math import dist, nan
 from typing import TYPE_CHECKING
 
@@ -148,7 +149,7 @@ async def tour(subject: Author) -> FlightRecord:
             ("go_to below the ground", (x, y, -1.0), speed),
             ("go_to at no speed", (x + subject.away, y, height), 0.0),
         ):
-            await flight.tries(name, _go(drone, target, at), 5.0)
+            await flight.tries(name, partial(drone.go_to, target, at), 5.0)
         await flight.rests()
         there = (x + subject.away, y, height)
         limit = flight.limit(dist(drone.telemetry.position, there))
@@ -166,10 +167,6 @@ async def tour(subject: Author) -> FlightRecord:
         await flight.rests()
         await flight.does("close", drone.close, 20.0)
     return flight.record
-
-
-def _go(drone: DroneNavigation, target: Point, speed: float) -> Callable[[], Awaitable[object]]:
-    return lambda: drone.go_to(target, speed)
 
 
 async def _cancelled(flight: Flight, target: Point) -> None:
