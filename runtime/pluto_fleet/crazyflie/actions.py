@@ -133,6 +133,7 @@ def why_not(
 
 async def act(
     session: CrazyflieSession,
+    readings: logs.LogReader,
     options: CrazyflieOptions,
     folder: Path,
     action: str,
@@ -147,7 +148,7 @@ async def act(
         if action == MEASURE:
             name = options.variable_of(_quantity(parameters_))
             assert name is not None  # or there is a reason why not
-            value = await session.readings.mean(name, options.measure_seconds)
+            value = await readings.mean(name, options.measure_seconds)
             await _check_place(session)
             return value
         if action == PHOTO and options.camera is not None:

@@ -25,13 +25,12 @@ from .driver import (
     load,
     packet,
 )
-from .session import CrazyflieSession
+from .session import CrazyflieSession, SessionObserver
 from .worker import Worker
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
-    from .navigation import Crazyflie
     from .options import CrazyflieOptions
 
 
@@ -42,7 +41,9 @@ _ASK_AGAIN = 1.0
 """Seconds until something is asked again: were it answered twice, cflib would begin twice."""
 
 
-async def open_session(drone: str, uri: str, folder: Path, observer: Crazyflie) -> CrazyflieSession:
+async def open_session(
+    drone: str, uri: str, folder: Path, observer: SessionObserver
+) -> CrazyflieSession:
     """Return a connection on which the drone tells how it is; raise `LinkLost` if there is none."""
     session = CrazyflieSession(drone, uri, observer)
     try:

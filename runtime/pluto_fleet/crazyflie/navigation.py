@@ -49,6 +49,7 @@ class Crazyflie:
         self._setup, self._id = setup, setup.id
         self._options = options_of(setup.options)
         self._session: CrazyflieSession | None = None
+        self._readings: logs.LogReader | None = None
         cells = self._options.cells
         self._battery, self._alarms = BatteryGauge(cells), AlarmDetector(cells)
         self._state: State | None = None
@@ -89,7 +90,7 @@ class Crazyflie:
         session.commanded = self._commanded
         if not self._options.starts_at_home:  # else it never knows its place, only its way
             session.lost_beyond = self._options.lost_beyond
-        self._session = session
+        self._session, self._readings = session, logs.LogReader(session)
         if self._options.starts_at_home:
             await connection.set_initial_position(session, self._setup.home)
 
@@ -220,13 +221,13 @@ class Crazyflie:
     async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
         """Do an action where it hovers."""
         session, folder = self._linked(), self._setup.folder
-        return await actions.act(session, self._options, folder, action, parameters)
+        return await actions.act(session, self._reader(), self._options, folder, action, parameters)
 
     async def read(self, name: str) -> float:
         """Return a log variable, or else a parameter."""
         session = self._linked()
         if logs.has(session.cf, name):
-            return await session.readings.mean(name, 0.0)
+            return await self._reader().mean(name, 0.0)
         if parameters.element_of(session.cf, name) is None:
             raise Rejected(f"{self._id} has neither a log variable nor a parameter {quoted(name)}")
         return await parameters.read(session, name)
@@ -234,6 +235,11 @@ class Crazyflie:
     async def write(self, name: str, value: float) -> None:
         """Set a parameter, and see that it is so."""
         await parameters.write(self._linked(), name, value)
+
+    def _reader(self) -> logs.LogReader:
+        if self._readings is None:
+            raise LinkLost(messages.not_connected(self._id))
+        return self._readings
 
     async def locate(self, position: Point) -> None:
         """Tell it its position as measured from outside; nothing, while it is not connected."""

@@ -12,12 +12,11 @@ import time
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
-from functools import partial
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from ..drones.errors import Crashed, LinkLost, Locked, NavigationError
-from . import logs, messages
+from . import messages
 from .driver import HIGH_LEVEL, SUPERVISOR, release_link
 from .state import PositionConfidence, State
 from .worker import Worker
@@ -25,8 +24,6 @@ from .worker import Worker
 if TYPE_CHECKING:
     from cflib.crazyflie import Crazyflie as Cf
     from cflib.crtp.crtpstack import CRTPPacket
-
-    from .navigation import Crazyflie
 
 
 _ANSWER = 0x80
@@ -86,10 +83,30 @@ FRESH = 0.5
 """Seconds for which a new word is waited for before something is decided by it."""
 
 
+class SessionObserver(Protocol):
+    """Told what happens to a connection."""
+
+    def told(self, state: State) -> None:
+        """The drone told how it is."""
+        ...
+
+    def doubted(self, variance: float) -> None:
+        """The drone told how sure it is of its place: the variance, in square metres."""
+        ...
+
+    def gone(self, why: str) -> None:
+        """It tells nothing any more."""
+        ...
+
+    def releasing(self, gone: asyncio.Future[None]) -> None:
+        """The link is being put away, until this is done."""
+        ...
+
+
 class CrazyflieSession:
     """What is known of a drone while it is connected, and the one way to call cflib for it."""
 
-    def __init__(self, drone: str, uri: str, observer: Crazyflie) -> None:
+    def __init__(self, drone: str, uri: str, observer: SessionObserver) -> None:
         self.drone, self.uri = drone, uri
         self.loop = asyncio.get_running_loop()
         self.worker = Worker(drone)
@@ -102,7 +119,6 @@ class CrazyflieSession:
         self.asking = asyncio.Lock()
         """Held while a parameter is asked for."""
         self.acknowledged = Acknowledgements()
-        self.readings = logs.LogReader(self)
         self.confidence = PositionConfidence()
         self.lost_beyond = inf
         """Metres to which it must know where it is in the air."""
@@ -128,7 +144,7 @@ class CrazyflieSession:
 
     # What cflib says
 
-    def tell(self, call: Callable[..., object], *args: object) -> None:
+    def tell(self, call: Callable[..., None], *args: object) -> None:
         """Carry something over to the event loop, from any thread."""
         with suppress(RuntimeError):  # the loop is closed
             self.loop.call_soon_threadsafe(call, *args)
@@ -141,9 +157,7 @@ class CrazyflieSession:
         cf.fully_connected.add_callback(lambda _: self.tell(self.complete.set))
         cf.connection_failed.add_callback(lambda _, why: self.tell(self.fail, why))
         cf.connection_lost.add_callback(lambda _, why: self.tell(self.fail, why))
-        # why it was closed comes right after
-        close = partial(self.loop.call_later, 0.1, self.fail, "it was closed")
-        cf.disconnected.add_callback(lambda _: self.tell(close))
+        cf.disconnected.add_callback(lambda _: self.tell(self._disconnected))
         cf.link_established.add_callback(lambda _: self._established(cf, resend=loses))
         self.acknowledged.listen(cf, self.tell)
 
@@ -155,6 +169,9 @@ class CrazyflieSession:
 
     def _answered(self) -> None:
         self.answered = True
+
+    def _disconnected(self) -> None:
+        self.loop.call_later(0.1, self.fail, "it was closed")  # why it was comes right after
 
     def fail(self, why: str) -> None:
         """The link is gone, for good."""

@@ -12,9 +12,9 @@ from collections.abc import Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
 from functools import partial
 from math import dist, nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
-from .recording import FlightRecord, Sample, Step
+from .recording import FlightRecord, Sample, Step, Truth
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator
@@ -22,11 +22,28 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
     from ..protocol import DroneNavigation
-    from .author import Author
 
 LOOK = 0.02
 """Seconds between two looks at the drone."""
 _MISTAKES: tuple[type[Exception], ...] = (Exception,)
+
+
+class Subject(Protocol):
+    """What the flights must know of the navigation that is tested."""
+
+    height: float
+    away: float
+    speed: float
+    rest: float
+    connect_limit: float
+
+    def make(self) -> DroneNavigation:
+        """Return a fresh navigation of a drone that is ready to fly."""
+        ...
+
+    def truth(self, navigation: DroneNavigation) -> Truth | None:
+        """Return how its drone really is, if anybody knows."""
+        ...
 
 
 class Ended(Exception):
@@ -36,7 +53,7 @@ class Ended(Exception):
 class Flight:
     """One flight under way."""
 
-    def __init__(self, subject: Author, navigation: DroneNavigation) -> None:
+    def __init__(self, subject: Subject, navigation: DroneNavigation) -> None:
         self.subject, self.navigation = subject, navigation
         self.record = FlightRecord(made=type(navigation))
         self.during = "before"
@@ -112,7 +129,7 @@ class Flight:
 
 
 @asynccontextmanager
-async def flying(subject: Author, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
+async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
     """Make a navigation; however its flight ends, land it and close it."""
     flight = Flight(subject, make())
     drone = flight.navigation
@@ -134,7 +151,7 @@ async def flying(subject: Author, make: Callable[[], DroneNavigation]) -> AsyncI
                 await task
 
 
-async def tour(subject: Author) -> FlightRecord:
+async def tour(subject: Subject) -> FlightRecord:
     """Everything that a drone that is well must do."""
     async with flying(subject, subject.make) as flight:
         drone, speed, height = flight.navigation, subject.speed, subject.height
@@ -192,7 +209,7 @@ async def _cancelled(flight: Flight, target: Point) -> None:
     await flight.does("go_to that is cancelled", broken_off, flight.limit(2 * half))
 
 
-async def closed_in_the_air(subject: Author) -> FlightRecord:
+async def closed_in_the_air(subject: Subject) -> FlightRecord:
     """Let go of a drone that hovers, as a program does that ends too early."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
@@ -201,7 +218,7 @@ async def closed_in_the_air(subject: Author) -> FlightRecord:
     return flight.record
 
 
-async def struck(subject: Author, strike: Callable[[DroneNavigation], object]) -> FlightRecord:
+async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) -> FlightRecord:
     """Let something happen to a drone on its way."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
@@ -226,14 +243,14 @@ async def struck(subject: Author, strike: Callable[[DroneNavigation], object]) -
     return flight.record
 
 
-async def unreachable(subject: Author, make: Callable[[], DroneNavigation]) -> FlightRecord:
+async def unreachable(subject: Subject, make: Callable[[], DroneNavigation]) -> FlightRecord:
     """Connect to a drone that is not there."""
     async with flying(subject, make) as flight:
         await flight.tries("connect", flight.navigation.connect, subject.connect_limit)
     return flight.record
 
 
-async def cut(subject: Author) -> FlightRecord:
+async def cut(subject: Subject) -> FlightRecord:
     """Switch the motors off, a hand's breadth above the ground."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
