@@ -54,13 +54,11 @@ class Ending:
     brain is kept waiting for that.
     """
 
-    def __init__(
-        self, gateway: Gateway, publisher: Publisher, over: Future[None], settings: Settings
-    ) -> None:
+    def __init__(self, gateway: Gateway, over: Future[None], settings: Settings) -> None:
         self._gateway, self._over = gateway, over
-        self.server = Server(gateway, publisher, _say, self.goodbye)
         self._second = settings.speed
         self._idle, self._patience = settings.idle, settings.patience
+        self.server: Server | None = None
         self._alone = -1.0
         """Seconds without a brain and without a drone in the air."""
         self._told: float | None = None
@@ -83,7 +81,8 @@ class Ending:
             self._over.set(None)
         elif self._left is None:
             self._left = self._lingers
-            self.server.hang_up()
+            if self.server is not None:
+                self.server.hang_up()
 
     def _linger(self, brain: bool) -> None:
         """Wait a second more for a drone that may hover: without a brain it is landed when heard."""
@@ -103,7 +102,7 @@ class Ending:
     def look(self) -> None:
         """End when no brain has come for a while; look again a second later."""
         gateway, kernel = self._gateway, self._gateway.kernel
-        brain = self.server.has_a_brain
+        brain = self.server is not None and self.server.has_a_brain
         busy = brain or gateway.flies or gateway.descent is not None
         self._alone = -1.0 if busy else self._alone + 1.0
         self._linger(brain)
@@ -211,8 +210,10 @@ async def _command(
         leaving=seen.leaving,
     )
     over: Future[None] = Future()
+    ending = Ending(gateway, over, settings)
     publisher = Publisher(controls.telemetry)
-    ending = Ending(gateway, publisher, over, settings)
+    server = Server(gateway, publisher, _say, ending.goodbye)
+    ending.server = server
     for number in (signal.SIGTERM, signal.SIGINT):
         asyncio.get_running_loop().add_signal_handler(number, kernel.post, ending.told_to_end)
     no_more = in_children(deaf)
@@ -221,7 +222,7 @@ async def _command(
     try:
         async with listening(
             folder / NOTE,
-            ending.server.serve,
+            server.serve,
             max_line=MAX_COMMAND,
             last_words=0.0,
             turned_away=turned_away,
