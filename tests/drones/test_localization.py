@@ -11,8 +11,8 @@ import pytest
 from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
 from pluto_fleet.drones.team import make_team
-from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.simulation.body import SimulatedDrone
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput, Failure
 from plutoc_runtime.domain.model import Point
@@ -69,9 +69,7 @@ def test_a_drone_that_cannot_be_told_is_refused_before_anything_flies(tmp_path: 
             localization=localization,
             localization_options={},
         )
-        drones = [
-            TeamDrone(id="cf1", category=SCOUT, home=(1, 1, 0), navigation=FakeDrone()),
-        ]
+        drones = [SimulatedDrone(id="cf1", category=SCOUT, home=(1, 1, 0))]
         make_team(RealTime(), drones, real, Airspace(), tmp_path, print)
 
     ours = "tests.drones.test_localization:Simple"

@@ -18,7 +18,7 @@ from math import dist
 from pathlib import Path
 from tempfile import mkdtemp
 
-from pluto_fleet.crazyflie.trajectory import DEFAULT_LIMITS, SHORTEST, shortest_duration
+from pluto_fleet.crazyflie.trajectory import DEFAULT_LIMIT, SHORTEST, SpeedLimits, shortest_duration
 from pluto_fleet.crtp.flight_log import CommandRecord, Point
 from pluto_fleet.drones.vehicle import CLIMB_LIMIT
 from pluto_fleet.journal.place import commands_note
@@ -44,6 +44,7 @@ APART = 0.5
 LATER = 2.0
 """Seconds that the last may be down after the slowest would be alone."""
 STOPPED = 130
+_LIMITS = SpeedLimits((DEFAULT_LIMIT, DEFAULT_LIMIT, DEFAULT_LIMIT))
 _SETTLES = 0.8
 """Seconds that a drone is behind each of its courses, and must then have been at rest."""
 _HOVERS = "[navigation.crazyflie]\nmeasure_seconds = 100\n"
@@ -127,7 +128,7 @@ def _alone(where: Point, home: Point | None, speed: float, courses: int) -> floa
     """Return the seconds that a drone takes to come down with no other in the air."""
     x, y, z = where
     way = 0.0 if home is None else shortest_duration(dist((x, y), home[:2]), speed)
-    return SHORTEST + way + DEFAULT_LIMITS.seconds_down(z, CLIMB_LIMIT) + _SETTLES * courses
+    return SHORTEST + way + _LIMITS.seconds_down(z, CLIMB_LIMIT) + _SETTLES * courses
 
 
 def _last(commands: Sequence[CommandRecord]) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from pluto_fleet.gateway.executor import Leaving
 from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.ledger import FileLedger, MemoryLedger
+from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
@@ -57,7 +57,7 @@ class Field:
         faults: Faults | None = None,
         homes: tuple[tuple[float, float], ...] = ((1, 1), (2, 1), (3, 1)),
         patience: float | None = None,
-        ledger: MemoryLedger | FileLedger | None = None,
+        ledger: Ledger | None = None,
     ) -> None:
         self.airspace = airspace or Airspace()
         self.kernel = kernel or VirtualTime()
@@ -69,7 +69,7 @@ class Field:
         self.navigation = SimulatedNavigation(
             self.kernel, self.drones, world, faults or Faults(), 1, self.airspace
         )
-        self.ledger = ledger or MemoryLedger()
+        self.ledger = ledger or Ledger()
         self.patience = patience
         self.leaving: Leaving | None = None
         self.gateway = self.another()

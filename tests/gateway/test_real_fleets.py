@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from itertools import combinations
 from math import dist
 from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones.real_fleet import RealDrone, RequiredAction, real_data, real_fleet, real_of
+from pluto_fleet.drones.real_fleet import RealDrone, RequiredAction, real_fleet, real_of
 from pluto_fleet.files.crtp_fleet import as_crtp_fleet, missing_categories
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
@@ -86,7 +86,7 @@ def test_what_goes_on_asks_for_the_same_as_when_it_began() -> None:
 def test_a_real_fleet_is_read_as_it_was_written() -> None:
     """All of it goes through a file."""
     whole = real_fleet(FLEET, MISSIONS)
-    assert real_of(json.loads(json.dumps(real_data(whole)))) == whole
+    assert real_of(json.loads(json.dumps(asdict(whole)))) == whole
 
 
 def test_stand_ins_are_crazyflies_under_any_class_in_the_file() -> None:

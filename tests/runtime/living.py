@@ -10,7 +10,7 @@ from typing import Any
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.recorded_flight import RecordedFlight
 from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.ledger import MemoryLedger
+from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
@@ -88,7 +88,7 @@ class Living:
         self.navigation = SimulatedNavigation(
             self.kernel, drones, world, faults, 0, space, self._see
         )
-        self.gateway = Gateway(self.kernel, self.navigation, drones, space, ledger=MemoryLedger())
+        self.gateway = Gateway(self.kernel, self.navigation, drones, space, ledger=Ledger())
         self.events: list[Event] = []
         self.done: Future[float] = Future()
         self._epoch = 0

@@ -15,7 +15,7 @@ import pytest
 from pluto_fleet.flight.config import End, FlightConfig, FlightResult, Stops
 from pluto_fleet.flight.fly import live
 from pluto_fleet.gateway.gateway import Gateway, Link
-from pluto_fleet.gateway.ledger import MemoryLedger
+from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
 from pluto_fleet.journal.errors import JournalError
@@ -63,7 +63,7 @@ class Tried:
             SimulatedDrone(id=entry.id, category=SCOUT, home=entry.home, index=index)
             for index, entry in enumerate(self.fleet.drones)
         ]
-        self.ledger = MemoryLedger()
+        self.ledger = Ledger()
         self.gateway: Gateway | None = None
         self.watch: Callable[[Event], object] = lambda event: None
         whole = header.header(self.app, missions="", fleet=None, sim=True, seed=0)

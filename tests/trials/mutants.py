@@ -63,7 +63,7 @@ def done_before_the_action(patch: pytest.MonkeyPatch) -> None:
     def begins(self: AssignedJob) -> None:
         really(self)
         self.state = JobState.DONE
-        self._jobs.write(self)
+        self._jobs.write(self.entry)
         self.state = JobState.BEGUN
 
     patch.setattr(AssignedJob, "begins", begins)

@@ -41,11 +41,8 @@ async def enable_high_level(session: CrazyflieSession) -> None:
 
 async def drop_trajectory(session: CrazyflieSession) -> None:
     """Let it forget a trajectory that its supervisor has cancelled, and by which no motor turns."""
-
-    def send(cf: Cf) -> None:
-        cf.high_level_commander.stop()
-
-    await answered(session, (HIGH_LEVEL, _STOP), send, "stop", well=False)
+    key = (HIGH_LEVEL, _STOP)
+    await answered(session, key, lambda cf: cf.high_level_commander.stop(), "stop", well=False)
 
 
 async def takeoff(session: CrazyflieSession, height: float, seconds: float) -> None:

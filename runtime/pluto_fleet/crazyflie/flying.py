@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.text import number
@@ -17,15 +18,7 @@ from ..drones.errors import (
     TargetTimeout,
 )
 from . import commander, messages, supervisor
-from .trajectory import (
-    NEAR,
-    SLACK,
-    braking,
-    hovers,
-    is_speed,
-    is_target,
-    speed_limits_of,
-)
+from .trajectory import NEAR, SLACK, braking, hovers, speed_limits_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
@@ -41,22 +34,15 @@ _SEEN = 1.0
 
 def check(drone: str, target: Point, speed: float) -> None:
     """Refuse, before anything moves, what cannot be flown."""
-    if not is_target(target):
+    if not all(map(isfinite, target)) or target[2] <= 0.0:
         raise OutsideArea(messages.outside(drone, target))
     check_speed(drone, speed)
 
 
 def check_speed(drone: str, speed: float) -> None:
     """Refuse what is no speed."""
-    if not is_speed(speed):
+    if not 0.0 < speed < inf:
         raise Rejected(f"{drone} cannot fly at {number(speed)} m/s: a speed must be above 0")
-
-
-def knows_its_place(session: CrazyflieSession) -> None:
-    """Raise `PositionLost` for one that does not know any more where it is."""
-    variance = session.confidence.variance
-    if session.adrift and variance is not None:
-        raise PositionLost(messages.lost_its_place(session.drone, variance))
 
 
 async def takeoff(session: CrazyflieSession, height: float, speed: float) -> None:
@@ -73,18 +59,10 @@ async def takeoff(session: CrazyflieSession, height: float, speed: float) -> Non
             )
     except (NotReady, Rejected):
         with suppress(NavigationError):
-            await _disarm(session)
+            if not (await session.fresh()).flies:
+                await supervisor.disarm(session)
         raise
-
-    def risen(state: State) -> bool:
-        knows_its_place(session)
-        return _hovers(session, state, off)
-
-    def off(state: State) -> float:
-        return abs(state.position[2] - height)
-
-    if await session.until(risen, seconds + SLACK) is None:
-        raise TargetTimeout(messages.not_arrived(session.drone, "risen", off(session.now())))
+    await _hovering(session, lambda state: abs(state.position[2] - height), seconds, "risen")
 
 
 async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bool:
@@ -106,12 +84,6 @@ async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bo
 async def _is_disarmed(session: CrazyflieSession) -> bool:
     """Say whether it is disarmed within a moment: what it then does not do it was not told."""
     return await session.until(lambda state: not state.armed, _SEEN) is not None
-
-
-async def _disarm(session: CrazyflieSession) -> None:
-    """Disarm a drone that stays on the ground."""
-    if not (await session.fresh()).flies:
-        await supervisor.disarm(session)
 
 
 async def go_to(session: CrazyflieSession, target: Point, speed: float) -> None:
@@ -164,21 +136,25 @@ async def _fly_to(session: CrazyflieSession, target: Point, seconds: float, what
     """Send it somewhere, and wait until it is there and hovers."""
     session.commanded = True
     await commander.go_to(session, target, seconds, NEAR)
+    await _hovering(session, lambda state: state.distance(target), seconds, what)
+
+
+async def _hovering(
+    session: CrazyflieSession, off: Callable[[State], float], seconds: float, what: str
+) -> None:
+    """Wait until it is at the end of its trajectory, near and at rest, and knows where that is.
+
+    Raises `PositionLost` for one that does not know any more where it is.
+    """
 
     def there(state: State) -> bool:
-        knows_its_place(session)
-        return _hovers(session, state, off)
-
-    def off(state: State) -> float:
-        return state.distance(target)
+        variance = session.confidence.variance
+        if session.adrift and variance is not None:
+            raise PositionLost(messages.lost_its_place(session.drone, variance))
+        return state.finished and not session.doubts and hovers(session.recent, off)
 
     if await session.until(there, seconds + SLACK) is None:
         raise TargetTimeout(messages.not_arrived(session.drone, what, off(session.now())))
-
-
-def _hovers(session: CrazyflieSession, state: State, off: Callable[[State], float]) -> bool:
-    """Whether it is at the end of its trajectory, near and at rest, and knows where that is."""
-    return state.finished and not session.doubts and hovers(session.recent, off)
 
 
 async def _down(session: CrazyflieSession, ready: Callable[[State], bool], limit: float) -> None:

@@ -196,6 +196,3 @@ def no_grip(drone: str) -> str:
         f"{drone} cannot pick or release: name the parameter of its gripper in the fleet file:"
         ' grip = { parameter = "gripper.closed", pick = 1, release = 0 }'
     )
-
-
-# Options

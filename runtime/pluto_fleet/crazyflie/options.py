@@ -167,27 +167,16 @@ class _OptionReader:
         raise self.bad(key, "two angles in degrees, such as [65, 50]")
 
     def grip(self, key: str) -> Gripper | None:
+        match self.given.get(key):
+            case None:
+                return None
+            case {"parameter": str(name), "pick": pick, "release": release, **rest} if _is_name(
+                name
+            ) and rest.keys() <= {"seconds"}:
+                match _number(pick), _number(release), _number(rest.get("seconds", 1.0)):
+                    case (float(on), float(off), float(seconds)) if seconds >= 0.0:
+                        return Gripper(parameter=name, pick=on, release=off, seconds=seconds)
         wanted = 'a table, such as { parameter = "gripper.closed", pick = 1, release = 0 }'
-        given = self.given.get(key)
-        if given is None:
-            return None
-        if isinstance(given, Mapping) and given.keys() <= {
-            "parameter",
-            "pick",
-            "release",
-            "seconds",
-        }:
-            name, seconds = given.get("parameter"), _number(given.get("seconds", 1.0))
-            pick, release = _number(given.get("pick")), _number(given.get("release"))
-            if (
-                isinstance(name, str)
-                and _is_name(name)
-                and pick is not None
-                and release is not None
-                and seconds is not None
-                and seconds >= 0.0
-            ):
-                return Gripper(parameter=name, pick=pick, release=release, seconds=seconds)
         raise self.bad(key, wanted)
 
 

@@ -47,12 +47,10 @@ async def problems(
     found = [*_of_state(state), *_of_battery(state, battery, options), *lacking]
     patience = SETTLED_FOR + _SETTLING if found else _PATIENCE
     if not await _sure(session, options, began + patience):
-        variance = session.confidence.variance
-        by_beacons = not options.starts_at_home
-        unsure = (
-            messages.uncertain(variance, options.sure_within) if by_beacons else messages.UNSETTLED
-        )
-        found.append(unsure)
+        if options.starts_at_home:
+            found.append(messages.UNSETTLED)
+        else:
+            found.append(messages.uncertain(session.confidence.variance, options.sure_within))
     return found
 
 
@@ -103,9 +101,8 @@ def _knows_where(session: CrazyflieSession, options: CrazyflieOptions) -> bool:
 async def _of_parameters(
     session: CrazyflieSession, options: CrazyflieOptions, speed: float
 ) -> list[str]:
-    asks = (
-        bool(options.decks) or speed > DEFAULT_LIMIT
-    )  # else what cannot be read is as it always is
+    # else what cannot be read is as it always is
+    asks = bool(options.decks) or speed > DEFAULT_LIMIT
     if not await parameters.complete(session, _READ) and asks:
         return [messages.UNREAD]
     there = decks(session)

@@ -44,14 +44,11 @@ class Acknowledgements:
     def listen(self, cf: Cf, tell: Callable[..., None]) -> None:
         """Hear all answers; called in the worker, as they come in a thread of cflib's."""
 
-        def high_level(packet: CRTPPacket) -> None:
-            tell(self._hear, HIGH_LEVEL, packet.channel, bytes(packet.data))
+        def hear(packet: CRTPPacket) -> None:
+            tell(self._hear, packet.port, packet.channel, bytes(packet.data))
 
-        def supervisor(packet: CRTPPacket) -> None:
-            tell(self._hear, SUPERVISOR, packet.channel, bytes(packet.data))
-
-        cf.add_port_callback(HIGH_LEVEL, high_level)
-        cf.add_port_callback(SUPERVISOR, supervisor)
+        cf.add_port_callback(HIGH_LEVEL, hear)
+        cf.add_port_callback(SUPERVISOR, hear)
 
     def expect(self, key: Key) -> asyncio.Future[bytes]:
         """Begin to listen for the next answer to a command: before the command is sent."""

@@ -18,8 +18,6 @@ from .driver import LOCALIZATION, SUPERVISOR, packet
 from .worker import Worker
 
 if TYPE_CHECKING:
-    from cflib.crazyflie import Crazyflie as Cf
-
     from .session import CrazyflieSession
     from .state import State
 
@@ -79,10 +77,8 @@ def _is_back(at: State, now: State) -> bool:
 
 
 async def _ask(session: CrazyflieSession, on: bool) -> bool:
-    def send(cf: Cf) -> None:
-        cf.supervisor.send_arming_request(on)
-
-    answer = await answered(session, (SUPERVISOR, _ARM), send, "arm")
+    key = (SUPERVISOR, _ARM)
+    answer = await answered(session, key, lambda cf: cf.supervisor.send_arming_request(on), "arm")
     return answer[1] == _DONE
 
 
@@ -101,11 +97,13 @@ async def recover_from_crash(session: CrazyflieSession) -> None:
         return
     if state.has_trajectory:  # one that arms itself would fly on along it
         await drop_trajectory(session)
-
-    def send(cf: Cf) -> None:
-        cf.supervisor.send_crash_recovery_request()
-
-    answer = await answered(session, (SUPERVISOR, _RECOVER), send, "recover", well=False)
+    answer = await answered(
+        session,
+        (SUPERVISOR, _RECOVER),
+        lambda cf: cf.supervisor.send_crash_recovery_request(),
+        "recover",
+        well=False,
+    )
     done = answer[1] == _DONE
     if not done or await session.until(lambda now: not now.crashed, _RECOVERED, well=False) is None:
         raise NotReady(

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from math import dist, inf, isfinite, sqrt
+from math import dist, inf, sqrt
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.fleet.reach import CLIMB_SPEED
@@ -58,16 +58,6 @@ _LOWEST = 0.2
 def shortest_duration(metres: float, speed: float) -> float:
     """Return how long a trajectory must take for its peak speed to stay below this."""
     return max(SHORTEST, PEAK * metres / speed, sqrt(_PUSH * metres / _MOST))
-
-
-def is_speed(speed: float) -> bool:
-    """Say whether one can fly at this speed."""
-    return isfinite(speed) and speed > 0.0
-
-
-def is_target(target: Point) -> bool:
-    """Say whether one can fly to this place."""
-    return all(isfinite(value) for value in target) and target[2] > 0.0
 
 
 def hovers(states: Sequence[State], off: Callable[[State], float]) -> bool:
@@ -142,9 +132,6 @@ class SpeedLimits:
         for name, limit, wanted in zip(_LIMIT_PARAMETERS, self.limits, asked, strict=True):
             if wanted > limit + _ROUNDING:
                 yield messages.too_fast(wanted, name, limit)
-
-
-DEFAULT_LIMITS = SpeedLimits((DEFAULT_LIMIT, DEFAULT_LIMIT, DEFAULT_LIMIT))
 
 
 def speed_limits_of(session: CrazyflieSession) -> SpeedLimits:

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from concurrent.futures import Future
 from contextlib import suppress
-from dataclasses import dataclass
+from functools import partial
 from queue import SimpleQueue
 from threading import Thread
-from typing import Generic, TypeVar
+from typing import TypeVar
 
 from plutoc_runtime.domain.errors import ANY_ERROR
 
@@ -20,39 +21,6 @@ from ..drones.errors import LinkLost
 from . import messages
 
 T = TypeVar("T")
-
-
-@dataclass(slots=True, eq=False)
-class _Call(Generic[T]):
-    """A call that waits for its turn, and the future of its caller."""
-
-    call: Callable[[], T]
-    loop: asyncio.AbstractEventLoop
-    answer: asyncio.Future[T]
-    dropped: bool = False
-    """Its caller has given up: it need not begin."""
-
-    def run(self) -> None:
-        if self.dropped:
-            return
-        try:
-            value = self.call()
-        except ANY_ERROR as error:
-            self._tell(self._fail, error)
-        else:
-            self._tell(self._give, value)
-
-    def _tell(self, call: Callable[..., None], what: object) -> None:
-        with suppress(RuntimeError):  # the loop is closed
-            self.loop.call_soon_threadsafe(call, what)
-
-    def _give(self, value: T) -> None:
-        if not self.answer.done():
-            self.answer.set_result(value)
-
-    def _fail(self, error: BaseException) -> None:
-        if not self.answer.done():
-            self.answer.set_exception(error)
 
 
 class Worker:
@@ -70,16 +38,15 @@ class Worker:
         """Return what a call gives; raise `LinkLost` if it is not back within the limit."""
         if self.stuck:
             raise LinkLost(messages.stuck(self._drone, limit))
-        loop = asyncio.get_running_loop()
-        answer: asyncio.Future[T] = loop.create_future()
-        job = _Call(call, loop, answer)
-        self._jobs.put(job.run)
+        job: Future[T] = Future()
+        self._jobs.put(partial(_run, job, call))
+        answer = asyncio.wrap_future(job)
         try:
             await asyncio.wait({answer}, timeout=limit)
             if answer.done():
                 return answer.result()
-        finally:  # cancelled, too
-            job.dropped = True
+        finally:  # cancelled, too: it need not begin
+            job.cancel()
             answer.cancel()
         self.stuck = True
         raise LinkLost(messages.stuck(self._drone, limit))
@@ -100,3 +67,12 @@ class Worker:
     def _work(self) -> None:
         while (job := self._jobs.get()) is not None:
             job()
+
+
+def _run(job: Future[T], call: Callable[[], T]) -> None:
+    """Call what its caller still waits for."""
+    if job.set_running_or_notify_cancel():
+        try:
+            job.set_result(call())
+        except ANY_ERROR as error:
+            job.set_exception(error)

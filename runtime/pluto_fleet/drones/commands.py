@@ -18,6 +18,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.model import Photo
 from plutoc_runtime.domain.text import percent, place, shown
 
+from ..jobs.job import motors_cut
 from .protocol import Acts, Readable
 from .telemetry import RISING
 from .timeouts import shortened
@@ -126,7 +127,7 @@ async def descend(vehicle: Vehicle) -> None:
     if vehicle.telemetry.landed:
         return
     if vehicle.is_cut:
-        raise _cut(vehicle)
+        raise motors_cut(vehicle.id)
     if not vehicle.linked:
         vehicle.check()
     seconds = max(0.0, vehicle.telemetry.location[2]) / vehicle.climb
@@ -160,11 +161,7 @@ async def cut(vehicle: Vehicle) -> None:
         vehicle.is_cut = False
         raise
     vehicle.must_land = False
-    vehicle.refuse(_cut(vehicle))
-
-
-def _cut(vehicle: Vehicle) -> FlightFailed:
-    return FlightFailed(Failure.CRASH, f"{vehicle.id}'s motors were cut")
+    vehicle.refuse(motors_cut(vehicle.id))
 
 
 def check_airborne(vehicle: Vehicle) -> None:

@@ -12,6 +12,8 @@ from enum import Enum
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import quoted
 
+from ..files.errors import near
+
 
 class CallStyle(Enum):
     """How a method is called."""
@@ -108,8 +110,7 @@ def needs(kind: PluginKind, name: str, missing: str) -> BadInput:
 
 def no_such_class(kind: PluginKind, name: str, wanted: str, there: Sequence[str]) -> BadInput:
     """Return the error about a class that its module has not; `there`: those that it has."""
-    found = get_close_matches(wanted, there, n=1, cutoff=0.6)
-    hint = f"; did you mean {quoted(found[0])}?" if found else ""
+    hint = near(wanted, there)
     return BadInput(
         f"the {kind.word} {quoted(name)}: its module has no class {quoted(wanted)}{hint}"
     )

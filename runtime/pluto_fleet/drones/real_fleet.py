@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.actions import BUILT_IN, Plain
@@ -99,13 +99,8 @@ def _wanted(trips: Iterable[RequiredAction]) -> tuple[RequiredAction, ...]:
     return tuple(found)
 
 
-def real_data(real: RealFleet) -> dict[str, object]:
-    """Return it as plain data."""
-    return asdict(real)
-
-
 def real_of(data: Mapping[str, Any]) -> RealFleet:
-    """Return what was written down."""
+    """Return what was written down, by `asdict`."""
     return RealFleet(
         drones=tuple(RealDrone(**drone) for drone in data["drones"]),
         localization=data["localization"],

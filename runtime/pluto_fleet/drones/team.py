@@ -10,7 +10,7 @@ import asyncio
 import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NoReturn, Protocol
+from typing import TYPE_CHECKING, NoReturn
 
 from plutoc_runtime.domain.actions import BUILT_IN, Plain
 from plutoc_runtime.domain.errors import ANY_ERROR
@@ -34,13 +34,11 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Category, Item, Point, Telemetry
     from plutoc_runtime.time.kernel import Kernel
 
+    from ..jobs.controls import FleetDrone
     from ..jobs.job import Job
     from ..jobs.telemetry import Subscription
     from .protocol import DroneNavigation
     from .real_fleet import RealDrone, RealFleet, RequiredAction
-
-
-__all__ = ["Team", "TeamDrone"]
 
 
 class Team:
@@ -200,9 +198,6 @@ class Team:
         await self._kernel.call_hook(self._links[drone].once)
         vehicle = self._vehicles[drone]
         problems: object = await self._kernel.call_hook(self._problems, vehicle)
-        return self._standing(vehicle, problems if isinstance(problems, tuple) else ())
-
-    def _standing(self, vehicle: Vehicle, problems: tuple[str, ...]) -> DroneReport:
         telemetry = vehicle.telemetry
         return DroneReport(
             drone=vehicle.id,
@@ -213,7 +208,7 @@ class Team:
             boot=vehicle.boot,
             carrying=self._cargo.of(vehicle.id),
             done=None,
-            problems=problems,
+            problems=problems if isinstance(problems, tuple) else (),
         )
 
     async def _problems(self, vehicle: Vehicle) -> tuple[str, ...]:
@@ -245,25 +240,6 @@ FILES = "files"
 """The folder, in the gateway's, where navigations keep photos and the like."""
 
 
-class FleetDrone(Protocol):
-    """What must be known of a drone."""
-
-    @property
-    def id(self) -> str:
-        """Its name in the fleet."""
-        ...
-
-    @property
-    def category(self) -> Category:
-        """How fast it flies, and for how long."""
-        ...
-
-    @property
-    def home(self) -> Point:
-        """Where its dock is."""
-        ...
-
-
 def make_one(how: RealDrone, home: Point, speed: float, folder: Path) -> DroneNavigation:
     """Return what flies one drone, at this speed at most; nothing is reached yet.
 
@@ -292,10 +268,10 @@ def make_team(
     files = folder / FILES
     files.mkdir(mode=0o700, parents=True, exist_ok=True)
     how = {drone.id: drone for drone in real.drones}
-    navigations: dict[str, DroneNavigation] = {}
-    for drone in drones:
-        speed = top_speed(drone.category)
-        navigations[drone.id] = make_one(how[drone.id], drone.home, speed, files)
+    navigations = {
+        drone.id: make_one(how[drone.id], drone.home, top_speed(drone.category), files)
+        for drone in drones
+    }
     return Team(
         kernel,
         [
@@ -321,13 +297,8 @@ def _feeding(
     """Return what tells the drones where they are; None: they know it by themselves."""
     if real.localization == OWN:
         return None
-    fed: dict[str, Locatable] = {}
-    deaf: list[str] = []
-    for id, navigation in navigations.items():
-        if isinstance(navigation, Locatable):
-            fed[id] = navigation
-        else:
-            deaf.append(id)
+    fed = {id: one for id, one in navigations.items() if isinstance(one, Locatable)}
+    deaf = [id for id in navigations if id not in fed]
     if deaf:
         raise plugins.deaf(real.localization, deaf)
     source = make_localization(real.localization, real.localization_options)

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from functools import partial
 from itertools import islice
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import FlightFailed
@@ -81,10 +82,10 @@ class Descent:
         found = []
         for drone in self._drones:
             ways = self._ways_home(drone) if how is Down.HOME else []
-            if not ways and not self._is_landed(drone):
+            if not ways and not self._pilots.telemetry[drone.id].landed:
                 ways = self._ways_down(drone)
             if ways:
-                courses = sorted((self._course(drone, way) for way in ways), key=_cost)
+                courses = sorted((self._course(drone, way) for way in ways), key=attrgetter("cost"))
                 found.append(DescendingDrone(drone.id, courses))
         sign = 1 if how is Down.LAND else -1
         return sorted(found, key=lambda goer: sign * goer.courses[0].seconds)
@@ -200,9 +201,6 @@ class Descent:
         key = FLEET + 1 + self._places[drone]
         self._tasks.append(self._kernel.spawn(_well(command), key, f"{drone} comes down"))
 
-    def _is_landed(self, drone: FleetDrone) -> bool:
-        return self._pilots.telemetry[drone.id].landed
-
 
 async def _well(command: _Command) -> bool:
     """Say whether a drone could do it; a failure keeps no other."""
@@ -211,10 +209,6 @@ async def _well(command: _Command) -> bool:
     except FlightFailed:
         return False
     return True
-
-
-def _cost(one: Course) -> float:
-    return one.cost
 
 
 def _no_other(section: Section) -> Sequence[Section]:

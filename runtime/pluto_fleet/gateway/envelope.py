@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.airspace import way_from
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import number
 
@@ -52,7 +51,3 @@ class Envelope:
         if problem is not None:
             raise FlightFailed(Failure.REFUSED, problem)
         return (*back, target)
-
-    def way(self, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
-        """Return the points of the shortest permitted way; who has drifted out flies back in first."""
-        return way_from(self._airspace, drone, start, end)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from plutoc_runtime.domain.airspace import way_from
 from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from plutoc_runtime.fleet.reach import docked, flight_seconds
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
@@ -55,8 +56,8 @@ class Executor:
         leaving: Leaving | None = None,
     ) -> None:
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
-        self._leaving = leaving
-        """Writes down which drone takes off; None, as in a simulation: it is not needed after a crash."""
+        self._leaving: Leaving = leaving or nullcontext
+        """Writes down which drone takes off; in a simulation that is not needed after a crash."""
         self._traffic = traffic
         """Keeps them apart from each other; None: they are not kept apart."""
         self._envelope = Envelope(airspace)
@@ -96,7 +97,7 @@ class Executor:
             seconds = flight_seconds(category, airspace, here, job.stops, job.seconds)
             controls.begins(drone, job, seconds)
 
-        await self._travel(drone, partial(self._to, drone, job.stops), begins)
+        await self.travels(drone, partial(self._to, drone, job.stops), begins)
         if job.action is None:
             return None
         job.begins()
@@ -136,7 +137,7 @@ class Executor:
         """Rise to a height; does nothing for a drone that flies."""
         begins = partial(self.begins, drone)
         if self._controls.telemetry[drone].landed:
-            await self._travel(drone, partial(self._up, drone, height), begins)
+            await self.travels(drone, partial(self._up, drone, height), begins)
         else:
             begins()
 
@@ -146,7 +147,7 @@ class Executor:
         if self._controls.telemetry[drone].landed:
             await self._controls.go_to(drone, target)  # says why not
         else:
-            await self._travel(drone, partial(self._straight, drone, target))
+            await self.travels(drone, partial(self._straight, drone, target))
 
     async def land(self, drone: str) -> None:
         """Land here, or beside it where another stands."""
@@ -231,7 +232,7 @@ class Executor:
             if telemetry.landed and docked(telemetry.location, home):
                 begins()
                 return True
-            await self._travel(drone, partial(self._home, drone), begins)
+            await self.travels(drone, partial(self._home, drone), begins)
             if not telemetry.landed:  # another drone stood there
                 await self.land(drone)
         except FlightFailed:
@@ -249,16 +250,6 @@ class Executor:
 
     # Ways
 
-    async def _travel(
-        self, drone: str, plan: Callable[[], Section], begins: Callable[[], None] = _nothing
-    ) -> None:
-        if self._traffic is None:  # as quickly as can be
-            section = plan()
-            begins()
-            await self._follow(section)
-        else:
-            await self.travels(drone, plan, begins)
-
     async def travels(
         self,
         drone: str,
@@ -274,7 +265,9 @@ class Executor:
         """
         traffic, since = self._traffic, self._kernel.now
         if traffic is None:
-            await self._travel(drone, plan, begins)
+            section = plan()  # as quickly as can be
+            begins()
+            await self._follow(section)
             return
         begun = False
         try:
@@ -312,11 +305,8 @@ class Executor:
         controls, traffic, drone = self._controls, self._traffic, section.drone
         points = section.points[1:-1] if section.lands else section.points[1:]
         if section.stands:
-            if self._leaving is None:
+            with self._leaving(drone):
                 await controls.takeoff(drone, points[0][2])
-            else:
-                with self._leaving(drone):
-                    await controls.takeoff(drone, points[0][2])
             points = points[1:]
             if traffic is not None:
                 traffic.passed(drone)
@@ -331,7 +321,7 @@ class Executor:
         """To all stops, and hover at the last."""
         points, stands = self._start(drone, self._airspace.cruise_height)
         for stop in stops:
-            points += self._envelope.way(drone, points[-1], stop)
+            points += way_from(self._airspace, drone, points[-1], stop)
         return Section(drone, tuple(points), stands, False)
 
     def _up(self, drone: str, height: float) -> Section:
@@ -363,7 +353,7 @@ class Executor:
         """To its dock, and land there, unless another stands on it."""
         x, y, z = self._drones[drone].home
         points, stands = self._start(drone, self._airspace.cruise_height)
-        points += self._envelope.way(drone, points[-1], (x, y, points[-1][2]))
+        points += way_from(self._airspace, drone, points[-1], (x, y, points[-1][2]))
         traffic = self._traffic
         lands = traffic is None or traffic.ground.below(drone, (x, y, z)) is not None
         if lands:

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
     from ..jobs.controls import Controls
     from ..jobs.job import Job, Report
-    from ..jobs.reports import DroneReport
     from .ledger import Ledger
 
 
@@ -89,7 +88,7 @@ class Link:
         await self._asked(self._navigation.write(drone, name, value))
 
     async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
-        """Ask a drone beside what it does; there is no answer once the link is cut."""
+        """Ask a drone; there is no answer once the link is cut."""
         if not self._is_heard:
             question.close()
             await _for_ever()
@@ -145,14 +144,9 @@ class Link:
         if not stays:
             self._gateway.jobs.moves_on(drone)
         try:
-            result = await command
-        except FlightFailed:
-            if self._is_heard:
-                raise
-            await _for_ever()
+            return await self._asked(command)
         finally:
             self._under_way.pop(drone, None)
-        return result
 
     # What only the gateway does
 
@@ -183,7 +177,7 @@ class Link:
     def heartbeat(self) -> None:
         """Say that the brain is alive."""
         if self._gateway.is_commanded_by(self):
-            self._gateway.hear()
+            self._gateway.heard = self._gateway.kernel.now
 
     async def bring_down(self, how: Down) -> None:
         """Break off everything and bring all drones down; return when all that can are down.
@@ -256,10 +250,11 @@ class Gateway:
             kernel, controls, drones, airspace, self.traffic, ledger, leaving
         )
         self.envelope = Envelope(airspace)
-        self.drones, self._airspace, self._apart = tuple(drones), airspace, apart
+        self.drones, self._airspace = tuple(drones), airspace
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
         self.jobs = Jobs(kernel, self.navigation.fly, self._keys, self.envelope, ledger)
-        self._link: Link | None = None
+        self.commander: Link | None = None
+        """The link through which the drones are commanded now."""
         self.line: Callable[[Report], Report] | None = None
         """What lies between a brain and its reports in a simulation: it wraps their listener."""
         self._epoch = 0
@@ -267,7 +262,8 @@ class Gateway:
         """Brings all drones down, while that is so."""
         self._how = Down.LAND
         self._over = False
-        self._heard = kernel.now
+        self.heard = kernel.now
+        """When the brain was heard of last."""
         if patience is not None:
             self._watch(patience)
 
@@ -281,25 +277,20 @@ class Gateway:
         if epoch < self._epoch:
             raise BadInput("another run of this app has taken over the drones meanwhile")
         self.cut()
-        self._epoch, self._heard = epoch, self.kernel.now
-        self._link = link = Link(self, lost)
+        self._epoch, self.heard = epoch, self.kernel.now
+        self.commander = link = Link(self, lost)
         return link
 
     def cut(self) -> None:
         """Let no brain command. Jobs go on; what else the drones do for the brain is broken off."""
-        link, self._link = self._link, None
+        link, self.commander = self.commander, None
         if link is not None:
             self.jobs.mute()
             link.cut()
 
-    @property
-    def commander(self) -> Link | None:
-        """The link through which the drones are commanded now."""
-        return self._link
-
     def is_commanded_by(self, link: Link) -> bool:
         """Say whether this is the link through which the drones are commanded."""
-        return link is self._link
+        return link is self.commander
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover."""
@@ -307,10 +298,6 @@ class Gateway:
         self.navigation.break_off(drone)
 
     # Without a brain
-
-    def hear(self) -> None:
-        """The brain is alive."""
-        self._heard = self.kernel.now
 
     @property
     def flies(self) -> bool:
@@ -321,7 +308,7 @@ class Gateway:
         """Land everything when nothing was heard for too long; look again when that may be so."""
         if self._over:
             return
-        due = self._heard + patience
+        due = self.heard + patience
         if self.kernel.now >= due:
             due = self.kernel.now + patience
             if self.descent is None and self.flies:

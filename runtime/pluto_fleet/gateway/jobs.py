@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import EventKind, Kernel, Key
 
-from ..jobs.job import Report
 from ..jobs.reports import DroneReport, Entry, JobState, reported_result
 
 if TYPE_CHECKING:
@@ -85,7 +84,7 @@ class AssignedJob:
         job = self._known
         self.state = JobState.BEGUN
         try:
-            self._jobs.write(self)
+            self._jobs.write(self.entry)
         except OSError as error:
             self.state = JobState.FLYING
             reason = f"{self.action} was not begun: it cannot be written down before: {error}"
@@ -176,7 +175,7 @@ class Jobs:
 
     def _repeated(self, known: AssignedJob | Entry, report: Report) -> None:
         """Answer who gives a job once more by what is known of it, never by a flight."""
-        if known.state is JobState.BEGUN and not _flies(known):
+        if known.state is JobState.BEGUN and not known.flies:
             reason = f"it cannot be told whether the action of {known.id} was done"
             self._post(known.drone, partial(report, FlightFailed(Failure.UNKNOWN, reason)))
         else:
@@ -194,12 +193,12 @@ class Jobs:
         if isinstance(known, AssignedJob) and known.flies:
             known.listener = report
         elif known is not None and known.state in _ENDED:
-            self._post(known.drone, partial(report, reported_result(known)))
+            self._post(known.drone, partial(report, reported_result(_entry(known))))
 
     def forget(self, id: str) -> None:
         """Drop a job that does not fly: its id may be given again."""
         known = self._known.get(id)
-        if known is None or _flies(known):
+        if known is None or known.flies:
             return
         del self._known[id]
         if self._current.get(known.drone) is known:
@@ -241,7 +240,7 @@ class Jobs:
 
     # What jobs tell
 
-    def write(self, job: AssignedJob) -> None:
+    def write(self, job: Entry) -> None:
         """Write down how a job stands, for good."""
         if self._ledger is not None:
             self._ledger.write(job)
@@ -251,7 +250,7 @@ class Jobs:
         if self._ledger is None:
             self._known.pop(job.id, None)
         elif begun:
-            self._keep(job)
+            self._keep(job.entry)
         if not job.hovers:
             self._current.pop(job.drone, None)
 
@@ -268,12 +267,9 @@ class Jobs:
             for drone in drones.values():
                 self._believe(drone)
         for id, job in self._known.items():
-            if job.state is JobState.BEGUN and not _flies(job):
+            if job.state is JobState.BEGUN and not job.flies:
                 self._known[id] = self._settled(job, drones.get(job.drone))
-        return {
-            id: job.entry if isinstance(job, AssignedJob) else job
-            for id, job in self._known.items()
-        }
+        return {id: _entry(job) for id, job in self._known.items()}
 
     def _settled(self, job: AssignedJob | Entry, drone: DroneReport | None) -> AssignedJob | Entry:
         if drone is None or drone.done is None:
@@ -295,11 +291,10 @@ class Jobs:
                 self._known[id] = entry = _done(id, drone)
                 self._keep(entry)
 
-    def _keep(self, job: AssignedJob | Entry) -> None:
+    def _keep(self, job: Entry) -> None:
         """Write down what came of an action; if that fails, its drone still remembers it."""
-        if self._ledger is not None:
-            with suppress(OSError):
-                self._ledger.write(job)
+        with suppress(OSError):
+            self.write(job)
 
     def _post(self, drone: str, call: Callable[[], object]) -> None:
         self._kernel.schedule(self._kernel.now, EventKind.FLIGHT, self._keys[drone], call)
@@ -310,8 +305,8 @@ def _done(id: str, drone: DroneReport) -> Entry:
     return Entry(id=id, drone=drone.drone, state=JobState.DONE, boot=drone.boot, value=value)
 
 
-def _flies(job: AssignedJob | Entry) -> bool:
-    return isinstance(job, AssignedJob) and job.flies
+def _entry(job: AssignedJob | Entry) -> Entry:
+    return job.entry if isinstance(job, AssignedJob) else job
 
 
 _MAY_FLY = frozenset({JobState.FAILED, JobState.BROKEN_OFF})

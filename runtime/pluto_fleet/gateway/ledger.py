@@ -4,133 +4,57 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
 from zlib import crc32
 
 from plutoc_runtime.domain.errors import FlightFailed
 
 from ..jobs.reports import Entry, JobState
-from ..journal.values import value_data, value_of
+from ..journal.values import value_of
+from .wire import entry_data
 
 
-class JobRecord(Protocol):
-    """A job, as far as it is written down."""
+class Ledger:
+    """Keeps of each job whose action has begun how it stands; what is kept is there for good.
 
-    @property
-    def id(self) -> str:
-        """The job's own."""
-        ...
-
-    @property
-    def drone(self) -> str:
-        """Who flies it."""
-        ...
-
-    @property
-    def state(self) -> JobState:
-        """How far it has come."""
-        ...
-
-    @property
-    def boot(self) -> int:
-        """The drone's, when the job was given."""
-        ...
-
-    @property
-    def value(self) -> object:
-        """What its action gave, once it is done."""
-        ...
-
-    @property
-    def failure(self) -> str:
-        """The name of the `Failure`, once it has failed."""
-        ...
-
-    @property
-    def reason(self) -> str:
-        """Why it failed, for a person."""
-        ...
-
-
-class Ledger(Protocol):
-    """Keeps of each job whose action has begun how it stands; what is kept is there for good."""
-
-    @property
-    def is_whole(self) -> bool:
-        """Whether all that was ever kept can be read."""
-        ...
-
-    def entries(self) -> Iterator[Entry]:
-        """Yield what is kept, in the order in which the jobs were given."""
-        ...
-
-    def write(self, job: JobRecord) -> None:
-        """Keep how a job stands; when this returns, it is kept. `OSError`: it is not."""
-        ...
-
-    def forget(self, id: str) -> None:
-        """Drop a job: it will not be asked for any more."""
-        ...
-
-    @property
-    def cut(self) -> Collection[str]:
-        """The drones whose motors are cut."""
-        ...
-
-    def write_cut(self, drone: str, is_cut: bool) -> None:
-        """Keep whether a drone's motors are cut; if the computer dies, only after `make_sure`.
-
-        Waits for no disk, for motors are cut right after that. `OSError`: it is not kept.
-        """
-        ...
-
-    def make_sure(self) -> None:
-        """Return when all is kept, even after a crash. `OSError`: perhaps not."""
-        ...
-
-
-class MemoryLedger:
-    """A ledger for simulations and tests: it outlives a simulated gateway, not the process."""
-
-    is_whole = True
+    This one keeps it in memory, for simulations and tests: it outlives a simulated gateway, not the
+    process.
+    """
 
     def __init__(self) -> None:
-        self._kept: dict[str, tuple[str, JobState, int, object, str, str]] = {}
+        self._kept: dict[str, Entry] = {}
+        """How each job stands, in the order in which the jobs were given."""
         self.cut: dict[str, None] = {}
+        """The drones whose motors are cut."""
+        self.is_whole = True
+        """Whether all that was ever kept can be read."""
 
     def entries(self) -> Iterator[Entry]:
         """Yield what is kept, in the order in which the jobs were given."""
-        for id, (drone, state, boot, value, failure, reason) in self._kept.items():
-            yield Entry(
-                id=id,
-                drone=drone,
-                state=state,
-                boot=boot,
-                value=value,
-                failure=failure,
-                reason=reason,
-            )
+        yield from self._kept.values()
 
-    def write(self, job: JobRecord) -> None:
-        """Keep how a job stands."""
-        self._kept[job.id] = (job.drone, job.state, job.boot, job.value, job.failure, job.reason)
+    def write(self, entry: Entry) -> None:
+        """Keep how a job stands; when this returns, it is kept. `OSError`: it is not."""
+        self._kept[entry.id] = replace(entry, flies=False)
 
     def forget(self, id: str) -> None:
         """Drop a job: it will not be asked for any more."""
         self._kept.pop(id, None)
 
     def write_cut(self, drone: str, is_cut: bool) -> None:
-        """Keep whether a drone's motors are cut."""
+        """Keep whether a drone's motors are cut; if the computer dies, only after `make_sure`.
+
+        Waits for no disk, for motors are cut right after that. `OSError`: it is not kept.
+        """
+        self.cut.pop(drone, None)
         if is_cut:
             self.cut[drone] = None
-        else:
-            self.cut.pop(drone, None)
 
     def make_sure(self) -> None:
-        """All is kept already."""
+        """Return when all is kept, even after a crash. `OSError`: perhaps not."""
 
 
 _SPARE = 1000
@@ -139,17 +63,15 @@ _SPARE = 1000
 _sync: Callable[[int], None] = getattr(os, "fdatasync", os.fsync)  # not every system has the former
 
 
-class FileLedger:
-    """Every line has a checksum: what a torn or damaged one said is not believed."""
+class FileLedger(Ledger):
+    """Every line has a checksum: what a torn or damaged one said is not believed.
+
+    It is whole even if the line at its end was never finished.
+    """
 
     def __init__(self, path: Path) -> None:
+        super().__init__()
         self._path = path
-        self._kept: dict[str, Mapping[str, object]] = {}
-        """The last line of each job, in the order in which the jobs were given."""
-        self.cut: dict[str, None] = {}
-        """The drones whose motors are cut."""
-        self.is_whole = True
-        """Whether every line could be read, but for one at the end that was never finished."""
         self._lines = self._end = self._tried = 0
         is_new = not path.exists()
         if not is_new:
@@ -161,13 +83,9 @@ class FileLedger:
         if is_new:
             _sync_folder(path.parent)
 
-    def entries(self) -> Iterator[Entry]:
-        """Yield what is kept, in the order in which the jobs were given."""
-        yield from map(_entry, self._kept.values())
-
-    def write(self, job: JobRecord) -> None:
+    def write(self, entry: Entry) -> None:
         """Keep how a job stands; when this returns, it is on the disk."""
-        self._append(_text(job))
+        self._append(entry_data(entry))
 
     def forget(self, id: str) -> None:
         """Drop a job. Should that be lost, it is only known for longer than it need be.
@@ -219,17 +137,11 @@ class FileLedger:
 
     def _take(self, data: Mapping[str, object]) -> None:
         if "forget" in data:
-            self._kept.pop(str(data["forget"]), None)
-            return
-        if "motors" in data:
-            self._turned(str(data["motors"]), data["cut"] is True)
-            return
-        self._kept[_entry(data).id] = data
-
-    def _turned(self, drone: str, is_cut: bool) -> None:
-        self.cut.pop(drone, None)
-        if is_cut:
-            self.cut[drone] = None
+            super().forget(str(data["forget"]))
+        elif "motors" in data:
+            super().write_cut(str(data["motors"]), data["cut"] is True)
+        else:
+            super().write(_entry(data))
 
     def _compact(self, spare: int) -> None:
         """Write the file anew if most of it is of no use; what was damaged stays, to be looked at."""
@@ -246,7 +158,8 @@ class FileLedger:
         Until the folder knows of the new file the old one is whole; nothing is added to either.
         """
         part = self._path.with_name(f"{self._path.name}.part")
-        text = b"".join(map(_line, [*self._kept.values(), *(_motors(id, True) for id in self.cut)]))
+        kept = [*map(entry_data, self._kept.values()), *(_motors(id, True) for id in self.cut)]
+        text = b"".join(map(_line, kept))
         part.write_bytes(text)
         file = os.open(part, os.O_WRONLY | os.O_CLOEXEC)
         try:
@@ -258,18 +171,6 @@ class FileLedger:
         os.close(self._file)
         self._file, self._end = file, os.lseek(file, 0, os.SEEK_END)
         _sync_folder(self._path.parent)
-
-
-def _text(job: JobRecord) -> dict[str, object]:
-    return {
-        "id": job.id,
-        "drone": job.drone,
-        "state": job.state.value,
-        "boot": job.boot,
-        "value": value_data(job.value),
-        "failure": job.failure,
-        "reason": job.reason,
-    }
 
 
 def _motors(drone: str, is_cut: bool) -> dict[str, object]:
@@ -327,11 +228,9 @@ class CutMotors:
     """
 
     def __init__(self, ledger: Ledger | None, flies: Callable[[str], bool]) -> None:
-        self._ledger, self._flies = ledger, flies
-        self._cut: dict[str, bool] = {}
+        self._ledger, self._flies = ledger or Ledger(), flies
+        self._cut = dict.fromkeys(self._ledger.cut, False)
         """By drone: whether they were cut here, and not by an earlier gateway."""
-        if ledger is not None:
-            self._cut.update(dict.fromkeys(ledger.cut, False))
 
     def __contains__(self, drone: str) -> bool:
         here = self._cut.get(drone)
@@ -362,11 +261,9 @@ class CutMotors:
 
     def _write(self, drone: str, is_cut: bool) -> None:
         """Write it down, if that can be done: motors are not left on because a disk is full."""
-        if self._ledger is not None:
-            with suppress(OSError):
-                self._ledger.write_cut(drone, is_cut)
+        with suppress(OSError):
+            self._ledger.write_cut(drone, is_cut)
 
     def _make_sure(self) -> None:
-        if self._ledger is not None:
-            with suppress(OSError):
-                self._ledger.make_sure()
+        with suppress(OSError):
+            self._ledger.make_sure()

@@ -34,7 +34,7 @@ from .drone_lock import LEAVING, lock_drones
 from .gateway import Gateway
 from .ledger import FileLedger
 from .server import Server
-from .settings import Settings, settings_of
+from .settings import settings_of
 from .sightings import SEEN, Sightings
 from .wire import MAX_COMMAND
 

@@ -259,9 +259,6 @@ class RemoteLink:
         """Break off everything and bring all drones down; return when all that can are down."""
         await self._ask(do="down", how=how.value)
 
-    def heartbeat(self) -> None:
-        """Say that the brain is alive: this link does so by itself."""
-
     def on_telemetry(self, watcher: Callable[[], object]) -> None:
         """Call this whenever something was heard of the drones."""
         self._watcher = watcher

@@ -106,8 +106,7 @@ class Connection:
         finally:
             self._tell_no_telemetry()
             self._gateway.kernel.post(self._leave)
-            with suppress(OSError):
-                self._writer.close()
+            self.hang_up()
 
     def _leave(self) -> None:
         """The brain is gone: its jobs go on, what it had drones do besides is broken off."""

@@ -11,7 +11,7 @@ from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
 from plutoc_runtime.domain.model import Category
 
-from ..drones.real_fleet import RealFleet, real_data, real_of
+from ..drones.real_fleet import RealFleet, real_of
 from ..simulation.body import SimulatedDrone
 
 if TYPE_CHECKING:
@@ -82,21 +82,7 @@ def data_of(settings: Settings) -> dict[str, object]:
     """Return settings as plain data."""
     airspace, world = settings.airspace, settings.world
     return {
-        "drones": [
-            {
-                "id": drone.id,
-                "home": drone.home,
-                "index": drone.index,
-                "battery_level": drone.battery_level,
-                "category": {
-                    **asdict(drone.category),
-                    "actions": (
-                        None if drone.category.actions is None else sorted(drone.category.actions)
-                    ),
-                },
-            }
-            for drone in settings.drones
-        ],
+        "drones": list(map(_drone_data, settings.drones)),
         "airspace": {
             "size": airspace.size,
             "cruise_height": airspace.cruise_height,
@@ -108,7 +94,7 @@ def data_of(settings: Settings) -> dict[str, object]:
         "world": None if world is None else {**asdict(world), "background": {**world.background}},
         "seed": settings.seed,
         "faults": asdict(settings.faults),
-        "real": None if settings.real is None else real_data(settings.real),
+        "real": None if settings.real is None else asdict(settings.real),
         "speed": settings.speed,
         "patience": settings.patience,
         "idle": settings.idle,
@@ -130,6 +116,12 @@ def settings_of(data: Mapping[str, Any]) -> Settings:
         patience=data["patience"],
         idle=data["idle"],
     )
+
+
+def _drone_data(drone: SimulatedDrone) -> dict[str, Any]:
+    data, actions = asdict(drone), drone.category.actions
+    data["category"]["actions"] = None if actions is None else sorted(actions)
+    return data
 
 
 def _drone(data: Mapping[str, Any]) -> SimulatedDrone:

@@ -56,7 +56,7 @@ async def connect(
         try:
             return await _linked(folder, settings, kernel, epoch, lost)
         except TimeoutError:
-            _end(folder)
+            _send(folder, signal.SIGKILL)  # it hangs and flies nothing any more: another one can
         except OSError:
             pass  # there is none yet
         if process is None or process.poll() is not None:
@@ -144,18 +144,14 @@ def still_runs(folder: Path) -> int | None:
 
 def let_end(folder: Path) -> None:
     """Let the gateway of a folder end once all its drones are down: no brain comes back to it."""
+    _send(folder, signal.SIGTERM)
+
+
+def _send(folder: Path, number: signal.Signals) -> None:
     process = still_runs(folder)
     if process is not None:
         with suppress(OSError):
-            os.kill(process, signal.SIGTERM)
-
-
-def _end(folder: Path) -> None:
-    """Kill a gateway that hangs: it flies nothing any more, and another one can."""
-    process = still_runs(folder)
-    if process is not None:
-        with suppress(OSError):
-            os.kill(process, signal.SIGKILL)
+            os.kill(process, number)
 
 
 def _ended(folder: Path, code: int) -> str:

@@ -101,6 +101,19 @@ def seen(drone: str, telemetry: Telemetry) -> tuple[object, ...]:
     return *telemetry.location, telemetry.battery_level, telemetry.landed, since
 
 
+def entry_data(entry: Entry) -> dict[str, object]:
+    """Return what is known of a job as plain data, but for whether its drone is at it now."""
+    return {
+        "id": entry.id,
+        "drone": entry.drone,
+        "state": entry.state.value,
+        "boot": entry.boot,
+        "value": value_data(entry.value),
+        "failure": entry.failure,
+        "reason": entry.reason,
+    }
+
+
 def drone_report_data(standing: DroneReport) -> dict[str, object]:
     """Return a drone's answer as plain data."""
     done = standing.done
@@ -129,19 +142,7 @@ def fleet_report_data(roll: FleetReport) -> dict[str, object]:
     """Return a report of the fleet as plain data."""
     return {
         "drones": [drone_report_data(standing) for standing in roll.drones.values()],
-        "jobs": [
-            {
-                "id": entry.id,
-                "drone": entry.drone,
-                "state": entry.state.value,
-                "boot": entry.boot,
-                "flies": entry.flies,
-                "value": value_data(entry.value),
-                "failure": entry.failure,
-                "reason": entry.reason,
-            }
-            for entry in roll.jobs.values()
-        ],
+        "jobs": [{**entry_data(entry), "flies": entry.flies} for entry in roll.jobs.values()],
     }
 
 

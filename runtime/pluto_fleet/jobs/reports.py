@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 
@@ -64,32 +64,8 @@ class Entry:
     reason: str = ""
 
 
-class EndedJob(Protocol):
-    """A finished job, wherever it is stored."""
-
-    @property
-    def state(self) -> JobState:
-        """How it ended."""
-        ...
-
-    @property
-    def value(self) -> object:
-        """The result of its action."""
-        ...
-
-    @property
-    def failure(self) -> str:
-        """The name of the `Failure`."""
-        ...
-
-    @property
-    def reason(self) -> str:
-        """Why it failed."""
-        ...
-
-
-def reported_result(job: EndedJob) -> object:
-    """Return what was reported for a finished job."""
+def reported_result(job: Entry) -> object:
+    """Return what was reported of a job that is over."""
     if job.state is JobState.FAILED:
         return FlightFailed(Failure[job.failure], job.reason)
     return job.value

@@ -12,7 +12,7 @@ from plutoc_runtime.time.kernel import EventKind as When
 from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Gateway
-from ..gateway.ledger import MemoryLedger
+from ..gateway.ledger import Ledger
 from ..gateway.lossy_line import LOST, LossyLine
 from ..simulation.body import SimulatedDrone
 from ..simulation.drones import SimulatedNavigation, WorldAction
@@ -60,7 +60,7 @@ class TrialWorld:
             airspace,
             self.seen,
         )
-        self.ledger = MemoryLedger()
+        self.ledger = Ledger()
         self.loses_report = False
         """Whether the next report is lost, and the line with it."""
         self.gateway = self.new_gateway()

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.gateway.envelope import Envelope
-from plutoc_runtime.domain.airspace import Airspace
+from plutoc_runtime.domain.airspace import Airspace, way_from
 from plutoc_runtime.domain.errors import FlightFailed
 from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.traffic.skies import Sky
@@ -96,4 +96,4 @@ def test_heights_and_targets_are_refused_and_never_made_to_fit() -> None:
         with pytest.raises(FlightFailed):
             envelope.straight((1, 1, 1.2), target)
         with pytest.raises(FlightFailed):
-            envelope.way("cf1", (1, 1, 1.2), target)
+            way_from(WALL, "cf1", (1, 1, 1.2), target)

@@ -10,6 +10,7 @@ import asyncio
 import time
 from collections.abc import Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
+from functools import partial
 from math import dist, nan
 from typing import TYPE_CHECKING, Protocol
 
@@ -92,12 +93,6 @@ class Flight:
             raise Ended from step.error
         return step
 
-    async def goes(self, name: str, target: Point) -> Step:
-        """Fly somewhere."""
-        speed = self.subject.speed
-        limit = self.limit(dist(self.navigation.telemetry.position, target))
-        return await self.does(name, lambda: self.navigation.go_to(target, speed), limit)
-
     def limit(self, metres: float) -> float:
         """Return how long the runtime waits for a way of so many metres."""
         return metres / self.subject.speed * 3 + 10
@@ -166,15 +161,16 @@ async def tour(subject: Subject) -> FlightRecord:
         await flight.rests()
         await flight.tries("go_to on the ground", lambda: drone.go_to((x, y, height), speed), 5.0)
         await flight.does("takeoff", lambda: drone.takeoff(height, speed), flight.limit(height))
-        for name, target, limit in (
+        for name, target, at in (
             ("go_to a place that is no number", (nan, y, height), speed),
             ("go_to below the ground", (x, y, -1.0), speed),
             ("go_to at no speed", (x + subject.away, y, height), 0.0),
         ):
-            await flight.tries(name, _go(drone, target, limit), 5.0)
+            await flight.tries(name, partial(drone.go_to, target, at), 5.0)
         await flight.rests()
-        there_ = (x + subject.away, y, height)
-        await flight.goes("go_to", there_)
+        there = (x + subject.away, y, height)
+        limit = flight.limit(dist(drone.telemetry.position, there))
+        await flight.does("go_to", lambda: drone.go_to(there, speed), limit)
         await flight.rests()
         await flight.does("preflight in the air", drone.preflight, 5.0)
         await _cancelled(flight, (home[0], home[1], height))
@@ -188,10 +184,6 @@ async def tour(subject: Subject) -> FlightRecord:
         await flight.rests()
         await flight.does("close", drone.close, 20.0)
     return flight.record
-
-
-def _go(drone: DroneNavigation, target: Point, speed: float) -> Callable[[], Awaitable[object]]:
-    return lambda: drone.go_to(target, speed)
 
 
 async def _cancelled(flight: Flight, target: Point) -> None:

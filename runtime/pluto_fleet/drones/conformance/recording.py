@@ -54,11 +54,6 @@ class Step:
     before: Sample
     after: Sample
 
-    @property
-    def seconds(self) -> float:
-        """How long it took."""
-        return self.ended - self.began
-
     def done(self) -> Step:
         """Return the step itself; raise if the command did."""
         if self.error is not None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.geometry import between
 from plutoc_runtime.fleet.reach import CLIMB_SPEED
 
-from .reservations import Box, box_of
+from .reservations import Box, box_of, part_way
 from .ways import Section
 
 if TYPE_CHECKING:
@@ -195,7 +195,7 @@ def course(section: Section, speed: float, from_rest: bool) -> Course:
         metres = SHORT if from_rest and number == last and section.lands else PIECE
         count = max(1, ceil(dist(a, b) / metres - 1e-9))
         legs.append(Leg(len(pieces), len(pieces) + count, a, b, box_of((a, b))))
-        ends = [a, *(_between(a, b, part / count) for part in range(1, count)), b]
+        ends = [a, *(part_way(a, b, part / count) for part in range(1, count)), b]
         pieces += [Piece(start, end) for start, end in pairwise(ends)]
     return Course(section, tuple(pieces), tuple(legs), speed, from_rest)
 
@@ -205,10 +205,6 @@ def seconds(length: float, speed: float, from_rest: bool) -> float:
     if not from_rest:
         return length / speed
     return max(_AT_LEAST, length / speed, sqrt(_PUSH * length / _MOST))
-
-
-def _between(a: Point, b: Point, part: float) -> Point:
-    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])
 
 
 Near = tuple[int, int, int]

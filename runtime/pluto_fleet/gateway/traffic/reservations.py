@@ -85,6 +85,11 @@ class Reservation:
         return (here, *self.tail) if now < self.until else (here,)
 
 
+def part_way(a: Point, b: Point, part: float) -> Point:
+    """Return the place on a straight way that has this part of it behind."""
+    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])
+
+
 def box_of(points: Sequence[Point]) -> Box:
     """Return the box around a line."""
     (x, y, z), *others = points

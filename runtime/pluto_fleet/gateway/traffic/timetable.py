@@ -145,8 +145,6 @@ class Timetable:
     """For each: before which of its pieces it waits, for whom, until which piece is left."""
     awaited: dict[str, set[int]] = field(default_factory=dict)
     """Which of each one's pieces another waits for."""
-    late: float = 0.0
-    """When the last is down."""
     without: tuple[DescendingDrone, ...] = ()
     """Those for whom there was no way among the others."""
 
@@ -186,7 +184,6 @@ def _written_down(
         drone, course = goer.drone, choice.course
         table.courses[drone], table.stretches[drone] = course, choice.way
         table.after[drone], table.awaited[drone] = [], set()
-        table.late = max(table.late, choice.down)
         for other, its in done:
             for mine, first, last in chooser.pairs(course, its.course):
                 if mine and its.times[last][1] <= choice.times[mine][0]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from math import hypot
+from collections.abc import Callable, Iterable, Sequence
+from math import dist
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel, Timer
 
-from .reservations import Reservation, box_of, meets, nearest
+from .reservations import Reservation, box_of, meets, nearest, part_way
 from .wait_queue import Obstacle, Wait
 from .ways import Ground, Section, sections
 
@@ -87,15 +87,14 @@ class Traffic:
         if not self._has_room(section):
             return None
         now = self._kernel.now
-        for way in self._ways(section) if ways is None else ways(section):
+        for way in self._ways(section, ways):
             if self._blocker(way) is None and not (self._waiting and self._elder(way, now)):
                 return self._give(way)
         return None
 
     async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
         """Wait for a section, and return what may be flown: it may only lead out of the way."""
-        found = tuple(self._ways(section) if ways is None else ways(section))
-        wait = Wait(section, since, found)
+        wait = Wait(section, since, tuple(self._ways(section, ways)))
         self._waiting[section.drone] = wait
         if self._timer is None:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
@@ -108,8 +107,7 @@ class Traffic:
     def passed(self, drone: str) -> None:
         """A drone has come to the next point of its section."""
         self._claims[drone].at += 1
-        if self._waiting:
-            self._released(drone)
+        self._released(drone)
 
     def rests(self, drone: str) -> None:
         """A drone is at the end of its section."""
@@ -118,8 +116,7 @@ class Traffic:
         else:
             claim = self._claim(drone)
             claim.rests(claim.tail, self._kernel.now + STOPPING)
-        if self._waiting:
-            self._released(drone)
+        self._released(drone)
 
     def stopped(self, drone: str, fails: bool) -> None:
         """A drone has broken off what it was doing, or it fails."""
@@ -135,8 +132,7 @@ class Traffic:
         elif claim.moves:
             ahead = _ahead(claim.shape(self._kernel.now), self._overshoot)
             claim.rests(ahead, self._kernel.now + STOPPING)
-        if self._waiting:
-            self._released(drone)
+        self._released(drone)
 
     def _stop_before(self, drone: str) -> None:
         """Let none fly below a drone that sinks; one that is there already had better fly on."""
@@ -168,9 +164,10 @@ class Traffic:
 
     def _released(self, drone: str) -> None:
         """A drone has released something: look at those that it kept, at the end of this instant."""
-        if not self._free:
-            self._look_at(self._kernel.now, self._look_at_some)
-        self._free[drone] = None
+        if self._waiting:
+            if not self._free:
+                self._look_at(self._kernel.now, self._look_at_some)
+            self._free[drone] = None
 
     def _look_at(self, when: float, look: Callable[[], None]) -> Timer:
         return self._kernel.at(when, EventKind.CLOCK, FLEET, look)
@@ -249,8 +246,8 @@ class Traffic:
 
     # Who has what
 
-    def _ways(self, section: Section) -> Iterator[Section]:
-        return sections(section, self.step, self._airspace)
+    def _ways(self, section: Section, ways: Ways | None) -> Iterable[Section]:
+        return sections(section, self.step, self._airspace) if ways is None else ways(section)
 
     def _give(self, section: Section) -> Section:
         claim = self._claim(section.drone)
@@ -358,7 +355,6 @@ def _ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
     """Return to where a drone shoots past the place where it is, on its way."""
     if len(shape) < 2 or not metres:
         return ()
-    (x, y, z), (tx, ty, tz) = shape[:2]
-    far = hypot(tx - x, ty - y, tz - z)
-    part = min(1.0, metres / far) if far else 0.0
-    return ((x + part * (tx - x), y + part * (ty - y), z + part * (tz - z)),)
+    here, there = shape[:2]
+    far = dist(here, there)
+    return (part_way(here, there, min(1.0, metres / far) if far else 0.0),)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.fleet.reach import CLIMB_SPEED
 from plutoc_runtime.time.future import Future
 
-from .reservations import Reservation, meets
+from .reservations import Reservation, meets, part_way
 from .ways import Section
 
 if TYPE_CHECKING:
@@ -66,16 +66,12 @@ class Obstacle:
         least, most = 0.0, 1.0
         for _ in range(_HALVINGS):
             part = (least + most) / 2
-            if meets(way, (_between(a, b, part), b), limit):
+            if meets(way, (part_way(a, b, part), b), limit):
                 least = part
             else:
                 most = part
-        legs[-1] = a, _between(a, b, least), speed
+        legs[-1] = a, part_way(a, b, least), speed
         return sum(dist(a, b) / speed for a, b, speed in legs)
-
-
-def _between(a: Point, b: Point, part: float) -> Point:
-    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])
 
 
 @dataclass(slots=True, eq=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from math import dist, hypot
 from typing import TYPE_CHECKING
@@ -46,18 +46,14 @@ class Section:
         index = 2 if self.stands else 1
         (ax, ay, az), (bx, by, bz) = self.points[index - 1 : index + 1]
         middle = (ax + bx) / 2, (ay + by) / 2, (az + bz) / 2 + offset
-        points = (*self.points[:index], middle, *self.points[index:])
-        return Section(self.drone, points, self.stands, self.lands, self.tail, self.aside)
+        return replace(self, points=(*self.points[:index], middle, *self.points[index:]))
 
     def at_height(self, offset: float) -> Section:
         """Return the same way, so much higher; where it rests stays where it is."""
         points = self.points
         way = points[1 if self.stands else 0 : -1 if self.lands else None]
         shifted = tuple((x, y, z + offset) for x, y, z in way)
-        ends = points[-1:]
-        return Section(
-            self.drone, (points[0], *shifted, *ends), self.stands, self.lands, self.tail, self.aside
-        )
+        return replace(self, points=(points[0], *shifted, points[-1]))
 
 
 def sections(section: Section, step: float, airspace: Airspace) -> Iterator[Section]:
