@@ -133,7 +133,8 @@ class Fleet:
                 self._note(drone)
         self.queue.moved(drone, before)
         if self._change is not None:
-            self._changed()
+            change, self._change = self._change, None
+            change.set(None)
 
     def _note(self, drone: Drone) -> None:
         x, y, z = drone.location
@@ -145,11 +146,6 @@ class Fleet:
             at=[round(x, 3), round(y, 3), round(z, 3)],
             **({"reason": self.unready.get(drone, "")} if lost else {}),
         )
-
-    def _changed(self) -> None:
-        change, self._change = self._change, None
-        if change is not None:
-            change.set(None)
 
     async def _land(self, drone: Drone) -> bool:
         """Land a drone where it is, and say whether it could; it is brought home otherwise."""
@@ -167,16 +163,13 @@ class Fleet:
         if self._after_trip is AfterTrip.NEXT:
             await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             while self._is_stray(drone) and not self.queue.room:
-                await self._next_change()
+                if self._change is None:
+                    self._change = Future()
+                await self._change
                 await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             if self._is_stray(drone):
                 self._become(drone, DroneStatus.RETURNING)
                 await self._return(drone)
-
-    def _next_change(self) -> Future[None]:
-        if self._change is None:
-            self._change = Future()
-        return self._change
 
     async def _return(self, drone: Drone) -> None:
         try:
