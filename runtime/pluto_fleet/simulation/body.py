@@ -23,6 +23,8 @@ from ..jobs.reports import DroneReport
 from ..journal.values import item_data, item_of, point_of
 
 if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.fleet_data import FleetData
     from plutoc_runtime.domain.model import Category, Item, Point
 
 
@@ -37,6 +39,15 @@ class SimulatedDrone:
     """Its place in the fleet file."""
     battery_level: float = 1.0
     """What is in its battery at the start, from 0 to 1."""
+
+
+def simulated(app: App, fleet: FleetData) -> list[SimulatedDrone]:
+    """Return the drones of a fleet file, to be simulated."""
+    categories = {category.name: category for category in app.categories}
+    return [
+        SimulatedDrone(id=one.id, category=categories[one.category], home=one.home, index=index)
+        for index, one in enumerate(fleet.drones)
+    ]
 
 
 Due = tuple[float, "Failure | None"]
