@@ -147,17 +147,11 @@ class Fleet:
             **({"reason": self.unready.get(drone, "")} if lost else {}),
         )
 
-    async def _land(self, drone: Drone) -> bool:
-        """Land a drone where it is, and say whether it could; it is brought home otherwise."""
+    async def _stay(self, drone: Drone) -> None:
         try:
             await self._navigation.land(drone.id)
         except FlightFailed as error:
             await self._bring_back(drone, str(error))
-            return False
-        return True
-
-    async def _stay(self, drone: Drone) -> None:
-        if not await self._land(drone):
             return
         await self._settle(drone)
         if self._after_trip is AfterTrip.NEXT:
