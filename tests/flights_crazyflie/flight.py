@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from pluto_fleet.crtp import process
-from pluto_fleet.crtp.flight_log import CommandRecord, PositionRecord, commands_in, trace_in
+from pluto_fleet.crtp.flight_log import COMMANDS, TRACE, CommandRecord, PositionRecord
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.reader import Reader
 from plutoc_runtime.domain.errors import BadInput
@@ -103,12 +103,19 @@ class Flight(Lives):
     @property
     def commands(self) -> list[CommandRecord]:
         """What the drones were commanded."""
-        return list(commands_in(self.air))
+        lines = (self.air / COMMANDS).read_text(encoding="utf-8").splitlines()
+        read = (json.loads(line) for line in lines)
+        return [CommandRecord(**{**one, "at": tuple(one["at"])}) for one in read]
 
     @property
     def trace(self) -> list[PositionRecord]:
-        """Where the drones were in the air."""
-        return list(trace_in(self.air))
+        """Where the drones were in the air; a last line that is only half there is left out."""
+        text = (self.air / TRACE).read_text(encoding="utf-8")
+        rows = (line.split(",") for line in text[: text.rfind("\n") + 1].splitlines())
+        return [
+            PositionRecord(float(time), drone, (float(x), float(y), float(z)))
+            for time, drone, x, y, z in rows
+        ]
 
     @property
     def told(self) -> str:

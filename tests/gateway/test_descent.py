@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import combinations
 from math import dist, hypot
 
@@ -12,7 +11,6 @@ from hypothesis import strategies as st
 
 from pluto_fleet.jobs.reports import Down, JobState
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.ideal import Charge
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure
 from plutoc_runtime.time.kernel import FLEET
@@ -87,7 +85,7 @@ def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
         field.advance(20)
         fly(field.virtual, link.land(drone.id))
     low = field.navigation.bodies["cf2"]
-    low.restore(replace(low.snapshot, charge=Charge(0.03, field.kernel.now)))
+    low.restore({**low.data, "charge": [0.03, field.kernel.now, 0.0]})
     field.navigation.strike("cf3", Failure.CRASH)
     brought_down(field, Down.HOME)
     at = [field.navigation.telemetry[drone.id].location for drone in field.drones]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -169,12 +170,12 @@ def test_what_was_drawn_to_go_wrong_goes_wrong_all_the_same(tmp_path: Path) -> N
 
 def test_how_long_ago_it_was_depends_on_no_clock_that_can_be_set() -> None:
     """As long as the machine was not started again; then there is only the clock on the wall."""
-    was = Moment(wall=1000.0, boot="a", up=50.0).data
+    was = Moment(wall=1000.0, boot="a", up=50.0)
     assert Moment(wall=9000.0, boot="a", up=53.0).since(was) == 3
     assert Moment(wall=500.0, boot="a", up=53.0).since(was) == 3
     assert Moment(wall=1100.0, boot="b", up=4.0).since(was) == 100
     assert Moment(wall=900.0, boot="b", up=4.0).since(was) == 0
-    assert Moment(wall=1001.0, boot="", up=0.0).since({**was, "boot": ""}) == 1
+    assert Moment(wall=1001.0, boot="", up=0.0).since(replace(was, boot="")) == 1
     before = this_moment()
-    assert this_moment().since(before.data) >= 0
-    assert before.since(this_moment().data) == 0
+    assert this_moment().since(before) >= 0
+    assert before.since(this_moment()) == 0

@@ -14,7 +14,7 @@ from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.memory import Memory
-from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation, WorldAction
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
@@ -76,11 +76,7 @@ class Living:
             mission.index = index
         self.app, self.fleet, self.planned = app, on or apps.fleet(), missions
         self.kernel, self.memory = VirtualTime(), Memory({"event": "journal.begun"})
-        categories = {category.name: category for category in app.categories}
-        drones = [
-            SimulatedDrone(id=e.id, category=categories[e.category], home=e.home, index=index)
-            for index, e in enumerate(self.fleet.drones)
-        ]
+        drones = simulated(app, self.fleet)
         space = self.fleet.airspace
         world = World(0, space, self.fleet.world)
         self.done_by_drones: list[tuple[str, str]] = []

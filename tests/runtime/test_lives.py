@@ -23,7 +23,7 @@ from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.store import Store
 from pluto_fleet.process.ipc import NotRunning, ask
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.simulation.body import SimulatedDrone
+from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.world import World
@@ -59,11 +59,8 @@ class Tried:
         self.app = replace(apps.app(apps.flow(), categories=[SCOUT]), resumes=("wait", "allocate"))
         self.fleet = apps.fleet(airspace=AIRSPACE)
         self.told: list[Event] = []
-        self.drones = [
-            SimulatedDrone(id=entry.id, category=SCOUT, home=entry.home, index=index)
-            for index, entry in enumerate(self.fleet.drones)
-        ]
-        self.ledger = Ledger()
+        self.drones = simulated(self.app, self.fleet)
+        self.ledger = MemoryLedger()
         self.gateway: Gateway | None = None
         self.watch: Callable[[Event], object] = lambda event: None
         whole = header.header(self.app, missions="", fleet=None, sim=True, seed=0)

@@ -25,9 +25,8 @@ from typing import Any
 
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.report.report import table
-from pluto_fleet.trials.case import Case
+from pluto_fleet.trials.case import WORDS, Case
 from pluto_fleet.trials.explore import (
-    FAULTS,
     Finding,
     Tally,
     everywhere,
@@ -131,7 +130,7 @@ def report(results: Sequence[Struck]) -> Iterator[str]:
     yield ""
     fired = fired_in(results)
     yield from table(
-        ("what struck", "how often"), [(what, str(fired[what])) for what in FAULTS], right=(1,)
+        ("what struck", "how often"), [(what, str(fired[what])) for what in WORDS], right=(1,)
     )
     yield ""
     for result in results:
@@ -168,7 +167,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for line in report(results):
         print(line)
     found, runs = sum(each.found for each in results), sum(each.tally.runs for each in results)
-    never = [what for what in FAULTS if not fired_in(results)[what]]
+    never = [what for what in WORDS if not fired_in(results)[what]]
     print(f"{runs} runs in {perf_counter() - began:.0f} s, {found} violations")
     if never and not options.own:
         print(f"never struck: {', '.join(never)}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple, Protocol, TextIO
@@ -98,21 +98,3 @@ class FileLog:
         with suppress(OSError):
             self._commands.close()
             self._trace.close()
-
-
-def commands_in(folder: Path) -> Sequence[CommandRecord]:
-    """Read the commands back."""
-    lines = (folder / COMMANDS).read_text(encoding="utf-8").splitlines()
-    read = (json.loads(line) for line in lines)
-    return [CommandRecord(**{**one, "at": tuple(one["at"])}) for one in read]
-
-
-def trace_in(folder: Path) -> Sequence[PositionRecord]:
-    """Read back where the drones were; a last line that is only half there is left out."""
-    text = (folder / TRACE).read_text(encoding="utf-8")
-    lines = text[: text.rfind("\n") + 1].splitlines()
-    rows = (line.split(",") for line in lines)
-    return [
-        PositionRecord(float(time), drone, (float(x), float(y), float(z)))
-        for time, drone, x, y, z in rows
-    ]

@@ -33,17 +33,13 @@ class Endpoint(asyncio.DatagramProtocol):
         self.talked = monotonic()
         self._client: Address | None = None
         self._transport: asyncio.DatagramTransport | None = None
-        self._port = 0
+        self.port = 0
+        """Where it listens."""
 
     @property
     def uri(self) -> str:
         """How it is reached."""
-        return f"udp://{HOST}:{self._port}"
-
-    @property
-    def port(self) -> int:
-        """Where it listens."""
-        return self._port
+        return f"udp://{HOST}:{self.port}"
 
     async def listen(self, port: int) -> None:
         """Listen at a port; 0, or one that is taken: at any that is free."""
@@ -53,7 +49,7 @@ class Endpoint(asyncio.DatagramProtocol):
         except OSError:
             made = await loop.create_datagram_endpoint(lambda: self, local_addr=(HOST, 0))
         self._transport, _ = made
-        self._port = self._transport.get_extra_info("sockname")[1]
+        self.port = self._transport.get_extra_info("sockname")[1]
 
     def close(self) -> None:
         """Listen no more: a client is told that the port is closed."""
@@ -97,43 +93,39 @@ class Server:
     """Simulated drones; to be started and closed in a running loop."""
 
     def __init__(self, builds: Sequence[Build], log: FlightLog) -> None:
-        self._endpoints = {build.id: Endpoint(build, log) for build in builds}
+        self.endpoints = {build.id: Endpoint(build, log) for build in builds}
+        """The drones by their ids."""
         self._ticking: asyncio.Task[None] | None = None
 
     async def start(self, ports: Mapping[str, int] | None = None) -> None:
         """Let drones listen, where they shall or where there is room, and time pass for them."""
-        for id, endpoint in self._endpoints.items():
+        for id, endpoint in self.endpoints.items():
             await endpoint.listen((ports or {}).get(id, 0))
         self._ticking = asyncio.create_task(self._tick())
 
     @property
     def uris(self) -> dict[str, str]:
         """How each is reached."""
-        return {id: endpoint.uri for id, endpoint in self._endpoints.items()}
-
-    @property
-    def endpoints(self) -> Mapping[str, Endpoint]:
-        """The drones by their ids."""
-        return self._endpoints
+        return {id: endpoint.uri for id, endpoint in self.endpoints.items()}
 
     @property
     def drones(self) -> Mapping[str, SimulatedCrazyflie]:
         """The drones by their ids."""
-        return {id: endpoint.drone for id, endpoint in self._endpoints.items()}
+        return {id: endpoint.drone for id, endpoint in self.endpoints.items()}
 
     @property
     def airborne(self) -> bool:
         """Whether one is above the ground."""
-        return any(one.drone.body.airborne for one in self._endpoints.values())
+        return any(one.drone.body.airborne for one in self.endpoints.values())
 
     @property
     def quiet(self) -> float:
         """Seconds since anybody has talked to any of them."""
-        return monotonic() - max(one.talked for one in self._endpoints.values())
+        return monotonic() - max(one.talked for one in self.endpoints.values())
 
     async def let(self, id: str, name: str, value: Value = True) -> None:
         """Let something go wrong with one of them; `gone` closes its port, and opens it again."""
-        endpoint = self._endpoints[id]
+        endpoint = self.endpoints[id]
         if name != "gone":
             let(endpoint.drone, endpoint.air, name, value)
         elif value:
@@ -146,13 +138,13 @@ class Server:
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
-        for endpoint in self._endpoints.values():
+        for endpoint in self.endpoints.values():
             endpoint.close()
 
     async def _tick(self) -> None:
         while True:
             now = monotonic()
-            for endpoint in self._endpoints.values():
+            for endpoint in self.endpoints.values():
                 endpoint.drone.step(now)
             collide(self.drones.values())
             await asyncio.sleep(_TICK)

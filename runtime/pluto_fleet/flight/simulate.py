@@ -15,7 +15,7 @@ from plutoc_runtime.time.virtual import VirtualTime
 
 from ..gateway.gateway import Gateway
 from ..process.signal_guard import guard_hooks
-from ..simulation.body import SimulatedDrone
+from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation
 from .live_engine import LiveEngine
 from .live_fleet import LiveFleet
@@ -44,21 +44,13 @@ class Simulation:
         around: Around | None = None,
         slack: float = 0.0,
     ) -> None:
-        categories = {category.name: category for category in app.categories}
-        simulated = [
-            SimulatedDrone(
-                id=entry.id, category=categories[entry.category], home=entry.home, index=index
-            )
-            for index, entry in enumerate(fleet.drones)
-        ]
+        drones = simulated(app, fleet)
         world = World(seed, fleet.airspace, fleet.world)
-        self._navigation = SimulatedNavigation(
-            kernel, simulated, world, faults, seed, fleet.airspace
-        )
+        self._navigation = SimulatedNavigation(kernel, drones, world, faults, seed, fleet.airspace)
         gateway = Gateway(
             kernel,
             self._navigation if around is None else around(kernel, self._navigation),
-            simulated,
+            drones,
             fleet.airspace,
             apart=fleet.apart,
             slack=slack,

@@ -11,8 +11,8 @@ from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
 from plutoc_runtime.domain.model import Category
 
-from ..drones.real_fleet import RealFleet, real_of
-from ..simulation.body import SimulatedDrone
+from ..drones.real_fleet import RealFleet, real_data, real_of
+from ..simulation.body import SimulatedDrone, simulated
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -58,14 +58,8 @@ def settings_for(
     patience: float = PATIENCE,
 ) -> Settings:
     """Return the settings for the fleet of an app."""
-    categories = {category.name: category for category in app.categories}
     return Settings(
-        drones=tuple(
-            SimulatedDrone(
-                id=entry.id, category=categories[entry.category], home=entry.home, index=index
-            )
-            for index, entry in enumerate(fleet.drones)
-        ),
+        drones=tuple(simulated(app, fleet)),
         airspace=fleet.airspace,
         apart=fleet.apart,
         max_airborne=fleet.max_airborne,

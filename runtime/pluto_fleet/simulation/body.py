@@ -6,11 +6,11 @@ next time it is accessed. So a flight costs one event per leg, however long it i
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import inf
 from operator import is_
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.alone.faults import Drawn, befell
 from plutoc_runtime.alone.ideal import Charge, Leg, standing
@@ -20,8 +20,11 @@ from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Key
 
 from ..jobs.reports import DroneReport
+from ..journal.values import item_data, item_of, point_of
 
 if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.fleet_data import FleetData
     from plutoc_runtime.domain.model import Category, Item, Point
 
 
@@ -38,20 +41,13 @@ class SimulatedDrone:
     """Its initial charge, from 0 to 1."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Snapshot:
-    """The state of a drone at one time of its clock."""
-
-    boot: int
-    carries: Item | None
-    down: FlightFailed | None
-    down_since: float
-    drawn: Drawn
-    began: float
-    charge: Charge
-    leg: Leg
-    landed: bool
-    flown: float
+def simulated(app: App, fleet: FleetData) -> list[SimulatedDrone]:
+    """Return the drones of a fleet file, to be simulated."""
+    categories = {category.name: category for category in app.categories}
+    return [
+        SimulatedDrone(id=one.id, category=categories[one.category], home=one.home, index=index)
+        for index, one in enumerate(fleet.drones)
+    ]
 
 
 Due = tuple[float, "Failure | None"]
@@ -293,26 +289,37 @@ class Body:
     # Saving and restoring
 
     @property
-    def snapshot(self) -> Snapshot:
-        """Return its state, without the actions that it has done."""
-        return Snapshot(
-            boot=self.boot,
-            carries=self.carries,
-            down=self.down,
-            down_since=self.down_since,
-            drawn=self._drawn,
-            began=self._began,
-            charge=self._charge,
-            leg=self._leg,
-            landed=self._landed,
-            flown=self._flown,
-        )
+    def data(self) -> dict[str, object]:
+        """Everything of it as plain data, but for what it has done; all times are its clock's."""
+        leg, charge, drawn, down = self._leg, self._charge, self._drawn, self.down
+        return {
+            "boot": self.boot,
+            "carries": item_data(self.carries),
+            "down": None if down is None else [down.failure.name, str(down), self.down_since],
+            "drawn": [drawn.crash, drawn.link, drawn.battery, drawn.action],
+            "began": self._began,
+            "charge": [charge.level, charge.since, charge.rate],
+            "leg": [leg.start, leg.end, leg.leaves, leg.arrives],
+            "landed": self._landed,
+            "flown": self._flown,
+        }
 
-    def restore(self, was: Snapshot) -> None:
-        """Restore a state; a command in progress is completed, and then it hovers."""
-        self.boot, self.carries = was.boot, was.carries
-        self.down, self.down_since = was.down, was.down_since
-        self._drawn, self._began = was.drawn, was.began
-        self._charge, self._leg = was.charge, was.leg
-        self._landed, self._flown = was.landed, was.flown
-        self.left_alone = not was.landed and was.leg.end[2] <= 0
+    def restore(self, data: Mapping[str, Any], shift: float = 0.0) -> None:
+        """Be as it was by a clock that was so much behind.
+
+        What it was told to do, it does to the end, and then it hovers.
+        """
+        self.boot, self.carries = data["boot"], item_of(data["carries"])
+        self.down, self.down_since = None, 0.0
+        if data["down"] is not None:
+            failure, reason, when = data["down"]
+            self.down, self.down_since = FlightFailed(Failure[failure], reason), when + shift
+        crash, link, battery, action = data["drawn"]
+        self._drawn = Drawn(crash=crash, link=link, battery=battery, action=action)
+        self._began = data["began"] + shift
+        level, since, rate = data["charge"]
+        self._charge = Charge(level, since + shift, rate)
+        start, end, leaves, arrives = data["leg"]
+        self._leg = Leg(point_of(start), point_of(end), leaves + shift, arrives + shift)
+        self._landed, self._flown = data["landed"], data["flown"]
+        self.left_alone = not self._landed and self._leg.end[2] <= 0

@@ -12,17 +12,15 @@ import os
 import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from plutoc_runtime.alone.faults import Drawn
-from plutoc_runtime.alone.ideal import Charge, Leg
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 
-from ..journal.values import item_data, item_of, point_of, value_data, value_of
-from .body import Body, Snapshot
+from ..journal.values import item_data, item_of, value_data, value_of
+from .body import Body
 from .drones import WorldAction
 
 _BOOT = Path("/proc/sys/kernel/random/boot_id")
@@ -39,16 +37,11 @@ class Moment:
     up: float
     """Seconds since that start, including sleep, by a clock that cannot be set."""
 
-    def since(self, data: Mapping[str, Any]) -> float:
-        """Return the seconds since a stored moment; never negative."""
-        if self.boot and self.boot == data["boot"]:
-            return max(0.0, self.up - float(data["up"]))
-        return max(0.0, self.wall - float(data["wall"]))
-
-    @property
-    def data(self) -> dict[str, object]:
-        """The moment as plain data."""
-        return {"wall": self.wall, "boot": self.boot, "up": self.up}
+    def since(self, other: Moment) -> float:
+        """Return the seconds since another moment; never less than none."""
+        if self.boot and self.boot == other.boot:
+            return max(0.0, self.up - other.up)
+        return max(0.0, self.wall - other.wall)
 
 
 def this_moment() -> Moment:
@@ -98,9 +91,9 @@ class WorldStore:
         now = self._moment()
         for id, data in saved.get("drones", {}).items():
             if id in bodies:
-                passed = now.since(saved["moment"]) * self._speed
+                passed = now.since(Moment(**saved["moment"])) * self._speed
                 shift = self._clock() - saved["time"] - passed
-                bodies[id].restore(_snapshot(data, shift))
+                bodies[id].restore(data, shift)
                 self._counts[id] = data["deeds"]
         self._catch_up()
         for body in bodies.values():
@@ -158,51 +151,12 @@ class WorldStore:
         """Store the drones' states if they have changed; called after each instant."""
         if not self._stale:
             return
-        drones = {
-            id: {**_data(body.snapshot), "deeds": self._counts[id]}
-            for id, body in self._bodies.items()
-        }
-        text = json.dumps({"moment": self._moment().data, "time": self._clock(), "drones": drones})
+        drones = {id: {**body.data, "deeds": self._counts[id]} for id, body in self._bodies.items()}
+        text = json.dumps(
+            {"moment": asdict(self._moment()), "time": self._clock(), "drones": drones}
+        )
         part = self._drones.with_name(f"{DRONES}.part")
         with suppress(OSError):  # it is written again at the next change
             part.write_text(text, encoding="utf-8")
             part.replace(self._drones)
             self._stale = False
-
-
-def _data(body: Snapshot) -> dict[str, object]:
-    leg, charge, drawn, down = body.leg, body.charge, body.drawn, body.down
-    return {
-        "boot": body.boot,
-        "carries": item_data(body.carries),
-        "down": None if down is None else [down.failure.name, str(down), body.down_since],
-        "drawn": [drawn.crash, drawn.link, drawn.battery, drawn.action],
-        "began": body.began,
-        "charge": [charge.level, charge.since, charge.rate],
-        "leg": [leg.start, leg.end, leg.leaves, leg.arrives],
-        "landed": body.landed,
-        "flown": body.flown,
-    }
-
-
-def _snapshot(data: Mapping[str, Any], shift: float) -> Snapshot:
-    """Return a drone's snapshot, with its times converted to another clock."""
-    start, end, leaves, arrives = data["leg"]
-    level, since, rate = data["charge"]
-    crash, link, battery, action = data["drawn"]
-    down, down_since = None, 0.0
-    if data["down"] is not None:
-        failure, reason, when = data["down"]
-        down, down_since = FlightFailed(Failure[failure], reason), when + shift
-    return Snapshot(
-        boot=data["boot"],
-        carries=item_of(data["carries"]),
-        down=down,
-        down_since=down_since,
-        drawn=Drawn(crash=crash, link=link, battery=battery, action=action),
-        began=data["began"] + shift,
-        charge=Charge(level, since + shift, rate),
-        leg=Leg(point_of(start), point_of(end), leaves + shift, arrives + shift),
-        landed=data["landed"],
-        flown=data["flown"],
-    )

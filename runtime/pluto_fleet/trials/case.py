@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from ..files.fleet import FleetFile
 
-    # was an import of itself
-
 
 class StrikeKind(Enum):
     """What can strike. The words are those of the command line."""

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from .rules import Say, at
+from .rules import Say, at, listed
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
@@ -90,16 +89,12 @@ class DelaysAreWaited:
         self._tries[event["mission"], event["trip"]] = int(str(event["attempt"]))
 
     def _extend(self, event: Event) -> None:
-        redo = event["redo"]
-        assert isinstance(redo, list)
-        for trip in redo:
+        for trip in listed(event, "redo"):
             key = event["mission"], trip
             self._tries[key] = self._tries.get(key, 1) + 1
 
     def _change(self, event: Event) -> None:
-        trips = event["todo"]
-        assert isinstance(trips, list)
-        for trip in trips:
+        for trip in listed(event, "todo"):
             self._tries[event["mission"], trip["name"]] = trip.get("attempt", 1)
 
     def _repeat(self, event: Event) -> None:
@@ -135,11 +130,9 @@ class DelaysAreWaited:
 
     def _begin(self, event: Event) -> None:
         stopped, self._stopped = self._stopped, False
-        for delay in self._running() if stopped else ():
-            delay.run(event)
-
-    def _running(self) -> Iterator[_Delay]:
-        return (delay for delay in self._delay.values() if not delay.paused)
+        for delay in self._delay.values() if stopped else ():
+            if not delay.paused:
+                delay.run(event)
 
 
 class _Delay:

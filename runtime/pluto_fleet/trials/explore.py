@@ -7,6 +7,7 @@ from bisect import bisect_right
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import product
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -123,29 +124,6 @@ class _Generator:
                 return self.rng.randrange(3)
 
 
-FAULTS = (
-    *(kind.value for kind in StrikeKind),
-    "failsafe",
-    "death in recovery",
-    "report to nobody",
-    "slow line",
-    "slow radio",
-    "slow disk",
-    "late wake-up",
-    "clock jump",
-    "snapshot",
-    "hook raising",
-    "hook blocking",
-    "go on",
-    "decision",
-    "decision at rest",
-    "flight: crash",
-    "flight: link",
-    "flight: battery",
-    "flight: action",
-)
-"""Everything of which it is counted how often it has really struck."""
-
 FORGOTTEN = 100
 """After so many trials the memory that they took is given back."""
 
@@ -228,12 +206,10 @@ def everywhere(app: App, case: Case) -> Iterator[Case]:
     for row in range(1, trial.rows + 1, 1 + trial.rows // _MOST_ROWS):
         for kind in (*DEATHS, *STOPS):
             yield replace(case, strikes=(Strike(kind=kind, row=row),))
-        for death in DEATHS:
-            for stop in STOPS:
-                first, second = Strike(kind=death, row=row), Strike(kind=stop, row=row + 1)
-                yield replace(case, strikes=(first, second))
-                first, second = Strike(kind=stop, row=row), Strike(kind=death, row=row + 1)
-                yield replace(case, strikes=(first, second))
+        for death, stop in product(DEATHS, STOPS):
+            for first, second in ((death, stop), (stop, death)):
+                both = Strike(kind=first, row=row), Strike(kind=second, row=row + 1)
+                yield replace(case, strikes=both)
     for act in trial.acts[:: 1 + len(trial.acts) // _MOST_ROWS]:
         moment = act.time - _MIDST
         row = bisect_right(trial.times, moment)

@@ -135,7 +135,7 @@ class TrialLife:
         if StrikeKind.DISK in kinds:
             self.full = True
             run.fired[StrikeKind.DISK.value] += 1
-            run.later(0.5, self.give_up)
+            run.later(0.5, partial(self.lost, run.case.weather.down))
         if self.full or StrikeKind.LOST in kinds:
             self.forget(events)
         else:
@@ -284,15 +284,10 @@ class TrialLife:
         if any(record["paused"] for record in self.life.recorder.records.missions.values()):
             run.later(PERSON_LOOKS_AFTER, self.person)
 
-    def lost(self) -> None:
-        """Brain and gateway have lost one another: the brain begins anew from its own journal."""
+    def lost(self, down: float = 0.5) -> None:
+        """It has lost the gateway, or can write nothing: a brain begins anew from its journal."""
         if self.run.brain is self:
-            self.run.lose_brain(0.5)
-
-    def give_up(self) -> None:
-        """It has noticed that nothing can be written."""
-        if self.run.brain is self:
-            self.run.lose_brain(self.run.case.weather.down)
+            self.run.lose_brain(down)
 
     def stopped(self, _: object) -> None:
         """Everything is down: it goes on later."""
@@ -342,9 +337,8 @@ class TrialRun(TrialWorld):
         """Let lives come and go; an error that is not caught is a finding."""
         try:
             self.start_life()
-            while not self.over:
-                if not self.turn():
-                    break
+            while not self.over and self.turn():
+                pass
         except ANY_ERROR as error:  # in what no task has called, such as the end of a flight
             if by_a_person(error):
                 raise

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError
-from collections.abc import Callable, Sequence
+from argparse import ArgumentParser
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeVar
+
+from plutoc_runtime.domain.quantities import typed
 
 from ..arguments import whole_number
 from .case import Strike, Weather, strikes_of, weather_of
 
 SEEDS = 100
-
-T = TypeVar("T")
 
 
 @dataclass
@@ -51,19 +50,7 @@ def parse(argv: Sequence[str]) -> Options:
     parser.add_argument("--seed", type=whole_number())
     parser.add_argument("--missions", type=Path)
     parser.add_argument("--fleet", type=Path)
-    parser.add_argument("--strike", type=_read(strikes_of))
-    parser.add_argument("--weather", type=_read(weather_of))
+    parser.add_argument("--strike", type=typed(strikes_of))
+    parser.add_argument("--weather", type=typed(weather_of))
     parser.add_argument("--json", action="store_true")
     return parser.parse_args(argv, namespace=Options())
-
-
-def _read(reader: Callable[[str], T]) -> Callable[[str], T]:
-    """Let argparse say what is wrong."""
-
-    def read(text: str) -> T:
-        try:
-            return reader(text)
-        except ValueError as error:
-            raise ArgumentTypeError(str(error)) from None
-
-    return read

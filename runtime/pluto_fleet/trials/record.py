@@ -14,7 +14,7 @@ from plutoc_runtime.domain.fields import Entity
 
 from ..journal.fold import Records
 from .invariants import ENDS, Invariants, items_of
-from .rules import at
+from .rules import at, listed
 from .unreliable import BrokenHook
 
 if TYPE_CHECKING:
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
 
     from .case import Case
-
-    # was an import of itself
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,9 +77,8 @@ class ExactlyOnce:
             case "mission.repeated":
                 self._round[event["mission"]] = event["round"]
             case "mission.extended":
-                mission, redo = event["mission"], event["redo"]
-                assert isinstance(redo, list)
-                for trip in redo:
+                mission = event["mission"]
+                for trip in listed(event, "redo"):
                     self._wanted[mission, trip, self._round.get(mission, 0)] += 1
             case "mission.ended" if event["status"] == "COMPLETED":
                 self._completed[event["mission"]] = None

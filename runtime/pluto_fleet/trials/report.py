@@ -16,7 +16,6 @@ from ..files.toml import toml_text
 from ..report.report import table
 from ..report.sentences import line_of
 from .case import ENDS, WORDS, WRITTEN, strikes_text, weather_text
-from .explore import FAULTS
 from .options import SEEDS
 from .shrink import MistakeKinds
 
@@ -82,13 +81,13 @@ def report(
     interrupted: bool = False,
 ) -> Iterator[str]:
     """Yield the lines for a person."""
-    struck = [what for what in FAULTS if tally.fired[what]]
+    struck = [what for what in WORDS if tally.fired[what]]
     yield from table(
         ("what went wrong on purpose", "times", "written"),
         [(WORDS[what], str(tally.fired[what]), WRITTEN.get(what, "")) for what in struck],
         right=(1,),
     )
-    never = [WORDS[what] for what in FAULTS if not tally.fired[what]]
+    never = [words for what, words in WORDS.items() if not tally.fired[what]]
     if never and not tally.findings and not interrupted:  # else it was over too soon for most
         few = " or of more seeds" if options.seeds < SEEDS else ""
         yield f"Never happened, for want of an occasion{few}: {'; '.join(never)}."

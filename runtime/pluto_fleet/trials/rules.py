@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
@@ -44,11 +44,11 @@ def named(flown: tuple[object, object, object, object]) -> str:
     return f"{trip} ({drone}, round {round_}, attempt {attempt})"
 
 
-def names(event: Event, key: str) -> list[str]:
-    """Return a fact that is a list of names."""
+def listed(event: Event, key: str) -> list[Any]:
+    """Return a fact that is a list: of names, or of trips."""
     value = event[key]
     assert isinstance(value, list)
-    return [str(name) for name in value]
+    return value
 
 
 ENDS = ("COMPLETED", "FAILED", "CANCELLED")
@@ -145,19 +145,17 @@ class CompletedDidEverything:
         }
 
     def _create(self, event: Event) -> None:
-        own = self._own[event["mission"]] = names(event, "trips")
+        own = self._own[event["mission"]] = listed(event, "trips")
         self._to_do[event["mission"]] = Counter(own)
 
     def _extend(self, event: Event) -> None:
-        self._to_do[event["mission"]].update(names(event, "redo") + names(event, "add"))
+        self._to_do[event["mission"]].update(listed(event, "redo") + listed(event, "add"))
 
     def _repeat(self, event: Event) -> None:
         self._to_do[event["mission"]] = Counter(self._own[event["mission"]])
 
     def _change(self, event: Event) -> None:
-        todo, done = event["todo"], event["done"]
-        assert isinstance(todo, list)
-        assert isinstance(done, list)
+        todo, done = listed(event, "todo"), listed(event, "done")
         own = [str(trip["name"]) for trip in (*done, *todo) if not trip.get("added")]
         self._own[event["mission"]] = own
         self._to_do[event["mission"]] = Counter(trip["name"] for trip in todo)
@@ -247,9 +245,7 @@ class AttemptsCountUp:
         self._round[event["mission"]] = event["round"]
 
     def _change(self, event: Event) -> None:
-        todo, done, mission = event["todo"], event["done"], event["mission"]
-        assert isinstance(todo, list)
-        assert isinstance(done, list)
+        todo, done, mission = listed(event, "todo"), listed(event, "done"), event["mission"]
         names = Counter(trip["name"] for trip in (*todo, *done))
         self._shared.update((mission, name) for name, trips in names.items() if trips > 1)
         for trip in todo:  # one that waits has its next attempt before it

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from copy import deepcopy
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from plutoc_runtime.domain.actions import PICK, RELEASE
@@ -128,22 +128,8 @@ def _fairer(weather: Weather) -> Iterator[Weather]:
     """Yield the weather without one of what goes wrong."""
     yield FAIR
     yield replace(weather, crash=0.0, link=0.0, action=0.0, battery=0.0)
-    for name in (
-        "crash",
-        "link",
-        "action",
-        "battery",
-        "hook",
-        "block",
-        "late",
-        "slow",
-        "radio",
-        "disk",
-    ):
-        yield replace(weather, **{name: 0.0})
-    yield replace(weather, jump=0.0)
-    yield replace(weather, snapshot=0.0)
-    yield replace(weather, down=FAIR.down)
+    for field in fields(weather):
+        yield replace(weather, **{field.name: getattr(FAIR, field.name)})
 
 
 def _fewer(missions: tuple[Mission[Any], ...]) -> Iterator[tuple[Mission[Any], ...]]:

@@ -14,7 +14,7 @@ from plutoc_runtime.time.virtual import VirtualTime
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import Ledger
 from ..gateway.lossy_line import LOST, LossyLine
-from ..simulation.body import SimulatedDrone
+from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation, WorldAction
 from ..simulation.radio import Radio
 from .case import Strike, StrikeKind
@@ -38,13 +38,7 @@ class TrialWorld:
         self.fired, self.found = self.record.fired, self.record.found
         self.chance = Random(f"{case.seed}/trial")
         self.world = world = VirtualTime()
-        categories = {category.name: category for category in app.categories}
-        self.drones = [
-            SimulatedDrone(
-                id=each.id, category=categories[each.category], home=each.home, index=place
-            )
-            for place, each in enumerate(case.fleet.drones)
-        ]
+        self.drones = simulated(app, case.fleet)
         airspace = case.fleet.airspace
         self.navigation = SimulatedNavigation(
             world,

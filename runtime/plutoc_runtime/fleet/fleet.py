@@ -133,7 +133,8 @@ class Fleet:
                 self._note(drone)
         self.queue.moved(drone, before)
         if self._change is not None:
-            self._changed()
+            change, self._change = self._change, None
+            change.set(None)
 
     def _note(self, drone: Drone) -> None:
         x, y, z = drone.location
@@ -146,37 +147,23 @@ class Fleet:
             **({"reason": self.unready.get(drone, "")} if lost else {}),
         )
 
-    def _changed(self) -> None:
-        change, self._change = self._change, None
-        if change is not None:
-            change.set(None)
-
-    async def _land(self, drone: Drone) -> bool:
-        """Land a drone where it is, and return whether it could; otherwise recover it."""
+    async def _stay(self, drone: Drone) -> None:
         try:
             await self._navigation.land(drone.id)
         except FlightFailed as error:
             await self._bring_back(drone, str(error))
-            return False
-        return True
-
-    async def _stay(self, drone: Drone) -> None:
-        if not await self._land(drone):
             return
         await self._settle(drone)
         if self._after_trip is AfterTrip.NEXT:
             await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             while self._is_stray(drone) and not self.queue.room:
-                await self._next_change()
+                if self._change is None:
+                    self._change = Future()
+                await self._change
                 await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             if self._is_stray(drone):
                 self._become(drone, DroneStatus.RETURNING)
                 await self._return(drone)
-
-    def _next_change(self) -> Future[None]:
-        if self._change is None:
-            self._change = Future()
-        return self._change
 
     async def _return(self, drone: Drone) -> None:
         try:

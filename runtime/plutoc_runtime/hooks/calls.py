@@ -8,7 +8,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import ANY_ERROR, ActionFailed, BadInput, HookFault
-from ..domain.guard import NOT_ITS_OWN, by_a_person
+from ..domain.guard import NOT_ITS_OWN, by_a_person, unless_by_a_person
 from ..domain.text import bounded, class_of, text_of
 from ..time.kernel import Kernel
 
@@ -55,8 +55,7 @@ def look(hook: Hook, note: Callable[[Mission[Any]], object], mission: Mission[An
     try:
         note(mission)
     except ANY_ERROR as error:
-        if by_a_person(error):
-            raise
+        unless_by_a_person(error)
         reason = f"hook {hook_name(hook)} left its mission so that it cannot be kept: {said(error)}"
         raise HookFault(reason, trace_of(error)) from None
 
@@ -94,8 +93,7 @@ def trace_of(error: BaseException) -> str:
         if all(type(given) in (str, int, float) for given in error.args):
             return bounded("".join(traceback.format_exception(error)).rstrip(), LONGEST_LOG)
     except ANY_ERROR as its_own:
-        if by_a_person(its_own):
-            raise
+        unless_by_a_person(its_own)
     # Python would ask what it was given how it is written, which may take for ever
     through = BaseException.__dict__["__traceback__"].__get__(error)
     lines = ["Traceback (most recent call last):\n", *traceback.format_tb(through)]

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..domain.errors import ANY_ERROR
-from ..domain.guard import by_a_person
+from ..domain.guard import unless_by_a_person
 from ..domain.model import Photo
 from ..domain.text import shown
 
@@ -22,8 +22,7 @@ def keepable(value: object) -> object:
         if type(value) not in _HARMLESS:
             _Measure().take(value)
     except ANY_ERROR as error:  # its own: a value may be an object of any kind
-        if by_a_person(error):
-            raise
+        unless_by_a_person(error)
         return shown(value)
     return value
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import number_of
-from ..domain.guard import by_a_person
+from ..domain.guard import unless_by_a_person
 from ..domain.model import Item
 from ..domain.status import Status, TripStatus
 from ..domain.text import class_of, shown
@@ -25,8 +25,7 @@ def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
     try:
         return _unsound(app, airspace, trip)
     except ANY_ERROR as error:  # what a hook has put there may be of any class
-        if by_a_person(error):
-            raise
+        unless_by_a_person(error)
         return f"it cannot be read: {said(error)}"
 
 
@@ -53,8 +52,7 @@ def unsound_mission(app: App, mission: Mission[Any]) -> str | None:
                 return f"completed_trips holds {class_of(trip)}"
         return None
     except ANY_ERROR as error:
-        if by_a_person(error):
-            raise
+        unless_by_a_person(error)
         return f"it cannot be read: {said(error)}"
 
 

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ...domain.errors import HookFault
-from ...domain.guard import by_a_person, guarded
+from ...domain.guard import guarded, unless_by_a_person
 from ...domain.model import Drone
 from ...domain.text import class_of
 from ...hooks.calls import hook_name, said, trace_of
@@ -28,8 +28,7 @@ def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne
         try:
             drone = guarded(partial(hook, trip, candidates))
         except BaseException as error:
-            if by_a_person(error):
-                raise
+            unless_by_a_person(error)
             raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error
         if drone is None:
             return None
