@@ -60,7 +60,7 @@ class Tried:
         self.fleet = apps.fleet(airspace=AIRSPACE)
         self.told: list[Event] = []
         self.drones = simulated(self.app, self.fleet)
-        self.ledger = MemoryLedger()
+        self.ledger = Ledger()
         self.gateway: Gateway | None = None
         self.watch: Callable[[Event], object] = lambda event: None
         whole = header.header(self.app, missions="", fleet=None, sim=True, seed=0)

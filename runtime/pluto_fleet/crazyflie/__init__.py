@@ -1,1 +1,1 @@
-"""Crazyflies, flown through cflib: an optional package, imported when a radio is opened."""
+"""Crazyflies, flown through cflib, an optional package that is imported when a radio is opened."""

@@ -1,9 +1,8 @@
-"""What a Crazyflie does at the end of a trip, as the fleet file says how; and how it shows which it is.
+"""The actions of a Crazyflie, as configured in the fleet file, and how it identifies itself.
 
-A picture comes from the streamer of an AI-deck, which sends all that its camera sees by TCP. Each
-packet has its length, two bytes for its way, and a part of what is sent: first the head of a picture,
-then its bytes. What the camera sees raw becomes a picture of grey levels that any viewer shows; else it
-is a JPEG as it comes.
+A picture comes from the streamer of an AI-deck, which sends its camera's pictures by TCP. Each packet has
+its length, two bytes of routing, and a part of the data: first the header of a picture, then its bytes. Raw
+pictures are stored as grey levels in a common format, others as the JPEG that they are.
 """
 
 from __future__ import annotations
@@ -34,33 +33,33 @@ if TYPE_CHECKING:
 
 _PACKET = Struct("<HBB")
 _WAY = 2
-"""Bytes of the length that are not part of what is sent."""
+"""Bytes of routing, which the length includes."""
 _HEAD = Struct("<BHHBBI")
 _MAGIC = 0xBC
 _RAW = 0
 _LARGEST = 1 << 20
-"""Bytes: its camera has a tenth of that."""
+"""The largest picture in bytes, ten times that of its camera."""
 
 LIMIT = 6.0
-"""Seconds; it sends some pictures a second."""
+"""The time-out in seconds; it sends some pictures a second."""
 
 
 class NoPicture(Exception):
-    """What came is no picture."""
+    """The data received is not a picture."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Picture:
-    """A picture as a file has it."""
+    """A picture in a file format."""
 
     data: bytes
     suffix: str
 
 
 async def picture(where: tuple[str, int]) -> Picture:
-    """Return the next whole picture; raise `OSError`, `TimeoutError` or `NoPicture`.
+    """Return the next complete picture; raise `OSError`, `TimeoutError` or `NoPicture`.
 
-    Each time anew: on a line that stays open, old pictures wait.
+    Connects each time, as old pictures queue up on an open connection.
     """
     async with asyncio.timeout(LIMIT):
         reader, writer = await asyncio.open_connection(*where)
@@ -76,7 +75,7 @@ async def _next(reader: asyncio.StreamReader) -> Picture:
     while True:
         head = await _part(reader)
         if len(head) != _HEAD.size or head[0] != _MAGIC:
-            continue  # the middle of a picture, or something else that the deck says
+            continue  # the middle of a picture, or another message of the deck
         _, width, height, depth, kind, size = _HEAD.unpack(head)
         if not 0 < size <= _LARGEST:
             raise NoPicture(f"a picture of {size} bytes was announced")
@@ -92,14 +91,14 @@ async def _next(reader: asyncio.StreamReader) -> Picture:
 
 
 async def _part(reader: asyncio.StreamReader) -> bytes:
-    """Return what one packet has."""
+    """Return the data of one packet."""
     length, _, _ = _PACKET.unpack(await reader.readexactly(_PACKET.size))
     return await reader.readexactly(max(0, length - _WAY))
 
 
 MEASURE, PHOTO = "measure", "take_photo"
 _DOUBTS = 2.0
-"""Seconds after which one that still doubts where it is has lost its place, as far as it tells."""
+"""Seconds after which a drone that is still unsure of its position has lost it."""
 
 
 def why_not(
@@ -109,7 +108,7 @@ def why_not(
     action: str,
     parameters_: Mapping[str, Plain],
 ) -> str | None:
-    """Return why it cannot do an action, or None; what its firmware has is known once it connects."""
+    """Return why it cannot do an action, or None; its firmware's variables are known once it is connected."""
     cf = None if session is None or session.lost else session.cf
     if action == MEASURE:
         quantity = _quantity(parameters_)
@@ -139,7 +138,7 @@ async def act(
     action: str,
     parameters_: Mapping[str, Plain],
 ) -> object:
-    """Do an action, and return what came of it; raise `ActionNotDone` if it was not done."""
+    """Do an action, and return its result; raise `ActionNotDone` if it failed."""
     reason = why_not(session.drone, options, session, action, parameters_)
     if reason is not None:
         raise ActionNotDone(reason)
@@ -147,7 +146,7 @@ async def act(
     try:
         if action == MEASURE:
             name = options.variable_of(_quantity(parameters_))
-            assert name is not None  # or there is a reason why not
+            assert name is not None  # else there is a reason why not
             value = await readings.mean(name, options.measure_seconds)
             await _check_place(session)
             return value
@@ -157,15 +156,15 @@ async def act(
             value = options.grip.pick if action == PICK else options.grip.release
             await parameters.write(session, options.grip.parameter, value)
             await asyncio.sleep(options.grip.seconds)
-    except Rejected as error:  # the drone is well, and has not done it
+    except Rejected as error:  # the drone is healthy, and has refused
         raise ActionNotDone(str(error)) from error
     return None
 
 
 async def _check_place(session: CrazyflieSession) -> None:
-    """Raise `PositionLost` for what would be done, or was measured, at an unknown place.
+    """Raise `PositionLost` if an action would be done, or was done, at an unknown place.
 
-    One that doubts it for a moment has not lost it, and is waited for.
+    A drone that is unsure for a moment only is waited for.
     """
     await session.until(lambda _: session.adrift or not session.doubts, _DOUBTS)
     variance = session.confidence.variance
@@ -180,7 +179,7 @@ def _quantity(parameters_: Mapping[str, Plain]) -> str:
 async def _photo(
     session: CrazyflieSession, camera: tuple[str, int], view: tuple[float, float], folder: Path
 ) -> Photo:
-    """Take a picture straight down and keep it as a file."""
+    """Take a picture straight down and store it as a file."""
     before = session.now().position
     try:
         taken = await picture(camera)
@@ -208,7 +207,7 @@ async def _kept(worker: Worker, folder: Path, drone: str, taken: Picture) -> Pat
             except FileExistsError:
                 continue
             return file
-        raise AssertionError  # there is always another number
+        raise AssertionError  # unreachable: the numbers are endless
 
     try:
         return await worker.call(write, 5.0)
@@ -220,12 +219,12 @@ async def _kept(worker: Worker, folder: Path, drone: str, taken: Picture) -> Pat
 
 _LIGHTS = "led.bitmask"
 _OURS, _ALL = 0x80, 0x3F
-"""This bit takes the lights from the firmware; these are all of them."""
+"""The bit that takes the LEDs over from the firmware, and the mask of all LEDs."""
 _TIMES, _SECONDS = 8, 0.25
 
 
 async def blink(session: CrazyflieSession) -> None:
-    """Blink for four seconds, or beep once where its firmware does not give the lights away."""
+    """Blink for four seconds, or beep once if its firmware does not release the LEDs."""
     if parameters.element_of(session.cf, _LIGHTS) is None:
         await session.call(lambda cf: cf.platform.send_user_notification(True))
         return

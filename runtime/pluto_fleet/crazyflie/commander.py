@@ -1,7 +1,7 @@
-"""Commands that surely arrive: each is acknowledged, and sent again until it is.
+"""Reliable commands: each is sent again until it is acknowledged.
 
-Twice is no harm: a trajectory to a place is the same trajectory, a landing goes on, and a take-off is refused
-by a drone that has begun one, which is then seen by its state.
+They are idempotent: a trajectory to a place stays the same, a landing goes on, and a take-off is refused by
+a drone that has begun one, which its state then shows.
 """
 
 from __future__ import annotations
@@ -21,32 +21,32 @@ if TYPE_CHECKING:
     from .state import State
 
 _ACKNOWLEDGED = 0.25
-"""Seconds until an answer is given up; over the radio it comes within ten milliseconds."""
+"""The time-out of an answer in seconds; over the radio it comes within ten milliseconds."""
 _TIMES = 8
 _STOP, _TAKEOFF, _LAND, _GO_TO = 3, 7, 8, 12
 _DONE, _WRONG_STATE, _BLOCKED = 0, 1, 16
 _SEEN = 0.6
-"""Seconds until a trajectory that was begun shows in what it tells."""
+"""Seconds until a new trajectory shows in its state."""
 
 
 async def enable_high_level(session: CrazyflieSession) -> None:
-    """Let set-points count no longer that were sent to it since it was switched on; on the ground only.
+    """Release the priority of low-level setpoints that were sent since it was started; on the ground only.
 
-    They are above its high-level commander, whose commands are then acknowledged and not obeyed.
-    Nothing answers to this: so it is said twice.
+    They override its high-level commander, whose commands are then acknowledged and not obeyed. This
+    is not acknowledged, so it is sent twice.
     """
     for _ in range(2):
         await session.call(lambda cf: cf.commander.send_notify_setpoint_stop())
 
 
 async def drop_trajectory(session: CrazyflieSession) -> None:
-    """Let it forget a trajectory that its supervisor has cancelled, and by which no motor turns."""
+    """Drop a trajectory that its supervisor has cancelled, and by which no motor turns."""
     key = (HIGH_LEVEL, _STOP)
     await answered(session, key, lambda cf: cf.high_level_commander.stop(), "stop", well=False)
 
 
 async def takeoff(session: CrazyflieSession, height: float, seconds: float) -> None:
-    """Begin to rise, the nose where it points; one that is disarmed meanwhile does not."""
+    """Begin a take-off with the present heading; one that is disarmed meanwhile does not."""
 
     def begin(cf: Cf) -> None:
         cf.high_level_commander.takeoff(height, seconds, yaw=None)
@@ -59,7 +59,7 @@ async def takeoff(session: CrazyflieSession, height: float, seconds: float) -> N
         await enable_high_level(session)  # a setpoint may have been sent while it was armed
         code = (await answered(session, key, begin, "takeoff"))[3]
         if code == _WRONG_STATE and await session.until(begun, _SEEN) is not None:
-            return  # it was the answer to the same command, sent twice
+            return  # the answer to the same command, sent twice
         _check(session, "takeoff", code)
         if await session.until(begun, _SEEN) is not None:
             return
@@ -67,10 +67,10 @@ async def takeoff(session: CrazyflieSession, height: float, seconds: float) -> N
 
 
 async def land(session: CrazyflieSession, seconds: float) -> None:
-    """Begin to come down, the nose where it points.
+    """Begin a landing with the present heading.
 
-    It is not told so once more when it may be down: its motors would start again. Then it counts
-    what it tells.
+    It is not repeated when the drone may have landed, as its motors would start again; then its state
+    decides.
     """
     over = session.loop.time() + seconds
 
@@ -78,17 +78,17 @@ async def land(session: CrazyflieSession, seconds: float) -> None:
         cf.high_level_commander.land(0.0, seconds, yaw=None)
 
     code = (await answered(session, (HIGH_LEVEL, _LAND), begin, "land", until=over))[3]
-    if code != _WRONG_STATE:  # it is that where it is landing already
+    if code != _WRONG_STATE:  # it answers so if it is landing already
         _check(session, "land", code)
 
 
 async def go_to(
     session: CrazyflieSession, target: tuple[float, float, float], seconds: float, near: float
 ) -> None:
-    """Begin to fly to a place, the nose where it points.
+    """Begin to fly to a place with the present heading.
 
-    An answer may be to an earlier such command, sent twice: only that it moves shows that this one
-    has arrived.
+    An answer may belong to an earlier such command that was sent twice: only a movement shows that
+    this one has arrived.
     """
     x, y, z = target
     yaw = session.now().yaw
@@ -118,8 +118,8 @@ async def answered(
 ) -> bytes:
     """Send a command until it is answered; return the answer, four bytes at least.
 
-    Raises what `well` raises, but for what is only for one that is not well. From `until` on it is
-    not sent again, and counts as done.
+    Raises what `well` raises, except for commands to a failing drone. From `until` on it is not sent
+    again, and counts as done.
     """
     look = session.well if well else session.now
     for _ in range(_TIMES):
@@ -138,7 +138,7 @@ async def answered(
 
 
 def _check(session: CrazyflieSession, name: str, code: int) -> None:
-    """Raise what an acknowledgement says."""
+    """Raise the error in an acknowledgement, if any."""
     if code == _DONE:
         return
     state = session.well()

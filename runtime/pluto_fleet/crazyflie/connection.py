@@ -1,6 +1,6 @@
-"""From a URI to a session: finding drones, opening a link, and telling a drone where it is.
+"""From a URI to a session: scanning, opening a link, and sending a drone its position.
 
-Every wait has a limit, and no object of cflib's is opened twice.
+Every wait has a time-out, and no object of cflib is opened twice.
 """
 
 from __future__ import annotations
@@ -36,19 +36,19 @@ if TYPE_CHECKING:
 
 _IMPORT, _OPEN = 20.0, 5.0
 ANSWER, TELEMETRY = 5.0, 3.0
-"""Seconds in which it must tell something more of itself, and begin to tell how it is."""
+"""Time-outs in seconds: of further tables, and of the first telemetry."""
 _ASK_AGAIN = 1.0
-"""Seconds until something is asked again: were it answered twice, cflib would begin twice."""
+"""Seconds until a request is repeated; not earlier, as two answers would make cflib begin twice."""
 
 
 async def open_session(
     drone: str, uri: str, folder: Path, observer: SessionObserver
 ) -> CrazyflieSession:
-    """Return a connection on which the drone tells how it is; raise `LinkLost` if there is none."""
+    """Return a session with running telemetry; raise `LinkLost` if that fails."""
     session = CrazyflieSession(drone, uri, observer)
     try:
         await _open(session, folder)
-    except BaseException:  # cancelled, too: nothing may be left of it
+    except BaseException:  # also if cancelled: nothing may be left open
         session.release()
         raise
     return session
@@ -58,7 +58,7 @@ async def _open(session: CrazyflieSession, folder: Path) -> None:
     await session.worker.call(load, _IMPORT)
     await session.worker.call(lambda: _begin(session, folder), _OPEN)
     await _answer(session)
-    # Its pings measure what is not used here, and the thread that sends them may die holding the lock
+    # Its pings are not used here, and the thread that sends them may die holding the lock
     # that every other sender needs.
     await session.call(lambda cf: cf.link_statistics.stop())
     await session.call(lambda _: logs.begin(session), _OPEN)
@@ -77,7 +77,7 @@ def _begin(session: CrazyflieSession, folder: Path) -> None:
 
 
 async def _answer(session: CrazyflieSession) -> None:
-    """Wait until it has told its tables: for as long as there is more and more of them."""
+    """Wait until its tables are complete, as long as there is progress."""
     heard, at = 0, session.loop.time()
     while not session.established.is_set():
         entries = _entries(session)
@@ -97,21 +97,21 @@ async def _answer(session: CrazyflieSession) -> None:
             async with asyncio.timeout(_ASK_AGAIN):
                 await session.established.wait()
                 break
-        if session.uri.startswith("udp://"):  # radio packets are repeated by the dongle
+        if session.uri.startswith("udp://"):  # over the radio, the dongle repeats packets
             await session.call(lambda _: _ask_again(session))
     if session.lost:
         raise LinkLost(f"{session.drone} cannot be reached at {session.uri}: {session.lost}")
 
 
 def _entries(session: CrazyflieSession) -> int:
-    """Return how much is known of its tables; read while a thread of cflib's fills them."""
+    """Return the number of known table entries, while a thread of cflib fills them."""
     tables = (session.cf.log.toc, session.cf.param.toc)
     groups = [group for toc in tables if toc is not None for group in list(toc.toc.values())]
     return sum(map(len, groups))
 
 
 def _ask_again(session: CrazyflieSession) -> None:
-    """Ask once more what cflib asks only once: what it is, and its protocol's version."""
+    """Repeat the requests that cflib sends only once: the platform and the protocol's version."""
     cf = session.cf
     if cf.platform.get_protocol_version() < 0:
         port = PLATFORM if session.answered else LINK_CONTROL
@@ -122,11 +122,11 @@ _HERE = "kalman.initial"
 _RESET = "kalman.resetEstimation"
 _ESTIMATOR, _KALMAN = "stabilizer.estimator", 2.0
 _ORIGIN = 0.2
-"""Metres from its own origin: that near, it has just been switched on."""
+"""Metres from its own origin within which it has just been started."""
 
 
 async def set_initial_position(session: CrazyflieSession, home: Point) -> None:
-    """Let its map begin so that it stands at home now; one that has flown already is left alone."""
+    """Set its position to its home; not if it has flown already."""
     state = session.now()
     if state.flies or hypot(state.position[0], state.position[1]) > _ORIGIN:
         return
@@ -138,7 +138,7 @@ async def set_initial_position(session: CrazyflieSession, home: Point) -> None:
 
 
 async def send_external_position(session: CrazyflieSession, position: Point) -> None:
-    """Tell it its position as measured from outside; only one of its estimators listens to that."""
+    """Send it its position as measured from outside; only its Kalman estimator uses that."""
     if not session.located:
         session.located = True
         if parameters.element_of(session.cf, _ESTIMATOR) is not None and not session.now().flies:
@@ -148,7 +148,7 @@ async def send_external_position(session: CrazyflieSession, position: Point) -> 
 
 
 _RATES = ((2, "2M"), (1, "1M"), (0, "250K"))
-"""As the dongle numbers them, and as a URI has them; most drones use the first."""
+"""The data rates by the dongle's number and in URIs; most drones use the first."""
 _CHANNELS = 125
 _PROBE = 0xFF
 _USUAL = "E7E7E7E7E7"
@@ -157,7 +157,7 @@ _ANSWER = 0.2
 
 
 async def scan(options: CrazyflieOptions) -> list[str]:
-    """Return the URIs of all that answer; raise `LinkLost` where there is no radio to ask with."""
+    """Return the URIs of all drones that answer; raise `LinkLost` if there is no radio."""
     worker = Worker("scan")
     try:
         return await worker.call(lambda: _look(options), _LIMIT)
@@ -209,7 +209,7 @@ def _bytes(address: str) -> tuple[int, ...]:
 
 
 def _answers(uri: str) -> bool:
-    """Say whether a probe by UDP is answered."""
+    """Return whether a probe by UDP is answered."""
     host, _, port = uri.removeprefix("udp://").rpartition(":")
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asking:
         asking.settimeout(_ANSWER)

@@ -1,8 +1,8 @@
-"""cflib, imported when a radio is opened and never before, and let go of without a command.
+"""cflib: imported only when a radio is opened, and closed without a command to the drone.
 
-cflib is published under the GPL, version 3; what is written here are only the names of its parts. It
-says goodbye with a setpoint of no thrust: a drone in the air falls, and one that has just landed
-locks. So the drone's link is taken out and closed by itself first; what cflib still sends goes nowhere.
+cflib is published under the GPL, version 3; only names of its parts are used here. When it closes a link it
+sends a setpoint without thrust: a drone in the air falls, and one that has just landed locks. So the link
+is removed and closed first, and what cflib still sends goes to a null link.
 """
 
 from __future__ import annotations
@@ -35,33 +35,33 @@ _LOADING = Lock()
 
 
 def require() -> None:
-    """Raise `BadInput` with the line that installs it, where there is no cflib; imports nothing."""
+    """Raise `BadInput` with the command that installs cflib if it is missing; imports nothing."""
     if find_spec("cflib") is None:
         raise BadInput(messages.no_cflib(_package()))
 
 
 def load() -> None:
-    """Import cflib and make its drivers ready; takes a second, and is called in a thread of its own."""
+    """Import cflib and initialize its drivers; takes a second, in a thread of its own."""
     with _LOADING:
         try:
             import cflib.crazyflie
             import cflib.crtp.radiodriver
         except ImportError as error:
             raise NotReady(f"{messages.no_cflib(_package())} ({error})") from error
-        # what goes wrong is said here, in our words
+        # errors are reported here
         logging.getLogger("cflib").addHandler(logging.NullHandler())
-        if not cflib.crtp.CLASSES:  # once a process: each time adds all drivers
+        if not cflib.crtp.CLASSES:  # once per process: each call adds all drivers
             cflib.crtp.init_drivers()
 
 
 def _package() -> str | None:
-    """Return the package whose extra brings cflib, or None where this lies in no such package."""
+    """Return the package whose extra installs cflib, if this is part of one."""
     package = app_package()
     return None if package == "pluto_fleet" else package
 
 
 def packet(port: int, channel: int, data: bytes) -> CRTPPacket:
-    """Return a packet for what cflib has no function for."""
+    """Return a packet, where cflib has no function for it."""
     from cflib.crtp.crtpstack import CRTPPacket
 
     made = CRTPPacket()
@@ -71,7 +71,7 @@ def packet(port: int, channel: int, data: bytes) -> CRTPPacket:
 
 
 def forget_dead_radios() -> None:
-    """Let a dongle be opened anew whose thread has ended: it was unplugged."""
+    """Make cflib open a dongle again whose thread has ended, as it was unplugged."""
     from cflib.crtp.radiodriver import RadioManager
 
     known: list[Thread | None] = getattr(RadioManager, "_radios", [])
@@ -84,9 +84,9 @@ _NAME = "crazyflie"
 
 
 def cache_folder(flight: Path) -> str | None:
-    """Return a folder for them: the user's own cache, else one of this flight, else None.
+    """Return a folder for cached tables: the user's own cache, else one of this flight, else None.
 
-    cflib runs what it finds there, so no other user may write it.
+    cflib executes what it finds there, so no other user may write it.
     """
     with suppress(OSError, RuntimeError):  # there is no home folder
         given = os.environ.get("XDG_CACHE_HOME", "")
@@ -104,36 +104,36 @@ def cache_folder(flight: Path) -> str | None:
 
 
 _LONGEST = 1.5
-"""Seconds that cflib's own threads take to see that they are to end."""
+"""Seconds that cflib's own threads take to end."""
 _SENDING = 2.5
-"""Seconds that a packet may take to be sent, and more."""
+"""Ample seconds for sending a packet."""
 _HANGS = 0.3
-"""Seconds after which a driver that is to end must be waiting for a dongle that is gone."""
+"""Seconds after which a driver that has not ended must be waiting for an unplugged dongle."""
 
 
 class NullLink:
-    """A link that ends nowhere, for what cflib sends and expects while it is put away."""
+    """A null link, for what cflib sends and expects while it is being closed."""
 
     needs_resending = False
 
     def send_packet(self, _: object) -> bool:
-        """Take something, and do nothing with it."""
+        """Ignore a packet."""
         return True
 
     def receive_packet(self, _: float = 0.0) -> None:
-        """Wait a moment, for nothing."""
+        """Wait a moment, and return None."""
         sleep(0.05)
 
     def close(self) -> None:
-        """Be closed: there is nothing to close."""
+        """Do nothing."""
 
 
 def release_link(drone: str, cf: Cf | None, done: Callable[[], None]) -> None:
-    """Put a connection away in a daemon thread, and say so there when it is done."""
+    """Close a connection in a daemon thread, and call back from there when it is done."""
 
     def work() -> None:
         if cf is not None:
-            with suppress(Exception):  # a broken connection is not used any more
+            with suppress(Exception):  # the connection is not used any more
                 _put_away(cf)
         done()
 
@@ -159,7 +159,7 @@ def _put_away(cf: Cf) -> None:
 
 
 def _dismiss(cf: Cf) -> None:
-    """Let threads end that wait for an answer, or to ask again."""
+    """End threads that wait for an answer, or to repeat a request."""
     timers: dict[object, Timer] = getattr(cf, "_answer_patterns", {})
     for timer in list(timers.values()):
         timer.cancel()
@@ -171,25 +171,25 @@ def _dismiss(cf: Cf) -> None:
 
 
 def _cut(cf: Cf) -> None:
-    """Take the link away while nothing is sent, so that cflib says no goodbye even to nowhere.
+    """Remove the link while nothing is being sent.
 
-    A sender looks for a link and then uses it, under a lock. One that fell over while it sent has
-    left it locked, and all others wait for ever: they are let in, and find no link.
+    A sender checks for a link and then uses it, under a lock. One that raised while sending has left
+    it locked, and all others would wait for ever: the lock is released, and they find no link.
     """
     lock: Lock | None = getattr(cf, "_send_lock", None)
     if lock is not None:
         lock.acquire(timeout=_SENDING)
     cf.link = None
     if lock is not None:
-        with suppress(RuntimeError):  # its holder was only slow
+        with suppress(RuntimeError):  # its holder has released it meanwhile
             lock.release()
 
 
 def _wake(link: Any) -> None:
-    """Wake a driver's thread that waits for the answer of a dongle that is gone.
+    """Wake a driver's thread that waits for the answer of an unplugged dongle.
 
-    It waits without a limit, and cflib for it: an answer that says nothing lets it see that it is to
-    end. It may be at its first greeting, which it repeats.
+    It waits without a time-out, and cflib for it: an empty answer makes it check whether to end. It
+    may be at its initial handshake, which it repeats.
     """
     answers = getattr(getattr(link, "_radio", None), "_rsp_queue", None)
     if answers is not None:

@@ -1,4 +1,4 @@
-"""What a Crazyflie is told to fly, each from the command to what it tells when that is done."""
+"""Flying a Crazyflie: each command, and waiting until its state shows that it is done."""
 
 from __future__ import annotations
 
@@ -27,26 +27,26 @@ if TYPE_CHECKING:
     from .state import State
 
 _SETTLES = 6.0
-"""Seconds after its motors have stopped in which it may still count as flying."""
+"""Seconds after its motors have stopped within which it may still report to fly."""
 _SEEN = 1.0
-"""Seconds until it shows that a take-off has begun."""
+"""Seconds until its state shows that a take-off has begun."""
 
 
 def check(drone: str, target: Point, speed: float) -> None:
-    """Refuse, before anything moves, what cannot be flown."""
+    """Refuse an invalid target or speed before anything moves."""
     if not all(map(isfinite, target)) or target[2] <= 0.0:
         raise OutsideArea(messages.outside(drone, target))
     check_speed(drone, speed)
 
 
 def check_speed(drone: str, speed: float) -> None:
-    """Refuse what is no speed."""
+    """Refuse an invalid speed."""
     if not 0.0 < speed < inf:
         raise Rejected(f"{drone} cannot fly at {number(speed)} m/s: a speed must be above 0")
 
 
 async def takeoff(session: CrazyflieSession, height: float, speed: float) -> None:
-    """Arm, rise straight up, and return when it hovers at this height."""
+    """Arm, take off straight up, and return when it hovers at this height."""
     x, y, z = session.well().position
     session.commanded = True
     seconds = speed_limits_of(session).seconds((x, y, z), (x, y, height), speed)
@@ -66,7 +66,7 @@ async def takeoff(session: CrazyflieSession, height: float, speed: float) -> Non
 
 
 async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bool:
-    """Begin to rise; False: it was disarmed just then."""
+    """Begin a take-off; return False if it was disarmed just then."""
     await session.fresh()
     if await session.until(lambda state: not state.flies, _SETTLES) is None:
         raise Rejected(f"{session.drone} cannot take off: it says that it still flies")
@@ -82,7 +82,7 @@ async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bo
 
 
 async def _is_disarmed(session: CrazyflieSession) -> bool:
-    """Say whether it is disarmed within a moment: what it then does not do it was not told."""
+    """Return whether it is disarmed within a moment, so that the take-off was not obeyed."""
     return await session.until(lambda state: not state.armed, _SEEN) is not None
 
 
@@ -103,22 +103,22 @@ async def hold(session: CrazyflieSession) -> None:
         target, seconds = braking(session.before, session.now())
         if not session.doubts:
             await _fly_to(session, target, seconds, "stopped")
-        else:  # an unknown place, and the best that can be done
+        else:  # at an unknown position: the best that can be done
             await commander.go_to(session, target, seconds, NEAR)
             await session.until(lambda state: state.finished, seconds + SLACK)
 
 
 async def _may_rise(session: CrazyflieSession) -> None:
-    """Wait until one that was just told to take off says that it does, or until it has not."""
+    """After a recent take-off command, wait until its state shows whether it rises."""
     since = session.loop.time() - session.took_off_at
     if since < _SEEN:
         await session.until(lambda state: state.steered, _SEEN - since)
 
 
 async def land(session: CrazyflieSession, speed: float) -> None:
-    """Come down straight, and return when the motors are off; nothing, if it does not fly.
+    """Land straight down, and return when the motors are off; does nothing if it does not fly.
 
-    One that has just come down would start its motors again for that: what it tells now counts.
+    One that has just landed would start its motors again: its newest state decides.
     """
     await _may_rise(session)
     state = await session.fresh()
@@ -127,13 +127,13 @@ async def land(session: CrazyflieSession, speed: float) -> None:
         session.commanded = True
         await commander.land(session, seconds)
         await _down(session, lambda state: not state.steered, seconds + SLACK)
-    # Its motors are off. It says for two more seconds that it flies, and must be let alone so long.
+    # Its motors are off. It reports to fly for two more seconds, and must get no command meanwhile.
     await _down(session, lambda state: not state.flies, _SETTLES)
     session.commanded = False
 
 
 async def _fly_to(session: CrazyflieSession, target: Point, seconds: float, what: str) -> None:
-    """Send it somewhere, and wait until it is there and hovers."""
+    """Send it somewhere, and wait until it hovers there."""
     session.commanded = True
     await commander.go_to(session, target, seconds, NEAR)
     await _hovering(session, lambda state: state.distance(target), seconds, what)

@@ -1,8 +1,8 @@
-"""A Crazyflie's battery and its alarms, both found in what it tells of itself.
+"""A Crazyflie's battery and its alarms, derived from its state.
 
-Under load a small battery shows some tenths of a volt less than it has, and much less than that would
-mean at rest: at rest its curve says how full it is, in the air also what flying costs. That is
-measured anew at each take-off, as batteries get older.
+Under load the voltage of a small battery drops by some tenths of a volt, which at rest would mean much less
+charge. The level follows from the voltage at rest; in the air the drop is added, which is measured anew at
+each take-off, as batteries age.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ _VOLTS = (3.27, 3.61, 3.69, 3.73, 3.77, 3.80, 3.84, 3.87, 3.95, 4.02, 4.11, 4.18
 _LEVELS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 
 _USUAL, _LEAST, _MOST = 0.3, 0.05, 0.6
-"""Volts that hovering costs, until it has been measured; what it can be at all."""
+"""The voltage drop of hovering: the default until it is measured, and its bounds."""
 _SETTLED, _MEASURED = 1.0, 3.0
-"""Seconds after leaving the ground, between which it is measured."""
+"""Seconds after take-off, between which the drop is measured."""
 _SMOOTH = 1.0
-"""Seconds over which volts in the air are averaged."""
+"""Seconds over which the voltage in the air is averaged."""
 LOW = 3.2
 """Volts of a cell in the air at which it must come down. At 3.0 some builds switch off."""
 FULLEST = 4.5
-"""Volts of a cell that none has: there must be more cells than one believes."""
+"""A voltage that no cell has: there must be more cells than assumed."""
 _LAST = 0.02
-"""What is left then."""
+"""The level at that voltage."""
 
 
 def level_at_rest(volts: float) -> float:
-    """Return what is left in it, from 0 to 1."""
+    """Return the charge, from 0 to 1."""
     at = bisect_right(_VOLTS, volts)
     if at == 0:
         return 0.0
@@ -50,15 +50,15 @@ def level_at_rest(volts: float) -> float:
 
 
 class BatteryGauge:
-    """What is left in one drone's battery."""
+    """The charge of one drone's battery."""
 
     def __init__(self, cells: int = 1) -> None:
         self.cells = cells
-        """How many are in series: what is measured is all of them."""
+        """The number of cells in series, whose total voltage is measured."""
         self.level = 0.0
         """From 0 to 1."""
         self.rest: float | None = None
-        """The volts of a cell without load, as they were last; None: not measured yet."""
+        """The last voltage of a cell without load; None: not measured yet."""
         self._sag, self._sags = _USUAL, list[float]()
         self._smooth: float | None = None
         self._time = self._since = 0.0
@@ -69,7 +69,7 @@ class BatteryGauge:
         return state.volts / self.cells
 
     def hear(self, state: State) -> None:
-        """It told how it is."""
+        """Update by a new state."""
         volts = self.cell(state)
         if not volts > 0.0:
             return
@@ -88,10 +88,10 @@ class BatteryGauge:
         if self.rest is None or state.time - self._since > _MEASURED:
             self.level = level_at_rest(self._smooth + self._sag)
         if state.power == LOW_POWER or self._smooth < LOW:
-            self.level = min(self.level, _LAST)  # however it came to that
+            self.level = min(self.level, _LAST)  # whatever the gauge says
 
     def _measure(self, state: State, volts: float) -> None:
-        """Learn what flying costs, in the first seconds of a flight."""
+        """Measure the voltage drop in the first seconds of a flight."""
         if self.rest is None or not _SETTLED <= state.time - self._since <= _MEASURED:
             return
         self._sags.append(self.rest - volts)
@@ -99,13 +99,13 @@ class BatteryGauge:
 
 
 LOW_FOR = 3.0
-"""Seconds that it must be low: a burst of the motors costs volts, too."""
+"""Seconds that it must be low, as a burst of the motors lowers the voltage, too."""
 _WELL = 3.5
-"""Volts of a cell at which a battery counts as another one, or as charged."""
+"""The voltage of a cell at which a battery counts as replaced or charged."""
 
 
 class AlarmDetector:
-    """What has been told already: each thing is told once, when it begins."""
+    """Detects alarms: each is reported once, when it begins."""
 
     def __init__(self, cells: int = 1) -> None:
         self._cells = cells
@@ -113,7 +113,7 @@ class AlarmDetector:
         self._low_since: float | None = None
 
     def hear(self, state: State) -> Iterator[DroneEvent]:
-        """Yield what has happened since the last state."""
+        """Yield the events since the last state."""
         if state.crashed and not self._crashed:
             yield DroneEvent(kind=CRASHED, reason=messages.LIES)
         if state.locked and not self._locked:
@@ -124,13 +124,13 @@ class AlarmDetector:
             yield DroneEvent(kind=BATTERY_LOW, reason=f"its battery is down to {state.volts:.2f} V")
 
     def hear_of_its_place(self, adrift: bool, variance: float) -> Iterator[DroneEvent]:
-        """Yield that it does not know its place in the air any more, when that begins."""
+        """Yield the event that it has lost its position in the air."""
         if adrift and not self._adrift:
             yield DroneEvent(kind=POSITION_LOST, reason=messages.adrift(variance))
         self._adrift = adrift
 
     def _battery_low(self, state: State) -> bool:
-        """Say whether it has just become so low that it must come down."""
+        """Return whether it has just become so low that it must land."""
         volts = state.volts / self._cells
         if state.power != LOW_POWER and not 0.0 < volts < LOW:
             self._low_since = None

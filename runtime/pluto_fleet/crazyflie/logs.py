@@ -1,6 +1,6 @@
-"""The blocks of a Crazyflie's log: what it tells by itself, and single variables when asked.
+"""The log blocks of a Crazyflie: its regular telemetry, and single variables on request.
 
-A block holds 26 bytes, a drone 16 blocks. An object of cflib's for a block is good for one connection.
+A block holds 26 bytes, a drone 16 blocks. cflib's object for a block is valid for one connection.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _STATE_MS, _VARIANCE_MS, _ONE_MS = 100, 250, 100
 
 
 def begin(session: CrazyflieSession) -> None:
-    """Let it tell how it is, from now on; called in the worker, once the tables are there."""
+    """Start its telemetry; called in the worker, once the tables are known."""
     cf = session.cf
 
     def state(sent: int, values: Mapping[str, float], _: object) -> None:
@@ -47,7 +47,7 @@ def begin(session: CrazyflieSession) -> None:
 
 
 def has(cf: Cf, name: str) -> bool:
-    """Say whether there is such a log variable."""
+    """Return whether there is such a log variable."""
     group, _, variable = name.partition(".")
     toc = cf.log.toc
     return toc is not None and variable in toc.toc.get(group, {})
@@ -71,7 +71,7 @@ def _block(
 
 
 class LogReader:
-    """Single log variables, read when asked for: each has a block while it is read."""
+    """Reads single log variables: each has a block while it is read."""
 
     def __init__(self, session: CrazyflieSession) -> None:
         self._session = session
@@ -80,7 +80,7 @@ class LogReader:
         self._turn = asyncio.Lock()
 
     async def mean(self, name: str, seconds: float) -> float:
-        """Return what a variable is, over some time; 0: its next value."""
+        """Return a variable's mean over some time; 0: its next value."""
         session = self._session
         if not has(session.cf, name):
             raise Rejected(messages.no_variable(session.drone, name))
@@ -102,7 +102,7 @@ class LogReader:
                 async with asyncio.timeout(seconds + 3.0):
                     await enough.wait()
             except TimeoutError:
-                session.now()  # it may be silent altogether
+                session.now()  # raises if it is silent altogether
                 if not values:
                     raise Rejected(messages.not_read(session.drone, name)) from None
             finally:
@@ -127,7 +127,7 @@ class LogReader:
             hear(value)
 
     async def _given_back(self, name: str) -> None:
-        """Wait until the drone has taken back the block of the last reading."""
+        """Wait until the drone has deleted the block of the last reading."""
         block = self._blocks.get(name)
         for _ in range(50):
             if block is None or not block.added:
@@ -135,7 +135,7 @@ class LogReader:
             await asyncio.sleep(0.02)
 
     def _stop(self, name: str) -> None:
-        """Take the block back, some time."""
+        """Delete the block eventually."""
         block = self._blocks.get(name)
         if block is not None:
             self._session.worker.post(block.delete)

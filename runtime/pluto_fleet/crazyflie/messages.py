@@ -1,4 +1,4 @@
-"""What is said of Crazyflies to people, where that is said in several places or takes a few words."""
+"""Messages about Crazyflies that are used in several places or need some composing."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 PROTOCOL = 12
-"""What the firmware must speak: since then it has a supervisor that says how it is."""
+"""The least protocol version of the firmware, since which it reports its supervisor's state."""
 
 
 def no_cflib(package: str | None) -> str:
@@ -40,7 +40,7 @@ def stuck(drone: str, seconds: float) -> str:
 
 
 def cause(message: str) -> str:
-    """Say in a few words what cflib says in a traceback."""
+    """Return a short reason for an error of cflib."""
     first = (message.strip().splitlines() or [""])[0].removeprefix("Couldn't load link driver: ")
     whole = message.lower()
     if "cannot find a crazyradio" in whole or "cannot find radio" in whole:
@@ -81,7 +81,7 @@ def locked(drone: str, deck_failed: bool) -> str:
     return f"{drone} has locked its motors{why}: switch it off and on"
 
 
-# How it is: no names
+# Its state, without names
 
 
 LIES = "it lies on its back or has crashed"
@@ -124,7 +124,7 @@ def uncertain(variance: float | None, within: float) -> str:
 
 
 def deviation(variance: float) -> str:
-    """Say a variance as people think of it: how far off it may well be."""
+    """Format a variance as a standard deviation."""
     return f"{sqrt(variance):.2f} m" if isfinite(variance) else "any distance"
 
 

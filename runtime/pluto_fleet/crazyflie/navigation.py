@@ -1,4 +1,4 @@
-"""A Crazyflie as an app flies it: what the public protocol asks for, said to cflib."""
+"""The navigation of a Crazyflie: the public protocol, implemented with cflib."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ if TYPE_CHECKING:
     from .state import State
 
 _AWAY = 4.0
-"""Seconds that letting go of links may take."""
+"""The time-out of closing links, in seconds."""
 _LANDING = 0.3
-"""Metres per second, where no speed was given."""
+"""The default speed of a landing, in metres per second."""
 
 
 class Crazyflie:
@@ -55,7 +55,7 @@ class Crazyflie:
         self._state: State | None = None
         self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
         self._commanded = False
-        """Whether it may fly because of an earlier link."""
+        """Whether it may fly by a command of an earlier link."""
         self._opening: asyncio.Task[None] | None = None
         self._leaving: set[asyncio.Future[None]] = set()
         self._closed = False
@@ -63,10 +63,10 @@ class Crazyflie:
     # The link
 
     async def connect(self) -> None:
-        """Reach it, or reach it anew: what is left of an earlier link is put away.
+        """Connect or reconnect; an earlier link is closed first.
 
-        The first time takes long, as it tells all its tables, and longer with many others on the
-        air. A caller that gives up finds it further on the next time.
+        The first time is slow, as all tables are read, and slower with many others on the air. After
+        a time-out, the next attempt continues with the tables read so far.
         """
         uri = self._setup.uri
         if uri is None:
@@ -85,20 +85,20 @@ class Crazyflie:
             self._commanded = self._session.commanded
             self._session.release()
             self._session = None
-        await self._left()  # two links to one drone would take each other's packets
+        await self._left()  # two links to one drone would steal each other's packets
         session = await open_session(self._id, uri, self._setup.folder, self)
         session.commanded = self._commanded
-        if not self._options.starts_at_home:  # else it never knows its place, only its way
+        if not self._options.starts_at_home:  # it only knows its relative movement
             session.lost_beyond = self._options.lost_beyond
         self._session, self._readings = session, logs.LogReader(session)
         if self._options.starts_at_home:
             await connection.set_initial_position(session, self._setup.home)
 
     async def close(self) -> None:
-        """Let go of it. What flies by a command of this object is landed first, if it listens.
+        """Close the link. If it flies by a command of this object and is reachable, it is landed first.
 
-        What does not listen, and what another program has sent up, hovers on: the link ends without a
-        command to the drone.
+        An unreachable drone, or one launched by another program, hovers on: the link ends without a
+        command.
         """
         if self._opening is not None:
             self._opening.cancel()
@@ -116,34 +116,34 @@ class Crazyflie:
             self._events.put_nowait(None)
 
     def told(self, state: State) -> None:
-        """It told how it is."""
+        """Called with a new state."""
         self._state = state
         self._battery.hear(state)
         for event in self._alarms.hear(state):
             self._events.put_nowait(event)
 
     def doubted(self, variance: float) -> None:
-        """It told how sure it is of its place."""
+        """Called with the variance of its position."""
         adrift = self._session is not None and self._session.adrift
         for event in self._alarms.hear_of_its_place(adrift, variance):
             self._events.put_nowait(event)
 
     def gone(self, why: str) -> None:
-        """It tells nothing any more."""
+        """Called when the link is lost."""
         self._events.put_nowait(DroneEvent(kind=LINK_LOST, reason=why))
 
     def releasing(self, gone: asyncio.Future[None]) -> None:
-        """A link to it is being put away."""
+        """Called when a link is being closed."""
         self._leaving = {one for one in self._leaving if not one.done()} | {gone}
 
     async def _left(self) -> None:
-        """Wait until no link to it is left, as far as cflib lets go of them."""
+        """Wait until all its links are closed, as far as cflib closes them."""
         if self._leaving:
             await asyncio.wait(self._leaving, timeout=_AWAY)
 
     @property
     def telemetry(self) -> DroneTelemetry:
-        """What it told last."""
+        """The latest state."""
         state = self._state
         return DroneTelemetry(
             time=-inf if state is None else state.time,
@@ -155,12 +155,12 @@ class Crazyflie:
         )
 
     async def events(self) -> AsyncIterator[DroneEvent]:
-        """Yield what happens to it, until it is closed."""
+        """Yield its events, until it is closed."""
         while (event := await self._events.get()) is not None:
             yield event
 
     def _linked(self) -> CrazyflieSession:
-        """Return the connection; raise `LinkLost` if there is none, or nothing comes by it."""
+        """Return the session; raise `LinkLost` if there is none, or if it is silent."""
         if self._session is None:
             raise LinkLost(messages.not_connected(self._id))
         self._session.now()
@@ -179,7 +179,7 @@ class Crazyflie:
         return await preflight.problems(session, self._battery, self._options, self._setup.speed)
 
     async def takeoff(self, height: float, speed: float) -> None:
-        """Rise straight up to this height; one that flies already goes there from where it is."""
+        """Take off straight up to this height; one that flies already goes there from where it is."""
         session = self._linked()
         state = session.well()
         target = (state.position[0], state.position[1], height)
@@ -202,7 +202,7 @@ class Crazyflie:
         await flying.hold(self._linked())
 
     async def land(self, speed: float) -> None:
-        """Come down straight; return when the motors are off."""
+        """Land straight down; return when the motors are off."""
         flying.check_speed(self._id, speed)
         await flying.land(self._linked(), speed)
 
@@ -212,7 +212,7 @@ class Crazyflie:
             raise LinkLost(messages.not_connected(self._id))
         await stop_motors(self._session)
 
-    # What only some drones can do
+    # Optional abilities
 
     def why_not(self, action: str, parameters: Mapping[str, Plain]) -> str | None:
         """Return why it cannot do an action, or None."""
@@ -233,7 +233,7 @@ class Crazyflie:
         return await parameters.read(session, name)
 
     async def write(self, name: str, value: float) -> None:
-        """Set a parameter, and see that it is so."""
+        """Set a parameter, and verify it."""
         await parameters.write(self._linked(), name, value)
 
     def _reader(self) -> logs.LogReader:
@@ -242,12 +242,12 @@ class Crazyflie:
         return self._readings
 
     async def locate(self, position: Point) -> None:
-        """Tell it its position as measured from outside; nothing, while it is not connected."""
+        """Send it its position as measured from outside; does nothing while it is not connected."""
         if self._session is not None and self._session.alive:
             await connection.send_external_position(self._session, position)
 
     async def looked_after(self) -> None:
-        """Forget a crash: a person has looked after it."""
+        """Reset a crash: it has been repaired."""
         await supervisor.recover_from_crash(self._linked())
 
     async def identify(self) -> None:
@@ -255,7 +255,7 @@ class Crazyflie:
         await actions.blink(self._linked())
 
     async def facts(self) -> Mapping[str, str]:
-        """Return what it is, for people: its firmware and its decks."""
+        """Return its firmware and its decks."""
         return await firmware_facts(self._linked())
 
     @staticmethod
@@ -265,6 +265,6 @@ class Crazyflie:
 
 
 def _heard(opening: asyncio.Task[None]) -> None:
-    """Take note of how it ended: its caller may have given up."""
+    """Retrieve the exception: the caller may have given up."""
     if not opening.cancelled():
         opening.exception()

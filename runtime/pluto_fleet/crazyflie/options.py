@@ -1,4 +1,4 @@
-"""What the fleet file may say of Crazyflies: `[navigation.crazyflie]`, and `[drone.options]` on top."""
+"""The options of Crazyflies in a fleet file: `[navigation.crazyflie]`, overridden by `[drone.options]`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from plutoc_runtime.domain.text import number, quoted
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gripper:
-    """A deck that holds things, by one of its parameters."""
+    """A gripper deck, controlled by a parameter."""
 
     parameter: str
     pick: float
@@ -24,33 +24,33 @@ class Gripper:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CrazyflieOptions:
-    """All of it, checked."""
+    """The validated options."""
 
     measure: Mapping[str, str]
-    """The log variable of each quantity that can be measured; ANY_OTHER: of all that it lacks."""
+    """The log variable of each quantity that can be measured; ANY_OTHER: of all others."""
     measure_seconds: float
-    """Over how long it is averaged."""
+    """Seconds over which a measurement is averaged."""
     camera: tuple[str, int] | None
-    """Where the AI-deck sends its pictures."""
+    """The address of the AI-deck's streamer."""
     camera_view: tuple[float, float]
-    """How much it sees, in degrees: across and along."""
+    """The field of view in degrees: across and along."""
     grip: Gripper | None
     decks: tuple[str, ...]
     """The decks that it must have, as the firmware names them."""
     cells: int
-    """How many its battery has in series: two, on a Bolt or a Flapper."""
+    """The number of cells in series: two on a Bolt or a Flapper."""
     least_voltage: float
     """Volts of a cell at rest below which it does not take off."""
     sure_within: float
-    """Metres to which it must know where it is, as a standard deviation, before it takes off."""
+    """The largest standard deviation of its position for a take-off, in metres."""
     lost_beyond: float
-    """Metres to which it must know that in the air: beyond, it does not fly on."""
+    """The largest standard deviation of its position in the air, in metres: beyond, it lands."""
     starts_at_home: bool
-    """It knows only how far it has flown: it is told that it stands at home."""
+    """It only measures its relative movement: its position is set to its home at the start."""
     addresses: tuple[str, ...]
-    """Radio addresses to look at in a scan."""
+    """Radio addresses to scan."""
     udp: tuple[str, ...]
-    """Simulated drones to look at then."""
+    """Addresses of simulated drones to scan."""
 
     def variable_of(self, quantity: str) -> str | None:
         """Return the log variable of a quantity; None: it has none."""
@@ -58,22 +58,22 @@ class CrazyflieOptions:
 
 
 ANY_OTHER = "*"
-"""What stands in `measure` for every quantity that is not named there."""
+"""The key in `measure` for all quantities that are not named there."""
 
 _KNOWN = tuple(field.name for field in fields(CrazyflieOptions))
 _VIEW = (65.0, 50.0)
 _LEAST_VOLTAGE = 3.7
 SURE_WITHIN = 0.07
-"""Metres: radio beacons (Loco) let it know its place to five centimetres, others to two."""
+"""Metres: with radio beacons (Loco) it is sure to five centimetres, with others to two."""
 LOST_BEYOND = sqrt(0.05)
-"""Metres, about 0.22: no more than a third of it while it sees its beacons, however it flies."""
+"""Metres, about 0.22: three times the largest deviation while it receives its beacons."""
 _LONGEST = 10.0
 _CELLS = 6
 _ADDRESS = "E7E7E7E7E7"
 
 
 def options_of(given: Mapping[str, object]) -> CrazyflieOptions:
-    """Return what the fleet file says; raise `BadInput` naming the key that cannot be used."""
+    """Read the options; raise `BadInput` with the key that is invalid."""
     for key in given:
         if key not in _KNOWN:
             raise BadInput(f"a Crazyflie has no option {quoted(key)}; it has {', '.join(_KNOWN)}")
@@ -101,7 +101,7 @@ def options_of(given: Mapping[str, object]) -> CrazyflieOptions:
 
 @dataclass(frozen=True, slots=True)
 class _OptionReader:
-    """A table of options."""
+    """Reads a table of options."""
 
     given: Mapping[str, object]
 
@@ -181,12 +181,12 @@ class _OptionReader:
 
 
 def _number(value: object) -> float | None:
-    """Return a finite number as such, and None for everything else."""
+    """Return a finite number, and None for everything else."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return None
     return float(value) if abs(value) <= float_info.max else None
 
 
 def _is_name(value: object) -> bool:
-    """Say whether this is how the firmware names things: a group, a dot and a name."""
+    """Return whether this is a name as in the firmware: a group, a dot and a name."""
     return isinstance(value, str) and value.count(".") == 1 and all(value.split("."))

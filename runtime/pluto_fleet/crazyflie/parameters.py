@@ -1,4 +1,4 @@
-"""Parameters of a Crazyflie: read anew when asked, and read back after they were set."""
+"""Parameters of a Crazyflie: always read from the drone, and read back after they were set."""
 
 from __future__ import annotations
 
@@ -20,27 +20,27 @@ if TYPE_CHECKING:
     from .session import CrazyflieSession
 
 _ALL, _ONE = 12.0, 3.0
-"""Seconds until all parameters have been read after connecting, and until one is."""
+"""Time-outs in seconds: of reading all parameters after connecting, and of reading one."""
 _FLOATS = ("<f", "<d", "<e")
 _EXACT = 1e-3
-"""How far a number may be off that was kept as a short one."""
+"""The tolerance of a number that is stored in single precision."""
 
 
 def element_of(cf: Cf, name: str) -> Element | None:
-    """Return what the table of contents has of a parameter."""
+    """Return a parameter's entry of the table of contents."""
     group, _, variable = name.partition(".")
     return cf.param.toc.toc.get(group, {}).get(variable)
 
 
 async def complete(session: CrazyflieSession, limit: float = _ALL) -> bool:
-    """Wait until all parameters have been read once, or can be no more; say whether they were."""
+    """Wait until all parameters have been read once, or the link is lost; return whether they were."""
     with suppress(LinkLost):
         await session.until(lambda _: session.complete.is_set(), limit, well=False)
     return session.complete.is_set()
 
 
 def known(session: CrazyflieSession) -> dict[str, float]:
-    """Return all values as they were last told: those of decks, for example, never change."""
+    """Return all values as last read: those of decks, for example, never change."""
     return {
         f"{group}.{name}": float(value)
         for group, values in list(session.cf.param.values.items())
@@ -49,13 +49,13 @@ def known(session: CrazyflieSession) -> dict[str, float]:
 
 
 async def read(session: CrazyflieSession, name: str) -> float:
-    """Return what a parameter is now."""
+    """Return a parameter's present value."""
     _element(session, name)
     return await _asked(session, name, lambda cf: cf.param.request_param_update(name))
 
 
 async def write(session: CrazyflieSession, name: str, value: float, *, stays: bool = True) -> None:
-    """Set a parameter, and see that it is so; one that does not stay is a command in disguise."""
+    """Set a parameter, and verify it; one that resets itself is really a command."""
     element = _element(session, name)
     whole = element.pytype not in _FLOATS
     if not isfinite(value) or (whole and not float(value).is_integer()):
@@ -65,11 +65,11 @@ async def write(session: CrazyflieSession, name: str, value: float, *, stays: bo
     def send(cf: Cf) -> None:
         try:
             cf.param.set_value(name, sent)
-        except Exception as error:  # out of its range, or one that can only be read
+        except Exception as error:  # out of its range, or read-only
             wrong = messages.bad_value(session.drone, name, value, element.ctype)
             raise Rejected(f"{wrong} ({error})") from error
 
-    # What it answers to the first is what it was sent; what it has is asked for.
+    # The first answer only echoes what was sent, so the value is read again.
     has = await _asked(session, name, send, lambda cf: cf.param.request_param_update(name))
     if stays and not isclose(has, value, rel_tol=_EXACT, abs_tol=_EXACT):
         raise Rejected(
@@ -85,11 +85,11 @@ def _element(session: CrazyflieSession, name: str) -> Element:
 
 
 async def _asked(session: CrazyflieSession, name: str, *questions: Callable[[Cf], None]) -> float:
-    """Ask one after the other, each when the one before is answered; return the last answer.
+    """Send requests one after the other, each when the one before is answered; return the last answer.
 
-    One exchange at a time: an answer does not say what it is to.
+    One exchange at a time, as an answer does not identify its request.
     """
-    if not await complete(session):  # until then, what comes may be what cflib has asked for
+    if not await complete(session):  # until then, answers may belong to cflib's requests
         session.now()
         raise LinkLost(f"{session.drone}: {messages.UNREAD}")
     group, _, variable = name.partition(".")

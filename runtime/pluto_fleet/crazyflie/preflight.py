@@ -1,4 +1,4 @@
-"""Why a Crazyflie must not take off now, and what it is. Nothing of this arms or moves it."""
+"""Preflight checks and facts of a Crazyflie. Nothing of this arms or moves it."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 
 _DECK = "deck."
 _SETTLING = 1.5
-"""Seconds that an estimate may take to settle, after it began anew."""
+"""Seconds that an estimate may take to settle after a reset."""
 _PATIENCE = 5.0
-"""Seconds for which one is waited for that is only not sure where it is: a person may just pass."""
+"""Seconds to wait for a drone that is only unsure of its position: someone may be passing by."""
 _BETWEEN = 2.0
-"""Seconds in which one that has landed has disarmed itself, and can be armed again."""
+"""Seconds after a landing until a drone has disarmed itself, and can be armed again."""
 _READ = 8.0
-"""Seconds until its parameters must have been read."""
+"""The time-out of reading its parameters, in seconds."""
 
 
 async def problems(
@@ -36,7 +36,7 @@ async def problems(
     """Return all reasons."""
     version = session.cf.platform.get_protocol_version()
     if version < messages.PROTOCOL:
-        return [messages.old_firmware(version)]  # what else it says need not be so
+        return [messages.old_firmware(version)]  # its other reports are unreliable
     if session.lacks:
         return [
             f"its firmware has no log variable {', '.join(session.lacks)}: flash the newest release"
@@ -55,7 +55,7 @@ async def problems(
 
 
 def _is_settled(state: State) -> bool:
-    """Whether it is not just between its landing and the next arming, when it can do nothing."""
+    """Whether it is not in the moment between its landing and the next arming, when it can do nothing."""
     return state.can_arm or state.can_fly or state.locked or state.crashed or state.deck_failed
 
 
@@ -82,7 +82,7 @@ def _of_battery(state: State, battery: BatteryGauge, options: CrazyflieOptions) 
 
 
 async def _sure(session: CrazyflieSession, options: CrazyflieOptions, end: float) -> bool:
-    """Say whether it knows where it is; just after connecting, that takes a second to find out."""
+    """Return whether it is sure of its position; just after connecting, that takes a second."""
     while not _knows_where(session, options):
         if session.loop.time() > end:
             return False
@@ -101,7 +101,7 @@ def _knows_where(session: CrazyflieSession, options: CrazyflieOptions) -> bool:
 async def _of_parameters(
     session: CrazyflieSession, options: CrazyflieOptions, speed: float
 ) -> list[str]:
-    # else what cannot be read is as it always is
+    # else an unreadable value is as usual
     asks = bool(options.decks) or speed > DEFAULT_LIMIT
     if not await parameters.complete(session, _READ) and asks:
         return [messages.UNREAD]
@@ -111,7 +111,7 @@ async def _of_parameters(
 
 
 def decks(session: CrazyflieSession) -> list[str]:
-    """Return the decks that it has, as its firmware names them."""
+    """Return its decks, as its firmware names them."""
     return [
         name.removeprefix(_DECK)
         for name, value in sorted(parameters.known(session).items())
@@ -120,7 +120,7 @@ def decks(session: CrazyflieSession) -> list[str]:
 
 
 async def firmware_facts(session: CrazyflieSession) -> Mapping[str, str]:
-    """Return its firmware and its decks, as far as it tells them."""
+    """Return its firmware and its decks, as far as known."""
     found = {"protocol": str(session.cf.platform.get_protocol_version())}
     if await parameters.complete(session):
         known = parameters.known(session)

@@ -1,8 +1,8 @@
-"""One connection to one Crazyflie, from the opening of its link to its end; never used again.
+"""One connection to one Crazyflie, from the opening of its link to its end; not reused.
 
-cflib calls back from threads of its own. What it says there is only carried over to the event loop;
-everything in this module happens in the loop, but for what `Worker` calls. Acknowledgements are what a
-Crazyflie answers to commands: cflib takes them from the radio and drops them.
+cflib calls back from threads of its own, from which everything is passed to the event loop; all else in this
+module runs in the loop, except for what `Worker` calls. Acknowledgements are a Crazyflie's answers to
+commands, which cflib itself ignores.
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ Key = tuple[int, int]
 
 
 class Acknowledgements:
-    """Answers that are waited for."""
+    """Waits for answers to commands."""
 
     def __init__(self) -> None:
         self._waiting: dict[Key, asyncio.Future[bytes]] = {}
 
     def listen(self, cf: Cf, tell: Callable[..., None]) -> None:
-        """Hear all answers; called in the worker, as they come in a thread of cflib's."""
+        """Register for all answers; called in the worker, as they come in a thread of cflib."""
 
         def hear(packet: CRTPPacket) -> None:
             tell(self._hear, packet.port, packet.channel, bytes(packet.data))
@@ -51,18 +51,18 @@ class Acknowledgements:
         cf.add_port_callback(SUPERVISOR, hear)
 
     def expect(self, key: Key) -> asyncio.Future[bytes]:
-        """Begin to listen for the next answer to a command: before the command is sent."""
+        """Expect the next answer to a command; called before the command is sent."""
         answer: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
         self._waiting[key] = answer
         return answer
 
     async def heard(self, answer: asyncio.Future[bytes], limit: float) -> bytes | None:
-        """Return the answer, or None if it does not come in time."""
+        """Await the answer; return None after the time-out."""
         await asyncio.wait({answer}, timeout=limit)
         return answer.result() if answer.done() else None
 
     def drop(self, key: Key, answer: asyncio.Future[bytes]) -> None:
-        """Listen no longer."""
+        """Stop expecting an answer."""
         answer.cancel()
         if self._waiting.get(key) is answer:
             del self._waiting[key]
@@ -77,64 +77,64 @@ class Acknowledgements:
 
 
 SILENCE = 1.0
-"""Seconds without a word, after which a link counts as lost; a word is expected ten times a second."""
+"""Seconds without a state after which a link counts as lost; ten states a second are expected."""
 
 FRESH = 0.5
-"""Seconds for which a new word is waited for before something is decided by it."""
+"""The time-out of waiting for a new state, in seconds."""
 
 
 class SessionObserver(Protocol):
-    """Told what happens to a connection."""
+    """Callbacks of a connection."""
 
     def told(self, state: State) -> None:
-        """The drone told how it is."""
+        """Called with a new state."""
         ...
 
     def doubted(self, variance: float) -> None:
-        """The drone told how sure it is of its place: the variance, in square metres."""
+        """Called with the variance of its position, in square metres."""
         ...
 
     def gone(self, why: str) -> None:
-        """It tells nothing any more."""
+        """Called when the link is lost."""
         ...
 
     def releasing(self, gone: asyncio.Future[None]) -> None:
-        """The link is being put away, until this is done."""
+        """Called when the link is being closed, with a future of its end."""
         ...
 
 
 class CrazyflieSession:
-    """What is known of a drone while it is connected, and the one way to call cflib for it."""
+    """The state of a connected drone, and the only way to call cflib for it."""
 
     def __init__(self, drone: str, uri: str, observer: SessionObserver) -> None:
         self.drone, self.uri = drone, uri
         self.loop = asyncio.get_running_loop()
         self.worker = Worker(drone)
         self.established = asyncio.Event()
-        """Set when the tables of contents are there, or when the link is lost."""
+        """Set when the tables of contents are known, or when the link is lost."""
         self.answered = False
-        """Whether anything has come at all."""
+        """Whether anything was received at all."""
         self.complete = asyncio.Event()
         """Set when all parameters have been read."""
         self.asking = asyncio.Lock()
-        """Held while a parameter is asked for."""
+        """Held during the exchange for a parameter."""
         self.acknowledged = Acknowledgements()
         self.confidence = PositionConfidence()
         self.lost_beyond = inf
-        """Metres to which it must know where it is in the air."""
+        """The largest standard deviation of its position in the air, in metres."""
         self.state: State | None = None
         self.recent: deque[State] = deque(maxlen=10)
-        """What it told lately, the last at the end: about a second."""
+        """The states of about the last second, the newest at the end."""
         self.took_off_at = -inf
-        """When it was told to take off."""
+        """When a take-off was commanded."""
         self.commanded = False
-        """Whether it flies because of what was said through this."""
+        """Whether it flies by a command of this session."""
         self.located = False
-        """Whether it is told its position from outside."""
+        """Whether it is sent its position from outside."""
         self.lost = ""
         """Why the link has ended, once it has."""
         self.lacks: tuple[str, ...] = ()
-        """Log variables that its firmware should have."""
+        """Missing log variables of its firmware."""
         self._observer = observer
         self._since = time.monotonic()
         self._silent = False
@@ -142,15 +142,15 @@ class CrazyflieSession:
         self._cf: Cf | None = None
         self._looking = self.loop.call_later(SILENCE, self._look)
 
-    # What cflib says
+    # Callbacks of cflib
 
     def tell(self, call: Callable[..., None], *args: object) -> None:
-        """Carry something over to the event loop, from any thread."""
+        """Call something in the event loop, from any thread."""
         with suppress(RuntimeError):  # the loop is closed
             self.loop.call_soon_threadsafe(call, *args)
 
     def listen(self, cf: Cf) -> None:
-        """Hear what happens to the link; called in the worker, before it is opened."""
+        """Register for the link's callbacks; called in the worker, before it is opened."""
         self._cf = cf
         loses = self.uri.startswith("udp://")
         cf.connected.add_callback(lambda _: self.tell(self.established.set))
@@ -162,7 +162,7 @@ class CrazyflieSession:
         self.acknowledged.listen(cf, self.tell)
 
     def _established(self, cf: Cf, *, resend: bool) -> None:
-        """The very first packet came: before any other is sent, make cflib repeat what gets lost."""
+        """At the first packet, before any other is sent, make cflib repeat lost packets."""
         if resend and cf.link is not None:
             cf.link.needs_resending = True
         self.tell(self._answered)
@@ -171,19 +171,19 @@ class CrazyflieSession:
         self.answered = True
 
     def _disconnected(self) -> None:
-        self.loop.call_later(0.1, self.fail, "it was closed")  # why it was comes right after
+        self.loop.call_later(0.1, self.fail, "it was closed")  # the reason comes right after
 
     def fail(self, why: str) -> None:
-        """The link is gone, for good."""
+        """End the session: the link is lost."""
         self.established.set()
         if not self.lost:
             self.lost = messages.cause(why)
-            if self.state is not None and not self._silent:  # else it never came to be
+            if self.state is not None and not self._silent:  # else the link was never established
                 self._observer.gone(self.lost)
         self._wake()
 
     def hear(self, state: State) -> None:
-        """It told how it is."""
+        """Process a new state."""
         if not self.lost:
             self.state, self._silent = state, False
             self.recent.append(state)
@@ -191,14 +191,14 @@ class CrazyflieSession:
             self._wake()
 
     def hear_variances(self, variances: tuple[float, ...], at: float) -> None:
-        """It told how sure it is of its place."""
+        """Process new variances."""
         if not self.lost and variances:
             self.confidence.hear(variances, at)
             self._observer.doubted(max(variances))
             self._wake()
 
     def _look(self) -> None:
-        """See whether it has become silent."""
+        """Check whether it has become silent."""
         if not self.lost:
             if self.state is not None and not self._silent and self.silent_for > SILENCE:
                 self._silent = True
@@ -206,23 +206,23 @@ class CrazyflieSession:
                 self._wake()
             self._looking = self.loop.call_later(SILENCE / 10, self._look)
 
-    # What others ask
+    # Queries
 
     @property
     def cf(self) -> Cf:
-        """What cflib has of it; for calls in the worker."""
+        """cflib's object; for calls in the worker."""
         if self._cf is None:
             raise LinkLost(messages.not_connected(self.drone))
         return self._cf
 
     @property
     def silent_for(self) -> float:
-        """Seconds since it told anything."""
+        """Seconds since its last state."""
         return time.monotonic() - (self._since if self.state is None else self.state.time)
 
     @property
     def alive(self) -> bool:
-        """Whether it can be commanded through this."""
+        """Whether it can be commanded by this session."""
         return (
             not self.lost
             and not self.worker.stuck
@@ -232,22 +232,22 @@ class CrazyflieSession:
 
     @property
     def before(self) -> State | None:
-        """What it told before the last that it told."""
+        """The state before the latest."""
         return self.recent[-2] if len(self.recent) > 1 else None
 
     @property
     def adrift(self) -> bool:
-        """Whether it flies, and has not known for long enough where it is."""
+        """Whether it flies, and has been unsure of its position for too long."""
         flies = self.state is not None and self.state.flies
         return flies and self.confidence.lost(self.lost_beyond)
 
     @property
     def doubts(self) -> bool:
-        """Whether it does not know where it is at this moment: what it says of that counts nothing."""
+        """Whether it is unsure of its position now, so that its position does not count."""
         return self.confidence.doubts(self.lost_beyond)
 
     def now(self) -> State:
-        """Return how it is; raise why nothing can be commanded."""
+        """Return its state; raise if it cannot be commanded."""
         if self.lost:
             raise LinkLost(messages.ended(self.drone, self.lost))
         if self.state is None or self.silent_for > SILENCE:
@@ -255,7 +255,7 @@ class CrazyflieSession:
         return self.state
 
     def well(self) -> State:
-        """Return how it is; raise why it cannot fly on."""
+        """Return its state; raise if it cannot fly on."""
         state = self.now()
         if state.locked:
             raise Locked(messages.locked(self.drone, state.deck_failed))
@@ -264,9 +264,9 @@ class CrazyflieSession:
         return state
 
     async def fresh(self) -> State:
-        """Return how it is by what it tells from now on; raise why it cannot fly on.
+        """Return a new state; raise if it cannot fly on.
 
-        One that has become silent is taken at its last word, for as long as that counts.
+        If it has just become silent, its latest state is returned, as long as that is valid.
         """
         last, end = self.state, self.loop.time() + FRESH
         while self.state is last and (left := end - self.loop.time()) > 0.0:
@@ -275,14 +275,14 @@ class CrazyflieSession:
         return self.well()
 
     async def call(self, call: Callable[[Cf], object], limit: float = 2.5) -> None:
-        """Call something of cflib in the drone's own thread."""
+        """Call a function of cflib in the drone's own thread."""
         cf = self.cf
         try:
             await self.worker.call(lambda: call(cf), limit)
         except NavigationError:
             raise
         except Exception as error:
-            # a link that is lost while something is sent is None in cflib, and falls over that
+            # cflib's link is None if it is lost while sending, which raises AttributeError
             if cf.link is not None and not self.lost:
                 raise
             raise LinkLost(
@@ -292,9 +292,9 @@ class CrazyflieSession:
     async def until(
         self, ready: Callable[[State], bool], limit: float, *, well: bool = True
     ) -> State | None:
-        """Return the first state from now on that is so, or None when the limit is over.
+        """Return the first new state that fulfils a condition, or None after the time-out.
 
-        Raises what `well` raises as soon as it would.
+        Raises what `well` raises, as soon as it does.
         """
         end = self.loop.time() + limit
         look = self.well if well else self.now
@@ -306,14 +306,14 @@ class CrazyflieSession:
         return state
 
     async def until_told(self, limit: float) -> State | None:
-        """Return the first thing that it tells of itself, or None."""
+        """Return its first state, or None."""
         end = self.loop.time() + limit
         while self.state is None and not self.lost and self.loop.time() < end:
             await self.heard(0.2)
         return self.state
 
     async def heard(self, limit: float) -> None:
-        """Wait until it tells something, or for so long."""
+        """Wait until it sends something, with a time-out."""
         with suppress(TimeoutError):
             async with asyncio.timeout(limit):
                 await self._next.wait()
@@ -325,7 +325,7 @@ class CrazyflieSession:
     # Its end
 
     def release(self) -> None:
-        """End it in a thread of its own: never by a command to the drone."""
+        """Close it in a thread of its own, without a command to the drone."""
         self.lost = self.lost or "it was closed"
         self._looking.cancel()
         self._wake()

@@ -1,8 +1,7 @@
-"""What a Crazyflie tells of itself: one block of its log as one value, and how sure it is of its position.
+"""The state of a Crazyflie: one block of its log as one value, and the confidence of its position.
 
-One that sees beacons becomes sure: the variance of its estimate is small, and grows when they are not
-seen any more. One that only sees the ground pass by never is, for its start is nowhere: then it counts
-that the variance stays what it is.
+With beacons the variance of its estimate is small, and grows when they are lost. With only a flow deck, which
+measures relative movement, it is never small: then it counts that the variance is steady.
 """
 
 from __future__ import annotations
@@ -17,16 +16,16 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point
 
 
-# Together 23 of the 26 bytes that a block may have: where it is and how it is belong to one moment.
+# Together 23 of the 26 bytes of a block, so that position and status belong to one moment.
 X, Y, Z, YAW = "stateEstimate.x", "stateEstimate.y", "stateEstimate.z", "stateEstimate.yaw"
 VOLTS, POWER, INFO = "pm.vbat", "pm.state", "supervisor.info"
 STATE = (X, Y, Z, YAW, VOLTS, POWER, INFO)
 VARIANCES = ("kalman.varPX", "kalman.varPY", "kalman.varPZ")
 
 ROUND = (1 << 24) / 1000.0
-"""Seconds after which the clock of the log begins anew."""
+"""Seconds after which the clock of the log wraps around."""
 LOW_POWER = 3
-"""What `pm.state` says of a battery that is low; above it, it switches off."""
+"""The value of `pm.state` for a low battery; above it, it switches off."""
 
 _CAN_ARM, _ARMED, _AUTO, _CAN_FLY, _FLIES, _TUMBLED, _LOCKED, _CRASHED, _STEERED, _FINISHED = (
     1 << place for place in range(10)
@@ -36,38 +35,38 @@ _DECK = 1 << 11
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class State:
-    """How it was at one moment."""
+    """Its state at one moment."""
 
     time: float
-    """By `time.monotonic()`, when it arrived here."""
+    """When it was received, by `time.monotonic()`."""
     sent: float
-    """By the drone's own clock: two that arrive at one moment were not sent at one."""
+    """When it was sent, by the drone's own clock."""
     position: Point
     yaw: float
     """Radians."""
     volts: float
     power: int
     bits: int
-    """What its supervisor says."""
+    """The bits of its supervisor."""
 
     @property
     def armed(self) -> bool:
-        """Whether its motors may be started."""
+        """Whether it is armed."""
         return bool(self.bits & _ARMED)
 
     @property
     def can_arm(self) -> bool:
-        """Whether it would arm, or is armed."""
+        """Whether it can be armed, or is armed."""
         return bool(self.bits & (_CAN_ARM | _ARMED))
 
     @property
     def arms_itself(self) -> bool:
-        """Whether its build arms it whenever it can be."""
+        """Whether its build arms automatically."""
         return bool(self.bits & _AUTO)
 
     @property
     def can_fly(self) -> bool:
-        """Whether it would take off."""
+        """Whether it can take off."""
         return bool(self.bits & _CAN_FLY)
 
     @property
@@ -77,17 +76,17 @@ class State:
 
     @property
     def lies(self) -> bool:
-        """Whether it does not stand upright."""
+        """Whether it is not upright."""
         return bool(self.bits & _TUMBLED)
 
     @property
     def deck_failed(self) -> bool:
-        """Whether one of its decks reports a fault: it does not arm then, and locks in the air."""
+        """Whether one of its decks reports a fault: then it does not arm, and locks in the air."""
         return bool(self.bits & _DECK)
 
     @property
     def locked(self) -> bool:
-        """Whether it must be switched off and on."""
+        """Whether it must be restarted."""
         return bool(self.bits & _LOCKED)
 
     @property
@@ -97,12 +96,12 @@ class State:
 
     @property
     def has_trajectory(self) -> bool:
-        """Whether its high-level commander follows one, be its motors permitted to turn or not."""
+        """Whether its high-level commander has a trajectory, whether or not its motors may turn."""
         return bool(self.bits & _STEERED)
 
     @property
     def finished(self) -> bool:
-        """Whether it is at the end of the trajectory that it was given."""
+        """Whether its trajectory has ended."""
         return bool(self.bits & _FINISHED)
 
     @property
@@ -111,16 +110,16 @@ class State:
         return bool(self.bits & _FLIES) or self.steered
 
     def since(self, before: State) -> float:
-        """Return the seconds that have passed for the drone; its clock begins anew every few hours."""
+        """Return the seconds since another state, by the drone's clock, which wraps around every few hours."""
         return (self.sent - before.sent) % ROUND
 
     def distance(self, place: Point) -> float:
-        """Return how far away a place is, in metres."""
+        """Return the distance of a place, in metres."""
         return dist(self.position, place)
 
     @property
     def said(self) -> str:
-        """What its supervisor says, in words."""
+        """The bits of its supervisor in words."""
         facts = (
             (self.locked, "locked"),
             (self.crashed, "tumbled or crashed"),
@@ -133,7 +132,7 @@ class State:
 
 
 def state_of(values: Mapping[str, float], time: float, sent: float) -> State:
-    """Return what a block of the log says; what this firmware has not is 0."""
+    """Return the state in a log block; variables that this firmware lacks are 0."""
 
     def get(name: str) -> float:
         return values.get(name, 0.0)
@@ -150,27 +149,27 @@ def state_of(values: Mapping[str, float], time: float, sent: float) -> State:
 
 
 SETTLED_FOR = 1.0
-"""Seconds that it must be so: just after a start the estimate still settles."""
+"""Seconds of confidence that are required: just after a start the estimate still settles."""
 _STEADY = 0.001
-"""Square metres by which the variance may change meanwhile of one that only sees the ground."""
+"""Square metres by which the variance may change meanwhile with only a flow deck."""
 _STALE = 1.5
 
 Variances = tuple[float, ...]
 
 
 class PositionConfidence:
-    """What its variances have been."""
+    """The history of its variances."""
 
     def __init__(self) -> None:
         self._told: deque[tuple[float, Variances]] = deque()
 
     @property
     def variance(self) -> float | None:
-        """The largest of the three axes', in square metres, as it was last."""
+        """The latest variance, the largest of the three axes, in square metres."""
         return max(self._told[-1][1]) if self._told else None
 
     def hear(self, variances: Variances, time: float) -> None:
-        """It told them."""
+        """Add new variances."""
         if self._told and time - self._told[-1][0] > _STALE:
             self._told.clear()
         self._told.append((time, tuple(v if isfinite(v) else inf for v in variances)))
@@ -178,26 +177,26 @@ class PositionConfidence:
             self._told.popleft()
 
     def forget(self) -> None:
-        """Its estimate begins anew."""
+        """Reset: its estimate restarts."""
         self._told.clear()
 
     def sure(self, time: float, within: float) -> bool:
-        """Say whether it has known its place for long enough, to so many metres on each axis."""
+        """Return whether its deviation was below this many metres for long enough."""
         return self._tells(time) and all(max(told) <= within**2 for _, told in self._told)
 
     def steady(self, time: float) -> bool:
-        """Say whether it has been as sure as it is for long enough, however sure that is."""
+        """Return whether its variance was steady for long enough, whatever its size."""
         if not self._tells(time):
             return False
         axes = zip(*(variances for _, variances in self._told), strict=True)
         return all(max(axis) < inf and max(axis) - min(axis) <= _STEADY for axis in axes)
 
     def lost(self, beyond: float) -> bool:
-        """Say whether it has not known its place for long enough, not even to so many metres."""
+        """Return whether its deviation was above this many metres for long enough."""
         return self._is_long() and all(max(told) > beyond**2 for _, told in self._told)
 
     def doubts(self, beyond: float) -> bool:
-        """Say whether it does not know its place to so many metres at the moment."""
+        """Return whether its present deviation is above this many metres."""
         variance = self.variance
         return variance is not None and variance > beyond**2
 

@@ -1,9 +1,9 @@
-"""What is asked of the firmware's supervisor: arming, crash recovery, and the emergency stop.
+"""Requests to the firmware's supervisor: arming, crash recovery, and the emergency stop.
 
-The firmware disarms some seconds after a landing, or after an arming that was not used, and is for a
-tenth of a second neither armed nor ready to be. A take-off at that moment is refused, or accepted and
-then cancelled. So a drone is armed anew for each take-off, by nothing but what it tells after each
-command: one that has just been armed has all of that time before it.
+The firmware disarms some seconds after a landing, or after an unused arming, and can then not be armed for a
+tenth of a second. A take-off at that moment is refused, or accepted and then cancelled. So a drone is
+rearmed for each take-off, verified by its state after each command: a drone that has just been armed has
+all of that time left.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ if TYPE_CHECKING:
 
 _ARM = 1
 _READY = 7.0
-"""Seconds until it can be armed: one that was disarmed may only see that when it would have been so."""
+"""The time-out until it can be armed, in seconds."""
 _ARMED = 3.0
-"""Seconds until it is armed: some start their motors slowly for that."""
+"""The time-out until it is armed, in seconds: some spin up their motors for that."""
 _SHOWS = 0.25
-"""Seconds of its own clock after which what it tells is surely later than its answer."""
+"""Seconds of its own clock after which a state is surely newer than its answer."""
 _DONE = 1
 
 
 async def rearm(session: CrazyflieSession) -> None:
-    """Arm it on the ground, whether it is armed or not; raise `NotReady` if it will not.
+    """Rearm it on the ground, whether it is armed or not; raise `NotReady` if that fails.
 
-    Nothing may be disarmed that flies: the caller has seen that it does not.
+    It must not fly, as disarming would drop it: the caller has checked that.
     """
     state = session.well()
     await enable_high_level(session)
@@ -48,12 +48,12 @@ async def rearm(session: CrazyflieSession) -> None:
 
 
 async def disarm(session: CrazyflieSession) -> None:
-    """Take its arming away: only ever on the ground, for in the air it falls."""
+    """Disarm it; only on the ground, as in the air it would fall."""
     await _ask(session, False)
 
 
 async def _armed(session: CrazyflieSession) -> bool:
-    """Arm it as soon as it can be, unless its build has done that; and see that it is so."""
+    """Arm it as soon as possible, unless it arms automatically, and verify that."""
     at, end = session.well(), session.loop.time() + _READY
 
     def ready(now: State) -> bool:
@@ -67,12 +67,12 @@ async def _armed(session: CrazyflieSession) -> bool:
             return True
         if await _ask(session, True):
             return await session.until(lambda now: now.armed and now.can_fly, _ARMED) is not None
-        await session.fresh()  # it was not so any more
+        await session.fresh()  # the state was outdated
     return False
 
 
 def _is_back(at: State, now: State) -> bool:
-    """Whether it has armed itself, as some builds do, since it told this."""
+    """Whether it has armed itself since this state, as some builds do."""
     return now.arms_itself and now.since(at) > _SHOWS and now.armed and now.can_fly
 
 
@@ -84,18 +84,18 @@ async def _ask(session: CrazyflieSession, on: bool) -> bool:
 
 _RECOVER = 2
 _RECOVERED = 3.0
-"""Seconds until it says that it is as before."""
+"""The time-out of a crash recovery, in seconds."""
 
 
 async def recover_from_crash(session: CrazyflieSession) -> None:
-    """Ask it for that; nothing, where it has not crashed. No motor turns by it.
+    """Request a crash recovery; does nothing if it has not crashed. Starts no motor.
 
-    Raises `NotReady` for one that does not stand upright.
+    Raises `NotReady` if it is not upright.
     """
     state = session.now()
     if not state.crashed:
         return
-    if state.has_trajectory:  # one that arms itself would fly on along it
+    if state.has_trajectory:  # one that arms itself would continue it
         await drop_trajectory(session)
     answer = await answered(
         session,
@@ -113,12 +113,12 @@ async def recover_from_crash(session: CrazyflieSession) -> None:
 
 
 _TIMES, _EACH = 5, 0.2
-"""How often it is sent, and for how many seconds its effect is waited for each time."""
+"""How often it is sent, and the seconds to wait for its effect each time."""
 _OLD_CHANNEL, _OLD_STOP = 1, b"\3"
 
 
 async def stop_motors(session: CrazyflieSession) -> None:
-    """Send it until it shows, in a thread of its own: what else is to be sent waits, this does not."""
+    """Send an emergency stop until it takes effect, in a thread of its own, ahead of all other commands."""
     cf = session.cf
     if cf.platform.get_protocol_version() >= messages.PROTOCOL:
         send = cf.supervisor.send_emergency_stop
@@ -137,7 +137,7 @@ async def stop_motors(session: CrazyflieSession) -> None:
             try:
                 if await session.until(off, _EACH, well=False) is not None:
                     return
-            except LinkLost:  # it may hear, though it is not heard
+            except LinkLost:  # it may receive even if nothing is received from it
                 await asyncio.sleep(_EACH)
     finally:
         worker.end()

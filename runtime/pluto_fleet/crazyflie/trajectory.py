@@ -1,4 +1,4 @@
-"""How long a trajectory takes, where one ends that is broken off, and how fast the drone follows.
+"""Trajectories: their duration, braking, and the speed at which a drone follows.
 
 A trajectory of the high-level commander is a polynomial of the seventh order that begins and ends at
 rest: its peak speed is 35/16 of its mean one, and over a short way it is the acceleration that counts.
@@ -28,31 +28,31 @@ if TYPE_CHECKING:
 PEAK = 2.19
 """Peak speed over mean speed."""
 _PUSH, _MOST = 7.52, 4.0
-"""Peak acceleration over distance and squared time; metres per second squared that it may be."""
+"""Peak acceleration over distance and squared time; and its limit in metres per second squared."""
 SHORTEST = 1.0
-"""Seconds: three metres in half of one have thrown a drone over."""
+"""The shortest duration in seconds: three metres in half a second have flipped a drone."""
 NEAR = 0.08
-"""Metres from its target at which it has arrived: it sways, and is to stay within ten centimetres."""
+"""Metres from its target within which it has arrived: it sways, and must stay within ten centimetres."""
 SLACK = 8.0
-"""Seconds that a trajectory may take longer: the drone is a little behind it, and settles at its end.
+"""Seconds that an arrival may be later than the trajectory's end: the drone lags, and settles there.
 
-By beacons as unsure as UWB (0.15 m) that took 4.6 s at most, in 400 simulated trajectories."""
+With beacons as noisy as UWB (0.15 m) that took up to 4.6 s in 400 simulated trajectories."""
 REST = 0.15
-"""Metres per second below which it hovers: wind and beacons let it sway."""
+"""Metres per second below which it hovers: wind and noise make it sway."""
 
 _AHEAD, _BRAKE = 0.2, 3.6
-"""The share of the way that it would make while it stops, which it is let go on: it cannot stop at once,
-and is flown back less. What it then brakes with, at one metre per second and in one second."""
+"""The share of its braking distance at which to hover, as it cannot stop at once; and its deceleration, from
+one metre per second in one second."""
 _SOON, _RECENT = 0.05, 0.5
-"""Seconds between two states, by the drone's clock, from which a speed can be told."""
+"""Seconds between two states, by the drone's clock, from which a speed can be computed."""
 _LOOK = 0.3
-"""Seconds for which it must hover: an estimate sways from one word to the next."""
+"""Seconds for which it must hover, as an estimate is noisy."""
 _FASTEST = 5.0
-"""Metres per second; what seems faster is a position that has jumped, or a clock."""
+"""Metres per second; a higher speed is a jump of the position, or of a clock."""
 _FARTHEST = 1.0
-"""Metres that it may take to stop."""
+"""The longest braking distance, in metres."""
 _LOWEST = 0.2
-"""Metres above the ground at which it may hover."""
+"""The lowest height at which it may hover, in metres."""
 
 
 def shortest_duration(metres: float, speed: float) -> float:
@@ -61,11 +61,10 @@ def shortest_duration(metres: float, speed: float) -> float:
 
 
 def hovers(states: Sequence[State], off: Callable[[State], float]) -> bool:
-    """Say whether a drone has been near its target and at rest for a moment, by what it told.
+    """Return whether a drone has been near its target and at rest for a moment, by its states.
 
-    The last of the states is from just now; `off`: how many metres it was away. At the end of a
-    trajectory its commander waits for it: that says nothing of how fast it still comes. One that shoots
-    over is near on its way past, too.
+    The last state is new; `off`: its distance in metres. The end of a trajectory does not mean that the
+    drone has come to rest, and one that overshoots is near its target, too, as it passes.
     """
     now = states[-1]
     for then in reversed(states):
@@ -78,9 +77,9 @@ def hovers(states: Sequence[State], off: Callable[[State], float]) -> bool:
 
 
 def braking(before: State | None, state: State) -> tuple[Point, float]:
-    """Return where a drone is to hover that is to stop now, and how long that takes.
+    """Return where a drone is to hover in order to stop now, and how long that takes.
 
-    That is never far, even if its telemetry is wrong: else it is where it says that it is.
+    That is never far away, even if its telemetry is wrong; if unknown, it is its present position.
     """
     target, seconds = state.position, SHORTEST
     passed = 0.0 if before is None else state.since(before)
@@ -99,35 +98,35 @@ def braking(before: State | None, state: State) -> tuple[Point, float]:
 
 _LIMIT_PARAMETERS = ("posCtlPid.xVelMax", "posCtlPid.yVelMax", "posCtlPid.zVelMax")
 DEFAULT_LIMIT = 1.0
-"""Metres per second, as long as it has not said: what the firmware has of its own."""
+"""The firmware's default speed limit in metres per second, until its parameters are known."""
 _CLIMB = 2 * CLIMB_SPEED
-"""Metres per second that an app climbs and lands with at most."""
+"""The largest vertical speed of an app, in metres per second."""
 _SINKS = 0.5
-"""The share of its upward limit at which it follows a landing so closely that it touches down."""
+"""The share of its upward limit up to which it follows a landing closely enough to touch down."""
 _ROUNDING = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
 class SpeedLimits:
-    """Metres per second ahead, aside and up; endless for a firmware that has no such limit."""
+    """Metres per second forward, sideways and up; infinite for a firmware without such limits."""
 
     limits: tuple[float, float, float]
 
     def seconds(self, start: Point, target: Point, speed: float) -> float:
-        """Return how long a trajectory must take that it can follow, and that never exceeds a speed."""
+        """Return the shortest duration of a trajectory that it can follow, below a maximum speed."""
         x, y, z = self.limits  # the first two are along its nose and across, wherever that points
         across, up = dist(start[:2], target[:2]), abs(target[2] - start[2])
         followed = PEAK * max(across / min(x, y), up / z)
         return max(shortest_duration(dist(start, target), speed), followed)
 
     def seconds_down(self, height: float, speed: float) -> float:
-        """Return how long a landing must take: its motors stop at its end, wherever it is then."""
+        """Return the duration of a landing: its motors stop at its end, wherever it is then."""
         return self.seconds(
             (0.0, 0.0, height), (0.0, 0.0, 0.0), min(speed, _SINKS * self.limits[2])
         )
 
     def too_slow_for(self, speed: float) -> Iterator[str]:
-        """Yield why a drone that may fly so fast cannot."""
+        """Yield why a drone cannot follow its maximum speed."""
         asked = (speed, speed, min(speed, _CLIMB))
         for name, limit, wanted in zip(_LIMIT_PARAMETERS, self.limits, asked, strict=True):
             if wanted > limit + _ROUNDING:
@@ -135,7 +134,7 @@ class SpeedLimits:
 
 
 def speed_limits_of(session: CrazyflieSession) -> SpeedLimits:
-    """Return what its parameters say; it need not be so as long as they have not all been read."""
+    """Return the limits of its parameters; preliminary until all have been read."""
     known = parameters.known(session)
     x, y, z = (_limit(session, known.get(name), name) for name in _LIMIT_PARAMETERS)
     return SpeedLimits((x, y, z))

@@ -1,7 +1,7 @@
-"""The one thread that calls cflib for a drone, so that no other drone waits when a call hangs.
+"""The thread that calls cflib for a drone, so that no other drone waits when a call hangs.
 
-A thread cannot be stopped from outside. One that hangs is given up: it is a daemon, so the process
-can end in spite of it, and the drone gets another one when it is connected to again.
+A thread cannot be stopped from outside. One that hangs is abandoned: it is a daemon, so that the process can
+end, and the drone gets a new one when it is reconnected.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ T = TypeVar("T")
 
 
 class Worker:
-    """A daemon thread that takes one call after the other; made and used in an event loop."""
+    """A daemon thread that runs one call after the other; made and used in an event loop."""
 
     def __init__(self, drone: str) -> None:
         self._drone = drone
         self._jobs: SimpleQueue[Callable[[], None] | None] = SimpleQueue()
         self.stuck = False
-        """A call has not come back in its time, and none is taken any more."""
+        """Whether a call has not returned in time: further ones are refused."""
         self._thread = Thread(target=self._work, name=f"cflib for {drone}", daemon=True)
         self._thread.start()
 
     async def call(self, call: Callable[[], T], limit: float) -> T:
-        """Return what a call gives; raise `LinkLost` if it is not back within the limit."""
+        """Run a call, and return its result; raise `LinkLost` after the time-out."""
         if self.stuck:
             raise LinkLost(messages.stuck(self._drone, limit))
         job: Future[T] = Future()
@@ -52,7 +52,7 @@ class Worker:
         raise LinkLost(messages.stuck(self._drone, limit))
 
     def post(self, call: Callable[[], object]) -> None:
-        """Call this some time; how it ends is not told."""
+        """Queue a call, without waiting for its result."""
 
         def run() -> None:
             with suppress(Exception):
@@ -61,7 +61,7 @@ class Worker:
         self._jobs.put(run)
 
     def end(self) -> None:
-        """Let the thread end, after what it does now."""
+        """End the thread after its present call."""
         self._jobs.put(None)
 
     def _work(self) -> None:

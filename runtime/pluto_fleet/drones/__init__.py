@@ -1,4 +1,4 @@
-"""How one real drone is flown: what a navigation is made of, and what it may raise."""
+"""Flying real drones: the navigation protocol, its errors, and a team of drones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a drone is told, one thing after the other; what is broken off ends in a hover."""
+"""The commands of a drone, one after the other; an aborted one ends in a hover."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from plutoc_runtime.domain.errors import Failure, FlightFailed
 T = TypeVar("T")
 
 _CANNOT_HOVER = frozenset({Failure.LINK, Failure.CRASH})
-"""Failures after which a drone cannot be told to hover."""
+"""Failures after which a drone cannot be commanded to hover."""
 
 
 class CommandQueue:
@@ -22,15 +22,15 @@ class CommandQueue:
         self._hold = hold
         self._turn = asyncio.Lock()
         self._over: asyncio.Future[None] | None = None
-        """Fails when what is under way is broken off."""
+        """Fails when the command in progress is aborted."""
         self._brake: asyncio.Task[None] | None = None
         self.doing = ""
-        """What is under way."""
+        """The command in progress."""
 
     async def run(self, doing: str, work: Callable[[], Coroutine[Any, Any, T]]) -> T:
-        """Do this when all else is done; raise `FlightFailed` as soon as it is broken off.
+        """Run a command after all earlier ones; raise `FlightFailed` as soon as it is aborted.
 
-        When it is cancelled, broken off or fails, the drone is left hovering.
+        When it is cancelled, aborted or fails, the drone is left hovering.
         """
         async with self._turn:
             await self._braked()
@@ -54,17 +54,17 @@ class CommandQueue:
                 self._over, self.doing = None, ""
 
     def fail(self, error: FlightFailed) -> None:
-        """Break off what is under way, if anything is: it raises this."""
+        """Abort the command in progress, if any: it raises this."""
         if self._over is not None and not self._over.done():
             self._over.set_exception(error)
 
     def release(self) -> None:
-        """Do not wait until it hovers."""
+        """Stop waiting until it hovers."""
         if self._brake is not None:
             self._brake.cancel()
 
     async def idle(self) -> None:
-        """Wait until nothing is under way."""
+        """Wait until no command is in progress."""
         async with self._turn:
             await self._braked()
 
@@ -72,7 +72,7 @@ class CommandQueue:
         self._brake = asyncio.ensure_future(self._braking(task, holds))
 
     async def _braking(self, task: asyncio.Task[Any], holds: bool) -> None:
-        """Let what was under way end before anything else begins."""
+        """End the last command in a hover before the next one begins."""
         task.cancel()
         await asyncio.wait((task,))
         if holds:
@@ -90,6 +90,6 @@ class CommandQueue:
 
 
 def _heard(task: asyncio.Task[Any]) -> None:
-    """Take note of how it ended: its caller has been told why."""
+    """Retrieve the exception: the caller has been told already."""
     if not task.cancelled():
         task.exception()

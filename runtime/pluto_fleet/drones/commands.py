@@ -1,8 +1,7 @@
-"""How one drone of the team flies and acts: each command under a limit, one after the other.
+"""The commands of one drone of the team: each has a time-out, one after the other.
 
-A navigation that is a package of its own has another copy of `Photo` than the app, and its library
-may count in numbers of its own: so the result of an action is made anew. What is none of what the
-action gives is a mistake of the navigation's, and no result.
+A navigation in another package may use another copy of `Photo`, and numbers of its library's own
+types: so the result of an action is converted. A result of the wrong kind is a bug of the navigation.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ LONGEST = 60
 
 
 def result_of(drone: str, action: str, gave: object) -> object:
-    """Return a number, a `Photo` or nothing; raise `FlightFailed` if it is none of these."""
+    """Convert a result to a number, a `Photo` or None; raise `FlightFailed` if it is none of these."""
     if action in (PICK, RELEASE):
         return None
     try:
@@ -53,7 +52,7 @@ def _number(gave: object) -> float:
 
 
 def _photo(gave: Any) -> Photo:
-    """Return a photo like this one, of whichever copy of the class it is."""
+    """Convert a photo of any copy of the class."""
     x, y, z = gave.position
     file = getattr(gave, "file", None)
     return Photo(
@@ -67,13 +66,13 @@ def _photo(gave: Any) -> Photo:
 
 
 CUT_LIMIT = 2.0
-"""Seconds within which motors must be off that a person wants off."""
+"""The time-out of switching motors off on command, in seconds."""
 LANDED_LIMIT = 3.0
-"""Seconds after a landing until a drone must have told that it flies no more."""
+"""Seconds after a landing within which a drone must report that it has landed."""
 
 
 async def takeoff(vehicle: Vehicle, height: float) -> None:
-    """Rise straight up to a height; does nothing for a drone that flies."""
+    """Take off straight up to a height; does nothing for a drone that flies."""
     await vehicle.commands.run(RISE, partial(_take_off, vehicle, height))
 
 
@@ -95,7 +94,7 @@ async def _take_off(vehicle: Vehicle, height: float) -> None:
             "take off", height / vehicle.climb, vehicle.navigation.takeoff, height, vehicle.climb
         )
     finally:
-        if vehicle.linked:  # until it says whether it flies: the command may have reached it
+        if vehicle.linked:  # until it reports whether it flies: it may have received the command
             vehicle.telemetry.rises_until = vehicle.calls.clock() + RISING
 
 
@@ -133,13 +132,13 @@ async def descend(vehicle: Vehicle) -> None:
     seconds = max(0.0, vehicle.telemetry.location[2]) / vehicle.climb
     await vehicle.go("land", seconds, vehicle.navigation.land, vehicle.climb)
     vehicle.telemetry.rises_until = -inf
-    # what it told last may be older than that
+    # its telemetry may be older than that
     if not await vehicle.until(lambda: vehicle.telemetry.landed, LANDED_LIMIT):
         raise FlightFailed(Failure.ACTION, f"{vehicle.id} was to land, and flies all the same")
 
 
 async def hold(vehicle: Vehicle) -> None:
-    """Hover, until it is told not to or something goes wrong."""
+    """Hover until cancelled, or until something fails."""
     await vehicle.commands.run("hover", partial(_hold, vehicle))
 
 
@@ -150,14 +149,14 @@ async def _hold(vehicle: Vehicle) -> None:
 
 
 async def cut(vehicle: Vehicle) -> None:
-    """Switch its motors off, now: what it does ends, and it does not even hover."""
+    """Switch its motors off at once: its command is aborted, without a hover."""
     vehicle.is_cut = True
     vehicle.commands.release()
     try:
         await vehicle.calls.call(
             "switch its motors off", CUT_LIMIT, vehicle.navigation.emergency_stop
         )
-    except FlightFailed:  # it could not be told: it flies on
+    except FlightFailed:  # it could not be reached: it flies on
         vehicle.is_cut = False
         raise
     vehicle.must_land = False
@@ -173,13 +172,13 @@ def check_airborne(vehicle: Vehicle) -> None:
 
 
 READ_LIMIT = 5.0
-"""Seconds that it may take to read a value, or to set one."""
+"""The time-out of reading or setting a value, in seconds."""
 
 
 async def act(
     vehicle: Vehicle, action: str, parameters: Mapping[str, Plain], item: Item | None
 ) -> object:
-    """Do one of the built-in actions here."""
+    """Do a built-in action here."""
     return await vehicle.commands.run(action, partial(_act, vehicle, action, parameters, item))
 
 
@@ -216,7 +215,7 @@ def why_not(vehicle: Vehicle, action: str, parameters: Mapping[str, Plain]) -> s
 
 
 async def read(vehicle: Vehicle, name: str) -> float:
-    """Return what it measures under this name."""
+    """Return a sensor or variable."""
     vehicle.check()
     if not isinstance(vehicle.navigation, Readable):
         raise FlightFailed(Failure.ACTION, f"{vehicle.id} has nothing that can be read")
@@ -228,7 +227,7 @@ async def read(vehicle: Vehicle, name: str) -> float:
 
 
 async def write(vehicle: Vehicle, name: str, value: float) -> None:
-    """Set what it has under this name."""
+    """Set a parameter."""
     vehicle.check()
     if not isinstance(vehicle.navigation, Readable):
         raise FlightFailed(Failure.ACTION, f"{vehicle.id} has nothing that can be written")

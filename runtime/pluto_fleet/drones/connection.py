@@ -1,4 +1,4 @@
-"""The link to one drone: connected, and again whenever it was lost; closed once the drone has landed.
+"""The link to one drone: connected, reconnected when lost, and closed once the drone has landed.
 
 Closing a link may cut the motors, so a drone is landed first.
 """
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
 
 
 WAIT_FOR_CONNECTION = 15.0
-"""Seconds for which others wait for a drone to be connected."""
+"""Seconds for which commands wait for a drone to be connected."""
 ATTEMPT_LIMIT = 60.0
-"""Seconds that an attempt may take, waited for or not: the first over a busy radio is slow."""
+"""The time-out of one attempt, in seconds: the first over a busy radio is slow."""
 PAUSES = (1.0, 2.0, 4.0, 5.0)
-"""Seconds between attempts; the last for as long as it may fly, or while it is waited for."""
+"""Seconds between attempts; the last repeats while the drone may fly, or something waits for it."""
 PAUSE_ON_GROUND = 30.0
-"""Seconds between attempts for one that stands on the ground: others need the radio."""
+"""Seconds between attempts for a drone on the ground: others need the radio."""
 FRESH = 1.0
-"""Seconds within which a drone that is said to be connected must have told where it is."""
+"""Seconds within which a connected drone must have sent its position."""
 
 
 class Connection:
@@ -41,22 +41,22 @@ class Connection:
         self._wanted, self._tried = asyncio.Event(), asyncio.Event()
         self._was_linked = self._given_up = False
         self._waiting = 0
-        """How many wait for it."""
+        """How many callers wait for it."""
         self._task: asyncio.Task[None] | None = None
         vehicle.on_lost = self._wanted.set
 
     def start(self) -> asyncio.Task[None]:
-        """Connect, from now on, for as long as this task runs."""
+        """Connect, and reconnect, as long as this task runs."""
         self._task = asyncio.ensure_future(self._keep())
         return self._task
 
     def stop(self) -> None:
-        """Do not try any more."""
+        """Make no further attempts."""
         if self._task is not None:
             self._task.cancel()
 
     async def once(self) -> bool:
-        """Say whether it is linked; if it is not, after one more attempt."""
+        """Return whether it is linked, if needed after one more attempt."""
         vehicle = self._vehicle
         if not vehicle.linked:
             self._wanted.set()
@@ -70,7 +70,7 @@ class Connection:
         return vehicle.linked
 
     async def within(self, limit: float) -> bool:
-        """Wait until it is linked, and say whether it is; after that it counts as given up."""
+        """Wait until it is linked, and return whether it is; after the time-out it is given up."""
         self._given_up = False
         self._wanted.set()
         self._waiting += 1
@@ -102,7 +102,7 @@ class Connection:
                     await self._wanted.wait()
 
     def _pause(self, attempts: int) -> float:
-        """Return for how long to wait after so many attempts."""
+        """Return the pause after this many attempts."""
         if attempts > len(PAUSES) and self._vehicle.telemetry.landed and not self._waiting:
             return PAUSE_ON_GROUND
         return PAUSES[min(attempts, len(PAUSES)) - 1]
@@ -130,7 +130,7 @@ class Connection:
             self._vehicle.calls.say(why)
 
     def _is_back(self, flew: bool) -> None:
-        """It was lost meanwhile: it hovers on, or was switched off and on."""
+        """Handle a reconnection: it hovers as before, or was restarted."""
         vehicle, telemetry = self._vehicle, self._vehicle.telemetry
         where = place(telemetry.location)
         if telemetry.landed:
@@ -144,15 +144,15 @@ class Connection:
 
 
 CLOSE_LIMIT = 20.0
-"""Seconds that a navigation may take to close a link."""
+"""The time-out of closing a link, in seconds."""
 _LANDING_ATTEMPTS, _BETWEEN_LANDINGS = 3, 1.0
-"""How often a drone is told to land that does not; seconds in between."""
+"""How often a landing is tried, and the seconds in between."""
 
 
 async def close(team: Sequence[tuple[Vehicle, Connection]]) -> None:
-    """Land all that fly, wait until they have landed, and let go of each.
+    """Land all drones in the air, wait until they have landed, and close each link.
 
-    One limit holds for all landings: one that must be connected to first has as long as the one that flies highest.
+    All landings share one time-out: a drone that must be reconnected first has as long as the highest one.
     """
     slowest = max((_seconds(vehicle) for vehicle, _ in team), default=0.0)
     until = asyncio.get_running_loop().time() + WAIT_FOR_CONNECTION + slowest
@@ -160,7 +160,7 @@ async def close(team: Sequence[tuple[Vehicle, Connection]]) -> None:
 
 
 def _seconds(vehicle: Vehicle) -> float:
-    """Return for how long a landing from where it is may take."""
+    """Return how long a landing from where it is may take."""
     return (
         max(0.0, vehicle.telemetry.location[2]) / vehicle.climb * TIME_FACTOR
         + TIME_MARGIN
@@ -174,7 +174,7 @@ async def _close(vehicle: Vehicle, connection: Connection, until: float) -> None
         async with asyncio.timeout_at(until):
             await _land(vehicle, connection)
     if not vehicle.telemetry.landed:
-        vehicle.commands.release()  # what was told to land comes down as far as it can
+        vehicle.commands.release()  # a landing in progress continues by itself
         where = place(vehicle.telemetry.location)
         vehicle.calls.say(f"{vehicle.id} could not be landed: it may still hover at {where}")
     connection.stop()

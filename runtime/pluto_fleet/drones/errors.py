@@ -1,8 +1,8 @@
-"""What may go wrong with one drone: the exceptions of a navigation, one a failure.
+"""The exceptions of a navigation, one for each failure of a drone.
 
-What becomes of a flight is decided by the attribute `failure` of what was raised, not by its class:
-a navigation that is a package of its own need not import these, but only to give its exceptions
-this attribute. Their text is a reason for a person, such as "cf1 stopped answering 1.2 s ago".
+What counts is the attribute `failure` of an exception, and not its class: a navigation in another
+package need not import these, but only give its exceptions this attribute. Their text is a reason for
+a person, such as "cf1 stopped answering 1.2 s ago".
 """
 
 from __future__ import annotations
@@ -11,54 +11,54 @@ from typing import ClassVar
 
 
 class NavigationError(Exception):
-    """A drone could not do what it was told, for a reason that the world is to blame for.
+    """A drone could not carry out a command, for a reason outside the software.
 
-    Any other exception of a navigation is a mistake in it: the flight fails, saying so, and the
-    mistake goes to the log with its traceback.
+    Any other exception of a navigation is a bug in it: the flight fails with that reason, and the
+    traceback goes to the log.
     """
 
     failure: ClassVar[str] = "ACTION"
-    """LINK, CRASH, BATTERY, REFUSED or ACTION: what this is to the app that flies."""
+    """LINK, CRASH, BATTERY, REFUSED or ACTION: the kind of failure for the app."""
 
 
 class LinkLost(NavigationError):
-    """It does not answer, or has not told anything for more than a second.
+    """It does not answer, or has sent nothing for more than a second.
 
-    Where it is is unknown; it is connected to again, and flown home if it still hovers.
+    Its position is unknown; it is reconnected, and flown home if it still hovers.
     """
 
     failure = "LINK"
 
 
 class Crashed(NavigationError):
-    """It fell, hit something or lies on its back: a person must look after it."""
+    """It fell, hit something or lies on its back: it needs a person."""
 
     failure = "CRASH"
 
 
 class Locked(NavigationError):
-    """Its motors are locked until it is switched off and on."""
+    """Its motors are locked until it is restarted."""
 
     failure = "CRASH"
 
 
 class PositionLost(NavigationError):
-    """It does not know any more where it is: it lands, and nothing is done there.
+    """It has lost its position: it lands, and does no action there.
 
-    Said by an event, too: a drone that is doing nothing must come down as well.
+    Also sent as an event, as a drone without a command must come down as well.
     """
 
     failure = "LINK"
 
 
 class BatteryLow(NavigationError):
-    """What is left in its battery does not do for this."""
+    """Its battery is too low for this."""
 
     failure = "BATTERY"
 
 
 class Rejected(NavigationError):
-    """It answered, and will not do it: a command at the wrong moment, a value that it has not."""
+    """It answered, and refuses: a command at the wrong moment, or an unknown name."""
 
     failure = "REFUSED"
 
@@ -70,18 +70,18 @@ class NotReady(NavigationError):
 
 
 class OutsideArea(NavigationError):
-    """It cannot go there: refused before it moves, and never brought to the nearest place."""
+    """The target is not permitted: refused before it moves, and never adjusted."""
 
     failure = "REFUSED"
 
 
 class TargetTimeout(NavigationError):
-    """It is well and answers, but has not arrived in a time that is ample."""
+    """It is healthy and answers, but has not arrived in ample time."""
 
     failure = "ACTION"
 
 
 class ActionNotDone(NavigationError):
-    """An action did not succeed; the drone is well."""
+    """An action failed; the drone is healthy."""
 
     failure = "ACTION"

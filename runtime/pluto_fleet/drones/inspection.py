@@ -1,10 +1,9 @@
-"""What is wrong with a class that a fleet file names, found before it flies.
+"""Checking a class that a fleet file names, before anything flies.
 
-Its text is looked up first: what a mere fleet file names is not run to find out. Only where there is
-such a class is its module imported, in a process of its own first: the import may hang, or end the
-process. Then its methods are looked at; none is called, and types are not checked: mypy does that.
-What an installed package offers by an entry point is not looked up: there the package itself says what
-it is.
+Its source is examined first, so that nothing is run only because a fleet file names it. If there is such a
+class, its module is imported, first in another process, as the import may hang or end the process. Then
+its methods are checked; none is called, and types are left to mypy.
+The source behind an entry point of an installed package is not examined.
 """
 
 from __future__ import annotations
@@ -29,25 +28,25 @@ from .plugins import CallStyle, Method, PluginKind
 from .timeouts import shortened
 
 _MOST_IMPORTS = 8
-"""So many modules may hand a class on to each other."""
+"""The longest chain of re-exports of a class."""
 
 
 class _Lookup(NamedTuple):
-    """Something to be found, for the sentences that say that it is not there."""
+    """The class that is looked for, for messages that it does not exist."""
 
     kind: PluginKind
     name: str
     far: int = 0
-    """How many modules have handed it on."""
+    """The length of the chain of re-exports so far."""
 
     def refused(self, why: str) -> BadInput:
-        """Return the error about what is sought."""
+        """Return the error with a reason."""
         return self.kind.refused(self.name, why)
 
 
 def look_up(kind: PluginKind, name: str, module: str, path: str) -> None:
-    """Raise `BadInput` if a module is not there, or has no such class; nothing of it is run."""
-    if module not in sys.modules:  # what it runs has been run
+    """Raise `BadInput` if a module does not exist, or has no such class; nothing of it is run."""
+    if module not in sys.modules:  # it has been imported already
         _look(_Lookup(kind, name), module, path.split("."))
 
 
@@ -72,7 +71,7 @@ def _look(sought: _Lookup, module: str, path: Sequence[str]) -> None:
                 return _look_further(sought, spec, body, part, rest)
             case None if not bases:
                 raise plugins.no_such_class(sought.kind, sought.name, part, _classes(body))
-            case _:  # only to run it would tell
+            case _:  # only running it would tell
                 return None
     return None
 
@@ -80,7 +79,7 @@ def _look(sought: _Lookup, module: str, path: Sequence[str]) -> None:
 def _look_further(
     sought: _Lookup, spec: ModuleSpec, body: Sequence[ast.stmt], part: str, rest: Sequence[str]
 ) -> None:
-    """Look for what a module does not bind by that name: in its modules, or behind a star."""
+    """Look for a name that a module does not bind itself: a submodule, or a star import."""
     if rest and spec.submodule_search_locations is not None and _found(spec, part):
         return _look(sought, f"{spec.name}.{part}", rest)
     star = _last(body, "*")
@@ -92,7 +91,7 @@ def _look_further(
 
 
 def _follow(sought: _Lookup, spec: ModuleSpec, found: ast.ImportFrom, path: Sequence[str]) -> None:
-    """Look where a module has a name from."""
+    """Follow the import of a name."""
     if sought.far == _MOST_IMPORTS:
         raise plugins.no_such_class(sought.kind, sought.name, path[0], ())
     package = spec.name if spec.submodule_search_locations is not None else spec.parent
@@ -107,7 +106,7 @@ def _follow(sought: _Lookup, spec: ModuleSpec, found: ast.ImportFrom, path: Sequ
 
 
 def _spec(sought: _Lookup, module: str) -> ModuleSpec:
-    """Return where a module is, without running those above it."""
+    """Return a module's spec, without importing its parents."""
     spec: ModuleSpec | None = None
     parts = module.split(".")
     for number, part in enumerate(parts, 1):
@@ -137,7 +136,7 @@ def _found(above: ModuleSpec | None, part: str) -> ModuleSpec | None:
 
 
 def _body(sought: _Lookup, spec: ModuleSpec) -> Sequence[ast.stmt]:
-    """Return what a module says; raise `BadInput` where that cannot be read."""
+    """Return a module's syntax tree; raise `BadInput` if it cannot be read."""
     read = getattr(spec.loader, "get_source", None)
     try:
         text: str | None = None if read is None else read(spec.name)
@@ -153,7 +152,7 @@ def _body(sought: _Lookup, spec: ModuleSpec) -> Sequence[ast.stmt]:
 
 
 def _statements(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
-    """Yield the statements that bind names here: not those inside of functions and classes."""
+    """Yield the statements that bind names at the module's level."""
     for one in body:
         yield one
         if not isinstance(one, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
@@ -165,7 +164,7 @@ def _statements(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
 
 
 def _last(body: Sequence[ast.stmt], name: str) -> ast.stmt | None:
-    """Return the last statement that binds a name; a class before all else."""
+    """Return the last statement that binds a name, preferably a class."""
     found = [one for one in _statements(body) if name in _names(one)]
     classes = [one for one in found if isinstance(one, ast.ClassDef)]
     return [None, *found, *classes][-1]
@@ -194,13 +193,13 @@ def _classes(body: Sequence[ast.stmt]) -> list[str]:
 
 
 def _texts(body: Sequence[ast.stmt]) -> set[object]:
-    """Return the texts in a module: what it gives only when it is asked stands in one of them."""
+    """Return the string literals of a module: a name from `__getattr__` is one of them."""
     nodes = (node for one in body for node in ast.walk(one))
     return {node.value for node in nodes if isinstance(node, ast.Constant)}
 
 
 def _refuse_what_has_nothing(sought: _Lookup, found: ast.ClassDef) -> None:
-    """Raise `BadInput` for a class that is its own and has no method of its kind at all."""
+    """Raise `BadInput` for a class without bases that has none of the required methods."""
     if found.bases or found.keywords or found.decorator_list:
         return
     has = {name for one in _statements(found.body) for name in _names(one)}
@@ -211,10 +210,10 @@ def _refuse_what_has_nothing(sought: _Lookup, found: ast.ClassDef) -> None:
 
 
 IMPORT_LIMIT = 20.0
-"""Seconds that an import may take."""
+"""The time-out of an import, in seconds."""
 
 _IMPORTED = 93
-"""How the process ends that has seen the import to its end; if that has raised, so it will here."""
+"""The exit code after a completed import; if that has raised, it will do so here, too."""
 
 _PROGRAM = "\n".join(
     (
@@ -231,7 +230,7 @@ _PROGRAM = "\n".join(
 
 
 def try_import(kind: PluginKind, name: str, module: str) -> None:
-    """Raise `BadInput` if the import of a module does not end, or does not come back."""
+    """Raise `BadInput` if the import of a module does not end, or ends the process."""
     if module in sys.modules:
         return
     command = [sys.executable, "-c", _PROGRAM, module, *sys.path]
@@ -254,7 +253,7 @@ def try_import(kind: PluginKind, name: str, module: str) -> None:
 
 
 def _not_imported(module: str, why: str, said: IO[bytes]) -> str:
-    """Say why a module cannot be imported, with the last line that it said, if it said any."""
+    """Return the error for a failed import, with its last line of output."""
     said.seek(0)
     lines = said.read().decode("utf-8", "replace").strip().splitlines()
     last = f"; the last it said: {shortened(lines[-1])}" if lines else ""
@@ -290,7 +289,7 @@ def problems(kind: PluginKind, made: type) -> list[str]:
 def _of_method(made: type, method: Method) -> Iterator[str]:
     attribute = _attribute(made, method)
     if method.shape is CallStyle.PROPERTY:
-        if inspect.isroutine(attribute):  # none at all may be set when an object is made
+        if inspect.isroutine(attribute):  # a missing one may be set by `__init__`
             yield "its telemetry must be a property: put @property above it"
         return
     if attribute is _NOTHING:
@@ -321,22 +320,22 @@ def _attribute(made: type, method: Method) -> object:
 
 
 def _arguments(made: type, method: Method) -> list[str]:
-    """Return what it is called with, looked up on the class: the object itself is one of it."""
+    """Return the arguments of a method, looked up on the class, with the object itself."""
     return [*([] if _stands_alone(made, method) else ["self"]), *method.takes]
 
 
 def _stands_alone(made: type, method: Method) -> bool:
-    """Say whether a method needs no object."""
+    """Return whether a method needs no object."""
     return isinstance(inspect.getattr_static(made, method.name), (staticmethod, classmethod))
 
 
 def _takes(called: object, arguments: list[str]) -> bool:
-    """Say whether something can be called with so many arguments; unknown counts as yes."""
+    """Return whether something can be called with this many arguments; unknown counts as yes."""
     if not callable(called):
         return False
     try:
         signature = inspect.signature(called)
-    except (TypeError, ValueError):  # written in another language than Python
+    except (TypeError, ValueError):  # not written in Python
         return True
     try:
         signature.bind(*arguments)

@@ -1,10 +1,9 @@
-"""Finds the class that a fleet file names to fly its drones, or to see them; nothing of it is called.
+"""Loading the navigation or localization class that a fleet file names; nothing of it is called.
 
-Its module is imported once it is known that it has such a class (`inspection.py`).
+Its module is imported after a check that it has such a class (`inspection.py`).
 
-A name is one of ours (`crazyflie`), one that an installed package offers by an entry point, or
-`module:Class`. Only what is installed is found: a fleet file is data, and the folder that it lies in
-is no place for code.
+A name is a built-in one (`crazyflie`), an entry point of an installed package, or `module:Class`. Only
+installed modules are found: a fleet file is data, and its folder is no place for code.
 """
 
 from __future__ import annotations
@@ -53,17 +52,17 @@ LOCALIZATION = PluginKind(
 
 
 def load_navigation(name: str) -> Callable[[DroneSetup], DroneNavigation]:
-    """Return the class that a fleet file names to fly drones; raise `BadInput` if that fails."""
+    """Return the navigation class that a fleet file names; raise `BadInput` if that fails."""
     return cast("Callable[[DroneSetup], DroneNavigation]", _loaded(NAVIGATION, name))
 
 
 def load_localization(name: str) -> Callable[[Mapping[str, object]], Localization]:
-    """Return the class that a fleet file names to see drones; not for `own`, which is none."""
+    """Return the localization class that a fleet file names; not for `own`, which has none."""
     return cast("Callable[[Mapping[str, object]], Localization]", _loaded(LOCALIZATION, name))
 
 
 def hears(name: str) -> bool:
-    """Say whether drones that are flown so can be told where they are; raise as loading does."""
+    """Return whether a navigation accepts positions from outside; raise as loading does."""
     return hasattr(load_navigation(name), "locate")
 
 
@@ -82,7 +81,7 @@ def _made(kind: PluginKind, name: str, of: Callable[[S], T], argument: S, whose:
         return of(argument)
     except KeyboardInterrupt:
         raise
-    except ANY_ERROR as error:  # an option that it cannot use, mostly
+    except ANY_ERROR as error:  # usually an invalid option
         raise kind.refused(name, f"could not be made{whose}: {_said(error)}") from error
 
 
@@ -107,7 +106,7 @@ def _loaded(kind: PluginKind, name: str) -> object:
 
 
 def _offered(kind: PluginKind, name: str) -> str:
-    """Return the `module:Class` that an installed package offers under a name."""
+    """Return the `module:Class` of an entry point."""
     from importlib.metadata import entry_points
 
     points = entry_points(group=kind.group)
@@ -157,9 +156,9 @@ def _imported(kind: PluginKind, name: str, module: str, path: str) -> object:
 
 @contextmanager
 def _only_what_is_installed() -> Iterator[None]:
-    """Look for no module in the current folder, as `python -m` would.
+    """Keep modules in the current folder from being imported, as `python -m` would do.
 
-    Nor does the gateway's process: so both find the same.
+    The gateway's process does the same, so both find the same modules.
     """
     first = sys.path[:1]
     here = not sys.flags.safe_path and any(os.path.isdir(one or ".") for one in first)

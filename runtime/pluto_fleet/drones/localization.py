@@ -1,9 +1,9 @@
-"""Positions that are measured from outside: what measures them, and how they are fed to the drones.
+"""Positions that are measured from outside, and fed to the drones.
 
 A drone that estimates its own position (by a Lighthouse deck, Loco anchors, a flow deck, GPS) needs
-nothing of this: that is the localization `own`. Any other is a class of a user's, named in the fleet
-file. A source may stop, fail, name unknown drones or talk nonsense, and a drone may take long to hear:
-none of that holds up the others, nor ends the feed.
+nothing of this: that is the localization `own`. Any other is a user's class, named in the fleet file. A
+source may stop, fail, name unknown drones or yield nonsense, and a drone may be slow to receive: none of
+that delays the others, or ends the feed.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
 
 
 OWN = "own"
-"""The name of the localization that feeds nothing."""
+"""The name of the drones' own localization, which feeds nothing."""
 
 
 class Localization(Protocol):
     """A system that measures where drones are; the class is called with the table `[localization]`."""
 
     def positions(self) -> AsyncIterator[tuple[str, Point]]:
-        """Yield positions for as long as they are wanted: the drone's id, and where it is.
+        """Yield positions until cancelled: the drone's id, and its position.
 
         Metres, in the map's frame: positions in another frame are converted here. At least ten times a
         second for each drone; one that has had none for a second may not take off, and its flight
@@ -43,17 +43,17 @@ class Localization(Protocol):
 
 
 SILENCE = 1.0
-"""Seconds without a position, after which a drone does not know any more where it is."""
+"""Seconds without a position after which a drone has lost its position."""
 PAUSE = 1.0
-"""Seconds until a source that ended is asked again."""
+"""Seconds until a source that has ended is called again."""
 _MISTAKES: tuple[type[Exception], ...] = (Exception,)
-"""What a class of a user's raises is put into the log, and nothing else stops."""
+"""Exceptions of a user's class, which are logged and stop nothing else."""
 _MOST_SENTENCES = 20
-"""How many unknown drones are named: a source may make up ever new ones."""
+"""How many unknown drones are logged: a source may invent ever new ones."""
 
 
 class LocalizationFeed:
-    """One localization and the drones that go by it; lives in a running event loop."""
+    """Feeds one localization's positions to the drones, in a running event loop."""
 
     def __init__(
         self,
@@ -64,30 +64,30 @@ class LocalizationFeed:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.name = name
-        """As the fleet file has it."""
+        """Its name in the fleet file."""
         self._source, self._drones, self._log, self._clock = source, drones, log, clock
         self._heard = dict.fromkeys(drones, clock())
-        """When each was told where it is: what is only on its way helps no drone."""
+        """When each drone has received its latest position."""
         self._latest: dict[str, Point] = {}
-        """What a drone is still to be told; older positions are not worth it."""
+        """The latest position still to be sent to each drone; older ones are dropped."""
         self._telling: dict[str, asyncio.Task[None]] = {}
         self._said: set[str] = set()
         self._listening: asyncio.Task[None] | None = None
 
     def start(self) -> None:
-        """Begin to listen, and to feed."""
+        """Start the feed."""
         if self._listening is None:
             self._listening = asyncio.create_task(self._listen(), name=f"positions of {self.name}")
 
     def silent(self, drone: str) -> str | None:
-        """Return why a drone does not know where it is, or None: a position came within a second."""
+        """Return why a drone has no current position, or None."""
         heard = self._heard.get(drone)
         if heard is None or (since := self._clock() - heard) <= SILENCE:
             return None
         return f"no position from {self.name} for {since:.1f} s"
 
     async def close(self) -> None:
-        """Stop; nothing is left of it."""
+        """Stop the feed, and wait until it has ended."""
         tasks = [*self._telling.values()]
         if self._listening is not None:
             tasks.append(self._listening)
@@ -102,7 +102,7 @@ class LocalizationFeed:
                 positions = self._source.positions()
                 async for one in positions:
                     self._hear(one)
-                    await asyncio.sleep(0)  # or one that is never out of news would hold up all
+                    await asyncio.sleep(0)  # a source that never waits would block the loop
                 why = "it ended"
             except _MISTAKES as error:
                 why = f"{type(error).__name__}: {error}"
@@ -142,7 +142,7 @@ class LocalizationFeed:
             del self._telling[drone]
 
     def _say(self, sentence: str) -> None:
-        """Log something once: a source that is wrong is wrong many times a second."""
+        """Log something once: a faulty source is faulty many times a second."""
         if sentence not in self._said and len(self._said) < _MOST_SENTENCES:
             self._said.add(sentence)
             self._log(sentence)

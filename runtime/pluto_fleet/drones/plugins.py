@@ -1,5 +1,5 @@
-"""What a fleet file may name, navigations and localizations: their methods as data, and what is
-said of a class that cannot be used.
+"""The plugins of a fleet file, navigations and localizations: their methods as data, and the messages
+for a class that cannot be used.
 """
 
 from __future__ import annotations
@@ -26,31 +26,31 @@ class CallStyle(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """A method that the runtime calls, by place and never by name."""
+    """A method that the runtime calls, with positional arguments."""
 
     name: str
     shape: CallStyle = CallStyle.WAITS
     takes: tuple[str, ...] = ()
     of_class: bool = False
-    """Whether it is called without a drone: of the class."""
+    """Whether it is a static method."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PluginKind:
-    """Something that a fleet file names, and a package may offer."""
+    """A kind of plugin, which a fleet file names and a package may offer."""
 
     word: str
     group: str
-    """Of entry points."""
+    """The group of its entry points."""
     argument: str
-    """What the class is called with."""
+    """The argument of the class."""
     such_as: str
     """An example of a name."""
     methods: tuple[Method, ...]
     together: tuple[tuple[Method, ...], ...] = ()
-    """What only some have: all of such a group, or none of it."""
+    """Optional groups of methods: a class has all of a group, or none."""
     ours: tuple[tuple[str, str], ...] = ()
-    """Those of this library: each name and its `module:Class`, seen from here; no package replaces them."""
+    """The built-in ones: each name and its relative `module:Class`; no package can replace them."""
 
     def refused(self, name: str, why: str) -> BadInput:
         """Return the error about one of this kind."""
@@ -109,7 +109,7 @@ def needs(kind: PluginKind, name: str, missing: str) -> BadInput:
 
 
 def no_such_class(kind: PluginKind, name: str, wanted: str, there: Sequence[str]) -> BadInput:
-    """Return the error about a class that its module has not; `there`: those that it has."""
+    """Return the error about a class that its module does not have; `there`: those that it has."""
     hint = near(wanted, there)
     return BadInput(
         f"the {kind.word} {quoted(name)}: its module has no class {quoted(wanted)}{hint}"
@@ -117,7 +117,7 @@ def no_such_class(kind: PluginKind, name: str, wanted: str, there: Sequence[str]
 
 
 def deaf(localization: str, drones: Sequence[str]) -> BadInput:
-    """Return the error about drones that a localization cannot tell where they are."""
+    """Return the error about drones that do not accept positions from a localization."""
     return BadInput(
         f"localization {localization}: {', '.join(drones)} cannot be told where they are; "
         "their navigation has no method locate"

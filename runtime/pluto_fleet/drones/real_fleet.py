@@ -1,4 +1,4 @@
-"""What the gateway's process must know of real drones: plain data, from the fleet file."""
+"""The real drones of a fleet file, as plain data for the gateway's process."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
 
 SLACK = 0.15
-"""Metres that a real drone may be beside where it believes to be: drones are kept apart by more."""
+"""Metres of a real drone's position error: drones are kept apart by this much more."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,7 +32,7 @@ class RealDrone:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RequiredAction:
-    """A built-in action that the plan asks for: a drone that cannot do it is not ready."""
+    """A built-in action that the plan needs: a drone that cannot do it is not ready."""
 
     action: str
     parameters: Mapping[str, Plain]
@@ -44,7 +44,7 @@ class RealFleet:
 
     drones: tuple[RealDrone, ...]
     localization: str
-    """What tells them where they are: `own`, a name, or `module:Class`."""
+    """Their localization: `own`, a name, or `module:Class`."""
     localization_options: Mapping[str, object]
     wanted: tuple[RequiredAction, ...] = ()
 
@@ -58,7 +58,7 @@ def real_fleet(
 ) -> RealFleet:
     """Return how a fleet's drones are flown for these missions; `uris` instead of the file's.
 
-    `records`: what a journal says of missions that go on.
+    `records`: the journal's records of resumed missions.
     """
     uris = uris or {}
     return RealFleet(
@@ -84,14 +84,14 @@ def _planned(missions: Iterable[Mission[Any]]) -> Iterator[RequiredAction]:
 
 
 def _recorded(records: Iterable[Mapping[str, Any]]) -> Iterator[RequiredAction]:
-    """Yield what is asked for by what goes on: in another round, by what was done already, too."""
+    """Yield the actions that resumed missions need; with further rounds, also those of completed trips."""
     for record in records:
         for trip in () if record["ended"] else (*record["done"], *record["todo"]):
             yield RequiredAction(action=trip["action"], parameters=trip.get("parameters", {}))
 
 
 def _wanted(trips: Iterable[RequiredAction]) -> tuple[RequiredAction, ...]:
-    """Return what the trips ask for, each once, in their order."""
+    """Return the actions that the trips need, each once, in their order."""
     found: list[RequiredAction] = []
     for wanted in trips:
         if wanted.action in BUILT_IN and wanted not in found:

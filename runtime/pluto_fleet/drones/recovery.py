@@ -1,4 +1,4 @@
-"""After a failed flight: until a drone takes commands again, or a person has put it home."""
+"""Recovery after a failed flight: until a drone takes commands again, or a person has put it home."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ if TYPE_CHECKING:
 
 
 RECONNECT_LIMIT = 120.0
-"""Seconds for which a drone that lost its link is connected to again and again."""
+"""Seconds for which a lost link is tried to be restored."""
 READY_LIMIT = 10.0
-"""Seconds that one on the ground gets until it is ready: its position may have to settle."""
+"""Seconds that a drone on the ground has to get ready: its position may have to settle."""
 HOME_LIMIT = 600.0
 """Seconds within which a person must have put it home."""
 BETWEEN_LOOKS = 2.0
-"""Seconds between two looks."""
+"""The polling interval, in seconds."""
 
 
 async def recover(vehicle: Vehicle, connection: Connection) -> bool:
-    """Wait until a drone takes commands, or is down where only a person can help it.
+    """Wait until a drone takes commands, or is down where it needs a person.
 
-    False: it is lost, for all that can be done from here.
+    Returns False if it is lost.
     """
     if not await connection.within(RECONNECT_LIMIT):
         return False
@@ -42,7 +42,7 @@ async def recover(vehicle: Vehicle, connection: Connection) -> bool:
 
 
 async def _has_landed(vehicle: Vehicle, connection: Connection) -> bool:
-    """Wait while a drone lands by itself, or has not yet said whether it flies or lies there."""
+    """Wait while a drone lands by itself, or has not reported yet whether it flies."""
     patience = round(READY_LIMIT / LOOK)
     while vehicle.telemetry.is_rising or (
         not vehicle.telemetry.landed and vehicle.down is not None
@@ -55,7 +55,7 @@ async def _has_landed(vehicle: Vehicle, connection: Connection) -> bool:
 
 
 async def _is_ready(vehicle: Vehicle) -> bool:
-    """Say whether one on the ground can fly on, or may be waited for."""
+    """Return whether a drone on the ground can fly on, or may be waited for."""
     until = vehicle.calls.clock() + READY_LIMIT
     while (reasons := await _reasons(vehicle)) and vehicle.calls.clock() < until:
         await asyncio.sleep(BETWEEN_LOOKS)
@@ -70,9 +70,9 @@ async def _is_ready(vehicle: Vehicle) -> bool:
 
 
 async def wait_until_home(vehicle: Vehicle) -> bool:
-    """Wait until a drone stands at home, ready; False: it was not put there in time, or has crashed.
+    """Wait until a drone is at home and ready; return False if not in time, or if it has crashed.
 
-    One that has crashed on its way is lost: else it could not be said that it was looked after.
+    One that crashes on its way is lost, so that its repair can be confirmed.
     """
     said: tuple[str, ...] = ()
     try:
@@ -92,7 +92,7 @@ async def wait_until_home(vehicle: Vehicle) -> bool:
 
 
 def _lands(vehicle: Vehicle) -> None:
-    """See to it that a drone comes down which is not commanded any more."""
+    """Make a drone land that is not commanded any more."""
     if vehicle.linked and not vehicle.telemetry.landed and not vehicle.must_land:
         where = place(vehicle.telemetry.location)
         why = f"{vehicle.id} could not be flown home: it lands at {where}"
@@ -100,14 +100,14 @@ def _lands(vehicle: Vehicle) -> None:
 
 
 async def _missing(vehicle: Vehicle) -> tuple[str, ...]:
-    """Return what keeps it from being flown again."""
+    """Return what keeps it from flying again."""
     if vehicle.linked and not vehicle.is_docked:
         return (f"put it home, at {place(vehicle.drone.home)}",)
     return await _reasons(vehicle)
 
 
 async def _reasons(vehicle: Vehicle) -> tuple[str, ...]:
-    """Return why it may not fly; one that can be charged where it stands is well, but for that."""
+    """Return why it may not fly, apart from a low battery where it can be charged."""
     if not vehicle.linked:
         return (vehicle.out_of_reach,)
     if vehicle.is_docked and vehicle.telemetry.battery_level < vehicle.drone.category.reserve:

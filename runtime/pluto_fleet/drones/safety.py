@@ -1,7 +1,7 @@
-"""What happens to a drone without a command: its events, and what ten looks a second find.
+"""Safety monitoring: the drones' events, and checks of each drone ten times a second.
 
-Silence, the permitted area, the battery and the ground are looked at. A drone whose battery is low,
-or that is where none may be, lands by itself.
+Checked are silence, the permitted area, the battery and unexpected landings. A drone with a low battery,
+or outside the permitted area, is landed.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 TOLERANCE = 0.3
-"""Metres: positions are not exact, and a drone that is stopped goes on for a moment."""
+"""Metres of tolerance: positions are inexact, and a stopped drone overshoots."""
 
 
 def outside_area(airspace: Airspace, point: Point) -> str | None:
@@ -50,13 +50,13 @@ def outside_area(airspace: Airspace, point: Point) -> str | None:
 
 
 def is_over_no_fly(airspace: Airspace, point: Point) -> bool:
-    """Say whether a drone there must not come straight down."""
+    """Return whether a drone there must not land straight down."""
     areas = (tidy(corners) for corners in airspace.no_fly)
     return any(len(area) > 2 and inside(point[:2], area) for area in areas)
 
 
 def is_deep_inside(point: tuple[float, float], area: Polygon) -> bool:
-    """Say whether a point is further inside than the tolerance, or halfway into a narrow area."""
+    """Return whether a point is further inside than the tolerance, or halfway into a narrow area."""
     if len(area) < 3 or not inside(point, area):
         return False
     edges = list(zip(area, area[1:] + area[:1], strict=True))
@@ -68,15 +68,15 @@ def is_deep_inside(point: tuple[float, float], area: Polygon) -> bool:
 
 
 _BETWEEN_LANDINGS = 1.0
-"""Seconds until it is tried again."""
+"""Seconds until a landing is tried again."""
 _CLEARANCE = 0.5
 """Metres from other drones at which one lands that may not land below."""
 
 
 async def land_by_itself(vehicle: Vehicle, airspace: Airspace, others: Sequence[Point]) -> None:
-    """Land here; one that is over a no-fly area flies out of it first, the shortest way.
+    """Land a drone here; over a no-fly area it first flies out of it by the shortest way.
 
-    One that does not know where it is goes nowhere: it stops, and lands.
+    One that has lost its position stops, and lands.
     """
     try:
         await vehicle.commands.run(LAND, partial(_down, vehicle, airspace, others))
@@ -99,11 +99,11 @@ async def _down(vehicle: Vehicle, airspace: Airspace, others: Sequence[Point]) -
 
 
 BETWEEN_EVENTS = 0.01
-"""Seconds between two events: one that never ends to have news would block the loop."""
+"""Seconds between two events: an endless stream of them would block the loop."""
 
 
 async def follow_events(vehicle: Vehicle) -> None:
-    """Hear of all events of a drone, until it is let go of."""
+    """Handle all events of a drone, until it is closed."""
     calls = vehicle.calls
     try:
         events = vehicle.navigation.events().__aiter__()
@@ -120,7 +120,7 @@ async def follow_events(vehicle: Vehicle) -> None:
 
 
 def handle_event(vehicle: Vehicle, event: DroneEvent) -> None:
-    """Do what an event calls for."""
+    """Handle an event."""
     kind, reason = str(event.kind), shortened(str(event.reason))
     who, where = vehicle.id, place(vehicle.telemetry.location)
     if kind == LINK_LOST:
@@ -140,19 +140,19 @@ _HAS = {CRASHED: "crashed", LOCKED: "was locked"}
 
 
 EACH = 0.1
-"""Seconds between two looks."""
+"""The interval of the checks, in seconds."""
 SILENCE, ON_GROUND = 1.0, 3.0
 """Seconds after which a silent drone has lost its link: in the air, and on the ground."""
 EMPTY, LOW_FOR = 0.03, 3.0
-"""A battery is empty when it has had no more than this share in it for so many seconds."""
+"""A battery is empty when its level was at most this for this many seconds."""
 FALLEN_FOR = 1.0
-"""Seconds on the ground in the midst of a flight after which it must have fallen."""
+"""Seconds on the ground during a flight after which a drone counts as fallen."""
 LATE = 0.3
-"""Seconds by which a look may be late before the log says so: the drones are not watched meanwhile."""
+"""Seconds of delay of a check after which it is logged: drones are not monitored meanwhile."""
 
 
 class SafetyMonitor:
-    """All drones, for as long as the team flies."""
+    """Monitors all drones of the team."""
 
     def __init__(
         self,
@@ -168,21 +168,21 @@ class SafetyMonitor:
         self._landings: dict[str, asyncio.Task[None]] = {}
 
     def hear(self, late: float) -> None:
-        """Look at all drones; `late`: seconds after the look was due."""
+        """Check all drones; `late`: the delay in seconds."""
         if late > LATE:
             self._say(f"the gateway was kept from watching its drones for {duration(late)}")
         for vehicle in self._vehicles:
             self.look(vehicle, late)
 
     def stop(self) -> list[asyncio.Task[None]]:
-        """Bring no drone down any more; return what ends now."""
+        """Start no further landings; return the tasks that are ending."""
         landings = list(self._landings.values())
         for task in landings:
             task.cancel()
         return landings
 
     def look(self, vehicle: Vehicle, late: float) -> None:
-        """Look at one drone; what it told while the loop was blocked counts as told now."""
+        """Check one drone; messages received while the loop was blocked count as new."""
         telemetry = vehicle.telemetry
         if not vehicle.linked:
             return
@@ -225,13 +225,13 @@ class SafetyMonitor:
             vehicle.force_landing(FlightFailed(Failure.BATTERY, why))
 
     def _lasts(self, since: dict[str, float], vehicle: Vehicle, seconds: float) -> bool:
-        """Say whether something has been so for long enough; it is so now."""
+        """Return whether a present condition has lasted long enough."""
         now = self._clock()
         since[vehicle.id] = min(since[vehicle.id], now)
         return now - since[vehicle.id] >= seconds
 
     def _bring_down(self, vehicle: Vehicle) -> None:
-        """See to it that a drone comes down, again and again until it has."""
+        """Land a drone, and retry until it has landed."""
         task = self._landings.get(vehicle.id)
         if task is None or task.done():
             others = [other.telemetry.location for other in self._vehicles if other is not vehicle]

@@ -1,7 +1,6 @@
-"""A team of real drones: each flown by a navigation of its own, none kept waiting by another.
+"""A team of real drones: each is flown by a navigation of its own, independently of the others.
 
-The gateway's kernel commands, and asyncio flies: a command of the kernel is a task beside it, under a
-limit, and ends as the task does.
+A command of the gateway's kernel runs as an asyncio task with a time-out, and ends as the task does.
 """
 
 from __future__ import annotations
@@ -62,7 +61,7 @@ class Team:
         self.telemetry: Mapping[str, Telemetry] = {
             id: vehicle.telemetry for id, vehicle in self._vehicles.items()
         }
-        """What is known of each drone; the values stay current."""
+        """The drones' telemetry, always current."""
         self._links = {id: Connection(vehicle) for id, vehicle in self._vehicles.items()}
         self._monitor = SafetyMonitor(tuple(self._vehicles.values()), airspace, say, clock)
         self._tasks: list[asyncio.Task[None]] = []
@@ -73,7 +72,7 @@ class Team:
                 vehicle.position_problem = partial(feeding.silent, vehicle.id)
 
     def begin(self) -> None:
-        """Connect to all drones at once, and watch them; waits for none of them."""
+        """Start to connect to all drones, and to monitor them; waits for none."""
         if self._feed is not None:
             self._feed.start()
         self._monitoring = Publisher(self.telemetry).subscribe(
@@ -86,7 +85,7 @@ class Team:
             task.add_done_callback(self._ended)
 
     def _look(self, _: Mapping[str, float], late: float) -> None:
-        """Let the monitor look; without it no drone may fly: if it breaks, all ends, and all land."""
+        """Run the safety checks; if they raise, all drones land, and the team ends."""
         try:
             self._monitor.hear(late)
         except ANY_ERROR as error:
@@ -95,13 +94,13 @@ class Team:
             self._kernel.post(_raise, error)
 
     def _ended(self, task: asyncio.Task[None]) -> None:
-        """If what keeps a link or hears events breaks, all ends, and all land first."""
+        """If a task that keeps a link or handles events raises, all drones land, and the team ends."""
         error = None if task.cancelled() else task.exception()
         if error is not None:
             self._kernel.post(_raise, error)
 
     async def close(self) -> None:
-        """Land what flies, wait until it has, and let go of all drones; nothing is left of it."""
+        """Land all drones in the air, wait until they have, and close all links."""
         await close([(vehicle, self._links[id]) for id, vehicle in self._vehicles.items()])
         if self._monitoring is not None:
             self._monitoring.cancel()
@@ -112,7 +111,7 @@ class Team:
         if self._feed is not None:
             await self._feed.close()
 
-    # What the gateway's kernel commands
+    # Commands of the gateway's kernel
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands though it can be reached; None: it takes them."""
@@ -123,11 +122,11 @@ class Team:
         return commands.why_not(self._vehicles[drone], action, parameters)
 
     def begins(self, drone: str, job: Job | None, seconds: float) -> None:
-        """A flight begins: raise `FlightFailed` where the drone takes no commands."""
+        """Begin a flight; raise `FlightFailed` if the drone takes no commands."""
         self._vehicles[drone].check()
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise straight up to a height, if it is ready; does nothing for a drone that flies."""
+        """Take off straight up to a height, if it is ready; does nothing for a drone that flies."""
         await self._kernel.call_hook(commands.takeoff, self._vehicles[drone], height)
 
     async def go_to(self, drone: str, target: Point) -> None:
@@ -150,18 +149,18 @@ class Team:
         item: Item | None,
         job: str | None,
     ) -> object:
-        """Do one of the built-in actions here, and return what came of it."""
+        """Do a built-in action here, and return its result."""
         return await self._kernel.call_hook(
             commands.act, self._vehicles[drone], action, parameters, item
         )
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what a drone measures under this name."""
+        """Return a sensor or variable of a drone."""
         value = await self._kernel.call_hook(commands.read, self._vehicles[drone], name)
         return float(str(value))
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone has under this name."""
+        """Set a parameter of a drone."""
         await self._kernel.call_hook(commands.write, self._vehicles[drone], name, value)
 
     def break_off(self, drone: str) -> None:
@@ -190,7 +189,7 @@ class Team:
         return bool(await self._kernel.call_hook(wait_until_home, self._vehicles[drone]))
 
     def unload(self, drone: str) -> None:
-        """What it carries is taken off."""
+        """Record that its item was unloaded."""
         self._cargo.carries(drone, None)
 
     async def drone_report(self, drone: str) -> DroneReport:
@@ -212,7 +211,7 @@ class Team:
         )
 
     async def _problems(self, vehicle: Vehicle) -> tuple[str, ...]:
-        """Return why a drone may not fly: none for one that does."""
+        """Return why a drone may not fly; empty for one in the air."""
         if not vehicle.linked:
             return (vehicle.out_of_reach,)
         if not vehicle.telemetry.landed:
@@ -222,7 +221,7 @@ class Team:
         return (*down, *news, *vehicle.missing_actions())
 
     def _lacks(self, vehicle: Vehicle) -> tuple[str, ...]:
-        """Return which actions its category can do, and its hardware cannot."""
+        """Return the actions that its category can do, but not its hardware."""
         lacks: list[str] = []
         for wanted in self._wanted:
             if wanted.action in BUILT_IN and vehicle.drone.category.can(wanted.action):
@@ -237,11 +236,11 @@ def _raise(error: BaseException) -> NoReturn:
 
 
 FILES = "files"
-"""The folder, in the gateway's, where navigations keep photos and the like."""
+"""The folder, within the gateway's, for photos and other files of navigations."""
 
 
 def make_one(how: RealDrone, home: Point, speed: float, folder: Path) -> DroneNavigation:
-    """Return what flies one drone, at this speed at most; nothing is reached yet.
+    """Create one drone's navigation, with a maximum speed; nothing is connected yet.
 
     `BadInput`: its options are wrong.
     """
@@ -252,7 +251,7 @@ def make_one(how: RealDrone, home: Point, speed: float, folder: Path) -> DroneNa
 
 
 def top_speed(category: Category) -> float:
-    """Return how fast drones of a category may fly at most."""
+    """Return the maximum speed of a category's drones."""
     return category.top_speed or category.speed
 
 
@@ -264,7 +263,7 @@ def make_team(
     folder: Path,
     say: Callable[[str], object],
 ) -> Team:
-    """Return the team of a fleet; raise `BadInput` where it cannot be flown as its file says."""
+    """Return the team of a fleet; raise `BadInput` if it cannot be flown as its file says."""
     files = folder / FILES
     files.mkdir(mode=0o700, parents=True, exist_ok=True)
     how = {drone.id: drone for drone in real.drones}
@@ -294,7 +293,7 @@ def make_team(
 def _feeding(
     real: RealFleet, navigations: Mapping[str, DroneNavigation], say: Callable[[str], object]
 ) -> LocalizationFeed | None:
-    """Return what tells the drones where they are; None: they know it by themselves."""
+    """Return the feed of the fleet's localization; None: the drones localize themselves."""
     if real.localization == OWN:
         return None
     fed = {id: one for id, one in navigations.items() if isinstance(one, Locatable)}

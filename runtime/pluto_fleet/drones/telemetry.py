@@ -1,4 +1,4 @@
-"""What one drone has told, at both ends: kept by its navigation, and known to the team."""
+"""The telemetry of one drone: collected by its navigation, and checked by the team."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 SILENCE = 1.0
-"""Seconds without a word, after which a link is lost."""
+"""Seconds without a message after which a link is lost."""
 
 
 class Reports:
-    """What one drone tells; used within the event loop only."""
+    """The messages of one drone; used within the event loop only."""
 
     def __init__(self, setup: DroneSetup) -> None:
         self._id = setup.id
         self.telemetry = DroneTelemetry(
             time=-inf, position=setup.home, yaw=0.0, voltage=0.0, battery_level=1.0, flying=False
         )
-        """The last it told."""
+        """The latest state."""
         self.crashed = ""
-        """Why it is said to have crashed, if it has."""
+        """The reported reason of its crash, if any."""
         self._events: asyncio.Queue[DroneEvent | None] = asyncio.Queue()
         self._told = asyncio.Event()
 
@@ -50,7 +50,7 @@ class Reports:
         battery_level: float = 1.0,
         crashed: str = "",
     ) -> None:
-        """Hear what it tells, at this moment; `crashed` is the reason, or nothing."""
+        """Take over a new state; `crashed` is the reason of a crash, or nothing."""
         self.telemetry = DroneTelemetry(
             time=time.monotonic(),
             position=position,
@@ -66,7 +66,7 @@ class Reports:
         self._told = asyncio.Event()
 
     def from_thread(self, hear: Callable[[T], object]) -> Callable[[T], object]:
-        """Return what any thread may call, for `hear` to be called within the event loop."""
+        """Wrap `hear`, so that any thread can have it called within the event loop."""
         loop = asyncio.get_running_loop()
 
         def hand_over(told: T) -> None:
@@ -76,11 +76,11 @@ class Reports:
         return hand_over
 
     def happened(self, kind: str, reason: str) -> None:
-        """Tell of something that happened without a command, once."""
+        """Emit an event, once."""
         self._events.put_nowait(DroneEvent(kind=kind, reason=reason))
 
     def refuse(self, target: Point, speed: float) -> None:
-        """Raise if it cannot be told to go there: no such place or speed, or it does not fly."""
+        """Raise if it cannot be sent there: an invalid place or speed, or it does not fly."""
         if not all(map(isfinite, target)) or target[2] < 0:
             raise OutsideArea(f"{self._id} cannot go to {target}")
         if not 0 < speed < inf:
@@ -89,10 +89,10 @@ class Reports:
             raise Rejected(f"{self._id} stands on the ground")
 
     async def until(self, done: Callable[[DroneTelemetry], bool], seconds: float) -> None:
-        """Wait until this holds of something that is told from now on.
+        """Wait until a new state fulfils a condition.
 
-        Raises `LinkLost` when it tells nothing, `Crashed` when it tells just that, and
-        `TargetTimeout` after so many seconds.
+        Raises `LinkLost` when it is silent, `Crashed` when it reports that, and `TargetTimeout` after
+        the time-out.
         """
         began = time.monotonic()
         while self.telemetry.time <= began or not done(self.telemetry):
@@ -108,25 +108,25 @@ class Reports:
                     await self._told.wait()
 
     async def events(self) -> AsyncIterator[DroneEvent]:
-        """Yield what happens, until `close`."""
+        """Yield the events, until `close`."""
         while (event := await self._events.get()) is not None:
             yield event
 
     def close(self) -> None:
-        """Tell nothing more."""
+        """End the events."""
         self._events.put_nowait(None)
 
 
 RISING = 3.0
-"""Seconds after a take-off that was broken off until a drone is believed to stand on the ground."""
+"""Seconds after an aborted take-off until a drone is believed to be on the ground."""
 
 EMPTY = 1.2
-"""Nothing flies for longer than so many times its flight time."""
+"""No drone flies for longer than this multiple of its flight time."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """What a drone told at one moment, all of it checked."""
+    """A validated state of a drone."""
 
     time: float
     position: Point
@@ -135,9 +135,9 @@ class Sample:
 
 
 class VehicleTelemetry:
-    """A drone's telemetry, for all subscribers: it stays current.
+    """A drone's telemetry for all subscribers, always current.
 
-    Before its first word it stands at home, with nothing in its battery.
+    Before its first message it counts as being at home with an empty battery.
     """
 
     def __init__(
@@ -154,10 +154,10 @@ class VehicleTelemetry:
         self.flew = -inf
         """When it was last seen in the air."""
         self.rises_until = -inf
-        """Until when it may be rising though it has not said so."""
+        """Until when it may be taking off without having reported it."""
 
     def look(self) -> Sample | None:
-        """Return the last it told; None: nothing yet."""
+        """Return its latest state, or None."""
         raw = self._calls.ask("telemetry", self._ask, None)
         if raw is not None and raw is not self._raw:
             self._raw = raw
@@ -177,19 +177,19 @@ class VehicleTelemetry:
 
     @property
     def battery_level(self) -> float:
-        """What is left in its battery, from 0 to 1."""
+        """The charge of its battery, from 0 to 1."""
         last = self.look()
         return 0.0 if last is None else last.battery_level
 
     @property
     def is_rising(self) -> bool:
-        """Whether it may have taken off, and has not said so yet."""
+        """Whether it may have taken off without having reported it yet."""
         self.look()
         return self._calls.clock() < self.rises_until
 
     @property
     def landed(self) -> bool:
-        """Whether it is on the ground; one that was silent for longer than it can fly must be."""
+        """Whether it is on the ground, as it must be after a silence longer than its flight time."""
         last, now = self.look(), self._calls.clock()
         if now < self.rises_until:
             return False
@@ -197,13 +197,13 @@ class VehicleTelemetry:
 
     @property
     def silence(self) -> float:
-        """Seconds since it last told anything that made sense."""
+        """Seconds since its last valid state."""
         last = self.look()
         return inf if last is None else self._calls.clock() - last.time
 
 
 def _sample(raw: DroneTelemetry) -> Sample | None:
-    """Return what makes sense of it; a drone that does not know where it is has told nothing."""
+    """Return its validated state; one without a position is invalid."""
     x, y, z = map(float, raw.position)
     time, level = float(raw.time), float(raw.battery_level)
     if not all(map(isfinite, (x, y, z, time, level))):

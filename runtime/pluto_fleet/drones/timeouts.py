@@ -1,4 +1,4 @@
-"""Calls to a drone's navigation: each has a limit, and every exception becomes a failure."""
+"""Calls of a drone's navigation: each has a time-out, and every exception becomes a failure."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 
 class _Timed(Generic[T]):
-    """Stands for what is awaited; `told` hears of every step of it, in seconds."""
+    """Wraps an awaitable; `told` is called with the seconds of every step of it."""
 
     def __init__(
         self, awaited: Awaitable[T], clock: Callable[[], float], told: Callable[[float], object]
@@ -43,35 +43,35 @@ class _Timed(Generic[T]):
 
 
 async def _awaiting(awaited: Awaitable[T]) -> T:
-    """Make a coroutine of any awaitable: that can be driven by hand."""
+    """Wrap any awaitable in a coroutine, which can be driven by hand."""
     return await awaited
 
 
 BLOCKED = 0.1
-"""Seconds for which a navigation may keep all drones waiting before it is named in the log."""
+"""Seconds for which a navigation may block the event loop before it is logged."""
 PARTING = 1.0
-"""Seconds that a cancelled call gets to end."""
+"""Seconds that a cancelled call has to end."""
 LONGEST = 300
-"""Characters of what a navigation says."""
+"""Characters of a navigation's message."""
 _RARELY, _MANY = 10.0, 100
-"""Seconds between two lines of the log about the same mistake; how many of these are told apart."""
+"""Seconds between two log lines about the same error; how many errors are distinguished."""
 
 
 class NavigationCalls:
-    """All that is asked of one drone's navigation."""
+    """All calls of one drone's navigation."""
 
     def __init__(
         self, drone: str, say: Callable[[str], object], clock: Callable[[], float]
     ) -> None:
         self.drone, self.say, self.clock = drone, say, clock
         self._strays: set[asyncio.Task[Any]] = set()
-        """Calls that were given up and have not ended."""
+        """Abandoned calls that have not ended."""
         self._said: dict[str, float] = {}
 
     async def call(
         self, what: str, limit: float, method: Callable[..., Awaitable[T]], *args: object
     ) -> T:
-        """Return what a method gives; raise `FlightFailed` for all it may end with.
+        """Call a method, and return its result; raise `FlightFailed` for any error.
 
         Cancelling this cancels the method, without waiting for it: see `parted`.
         """
@@ -90,7 +90,7 @@ class NavigationCalls:
         return task.result()()
 
     def ask(self, what: str, question: Callable[[], T], otherwise: T) -> T:
-        """Return the answer to what takes no time; if asking is a mistake, what is to be believed."""
+        """Call a method that returns at once; return a default if it raises."""
         began = self.clock()
         try:
             return question()
@@ -103,11 +103,11 @@ class NavigationCalls:
             self.took(self.clock() - began)
 
     def timed(self, awaited: Awaitable[T]) -> _Timed[T]:
-        """Return what to await instead, so that the log says how long each of its steps blocked."""
+        """Wrap an awaitable, so that steps that block the event loop are logged."""
         return _Timed(awaited, self.clock, self.took)
 
     def mistake(self, what: str, error: BaseException) -> FlightFailed:
-        """Put a mistake of the navigation into the log, and return what becomes of a flight."""
+        """Log a bug of the navigation, and return the failure of the flight."""
         said = shortened(f"{type(error).__name__}: {_text(error)}".removesuffix(": "))
         failed = FlightFailed(
             Failure.ACTION, f"the navigation of {self.drone} made a mistake: {said}"
@@ -118,17 +118,17 @@ class NavigationCalls:
         return failed
 
     def note(self, what: str) -> None:
-        """Put a line into the log, unless it was put there a moment ago."""
+        """Log a line, unless it was logged a moment ago."""
         if self._is_news(what):
             self.say(what)
 
     def took(self, seconds: float) -> None:
-        """Hear how long it has kept everybody waiting."""
+        """Called with the duration of a step."""
         if seconds > BLOCKED and self._is_news("blocked"):
             self.say(f"the navigation of {self.drone} blocked for {duration(seconds)}")
 
     async def parted(self) -> None:
-        """Wait, though not for long, until all that was cancelled has ended."""
+        """Wait briefly until all cancelled calls have ended."""
         if self._strays:
             _, pending = await asyncio.wait(tuple(self._strays), timeout=PARTING)
             if pending and self._is_news("clings"):
@@ -139,12 +139,12 @@ class NavigationCalls:
             value = await self.timed(method())
         except (asyncio.CancelledError, KeyboardInterrupt):
             raise
-        except ANY_ERROR as error:  # even SystemExit: it would end the flights of all others
+        except ANY_ERROR as error:  # even SystemExit, which would end all flights
             return partial(_raise, self._failure(what, error))
         return lambda: value
 
     def _failure(self, what: str, error: BaseException) -> FlightFailed:
-        """Return what becomes of a flight; by what the error says of itself, not by its class."""
+        """Return the failure of a flight, by the error's attribute `failure` and not by its class."""
         failure = _named(error)
         if failure is None:
             return self.mistake(what, error)
@@ -157,7 +157,7 @@ class NavigationCalls:
         task.add_done_callback(self._strays.discard)
 
     def _is_news(self, what: str) -> bool:
-        """Whether this was not said a moment ago: a log of ten lines a second is no log."""
+        """Whether this was not logged a moment ago: the log is limited in its rate."""
         now = self.clock()
         if now - self._said.get(what, -_RARELY) < _RARELY:
             return False
@@ -168,13 +168,13 @@ class NavigationCalls:
 
 
 def shortened(text: str) -> str:
-    """Return what a navigation says so that it commands no terminal, and fills no log."""
+    """Shorten a navigation's message, and escape its control characters."""
     text = printable(" ".join(text.split()))
     return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
 
 
 def _named(error: BaseException) -> Failure | None:
-    """Return the failure that an error names; it may be of another copy of this very runtime."""
+    """Return the failure that an error names; it may be of another copy of this runtime."""
     with suppress(Exception):
         name = getattr(error, "failure", None)
         if isinstance(error, Exception) and name is not None:

@@ -1,6 +1,6 @@
-"""One drone of the team: what it can be told, and why it takes no commands when it takes none.
+"""One drone of the team: its state, its commands, and why it takes none.
 
-Real drones cannot tell what they carry: it is kept in a file beside their ledger.
+Real drones cannot report what they carry: that is stored in a file beside their ledger.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ NAME = "aboard.json"
 
 
 class Cargo:
-    """The names of the items aboard, by drone; they outlive the gateway."""
+    """The names of the items aboard, by drone, stored in a file."""
 
     def __init__(self, folder: Path, say: Callable[[str], object]) -> None:
         self._file, self._say = folder / NAME, say
@@ -44,11 +44,11 @@ class Cargo:
                 self._aboard = {str(drone): str(item) for drone, item in known.items()}
 
     def of(self, drone: str) -> str | None:
-        """Return what a drone has aboard."""
+        """Return the item aboard a drone."""
         return self._aboard.get(drone)
 
     def carries(self, drone: str, item: str | None) -> None:
-        """A drone has picked an item; None: it has none aboard any more."""
+        """Store the item aboard a drone; None: it has none."""
         if self._aboard.get(drone) == item:
             return
         if item is None:
@@ -69,28 +69,28 @@ class Cargo:
 T = TypeVar("T")
 
 LAND, RISE = "land", "take off"
-"""What it does while it lands, or rises."""
+"""The names of its commands to land and to take off."""
 PREFLIGHT, HOLD, RECOVER = 12.0, 8.0, 8.0
-"""Seconds that these may take."""
+"""Time-outs in seconds."""
 LOOK = 0.05
-"""Seconds between two looks at what it tells."""
+"""The polling interval of its telemetry, in seconds."""
 CLIMB_LIMIT = 2 * CLIMB_SPEED
 """Metres per second, up and down, at most: the mean is about what plans count with."""
 TIME_FACTOR, TIME_MARGIN = 3.0, 10.0
-"""A flight may take so many times what it takes at full speed, and so many seconds more."""
+"""The time-out of a flight: a multiple of its duration at full speed, plus a margin in seconds."""
 SLOWEST_PLANNED = 1.0
-"""Metres per second at which a flight is waited for, where a category is faster: a drone may not be."""
+"""The speed that time-outs assume at most: a drone may be slower than its category."""
 MOST_REASONS = 20
-"""Reasons of one preflight that are heard."""
+"""The most reasons of one preflight that are used."""
 STALE = 0.5
-"""Seconds of silence that bear a navigation out which says that the link is lost."""
+"""Seconds of silence that confirm a navigation's report of a lost link."""
 RECENTLY = 3.0
-"""Seconds for which a drone that was seen in the air is believed to have fallen out of it."""
+"""Seconds after being seen in the air within which a crash counts as a fall from the air."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TeamDrone:
-    """A drone of the fleet, and what flies it."""
+    """The data of a drone that its vehicle needs."""
 
     id: str
     category: Category
@@ -99,7 +99,7 @@ class TeamDrone:
 
 
 class Vehicle:
-    """A drone in the hands of its navigation. All of it happens in asyncio's loop."""
+    """A drone flown by its navigation, in asyncio's loop."""
 
     def __init__(
         self,
@@ -110,9 +110,9 @@ class Vehicle:
     ) -> None:
         self.drone, self.id, self.navigation = drone, drone.id, drone.navigation
         self.position_problem: Callable[[], str | None] = _seeing
-        """Says why it does not know where it is, if it must be told its position and is not."""
+        """Returns why it has no position from its localization, if it needs one."""
         self.missing_actions: Callable[[], tuple[str, ...]] = tuple
-        """Says what the plan asks for, and its hardware does not do."""
+        """Returns the actions that the plan needs, and its hardware cannot do."""
         self.cargo, self.calls = cargo, NavigationCalls(drone.id, say, clock)
         self.telemetry = VehicleTelemetry(
             drone.home,
@@ -123,31 +123,31 @@ class Vehicle:
         self.commands = CommandQueue(self.hover)
         self.linked = False
         self.on_lost: Callable[[], object] = _nothing
-        """Told when its link is lost."""
+        """Called when its link is lost."""
         self.out_of_reach = f"{drone.id} has not been reached yet"
         """Why it is not linked, if it is not."""
         self.boot = 0
-        """How often it was found switched off and on again."""
+        """How often it was found to have restarted."""
         self.down: FlightFailed | None = None
-        """Why it takes no commands though it is linked, if it takes none."""
+        """Why it takes no commands although it is linked, if it takes none."""
         self.needs_person = False
-        """Only a person who has put it home ends that."""
+        """Whether only a person can end that, by putting it home."""
         self.looked_after = False
-        """A person has looked after it, which it has not been told yet."""
+        """Whether it was repaired, and has not been notified yet."""
         self.is_cut = False
-        """Its motors are being cut, or were: nothing may turn them on again."""
+        """Whether its motors are being cut, or were: nothing may turn them on again."""
         self.must_land = False
-        """It comes down by itself, as soon as it can."""
+        """Whether it is to be landed as soon as possible."""
         self.position_lost = False
-        """It comes down because it does not know where it is: it is not to go anywhere else."""
+        """Whether it is landed because it lost its position: it must not fly elsewhere."""
         self.speed = drone.category.top_speed or drone.category.speed
         self.climb = min(CLIMB_LIMIT, self.speed)
 
-    # How it is
+    # Its state
 
     @property
     def is_docked(self) -> bool:
-        """Whether it stands at home."""
+        """Whether it is at home."""
         return self.telemetry.landed and docked(self.telemetry.location, self.drone.home)
 
     @property
@@ -157,18 +157,18 @@ class Vehicle:
 
     @property
     def flew_lately(self) -> bool:
-        """Whether it flies, or did a moment ago."""
+        """Whether it flies, or did so a moment ago."""
         return not self.telemetry.landed or self.calls.clock() - self.telemetry.flew < RECENTLY
 
     def check(self) -> None:
-        """Raise why it takes no commands, if it takes none."""
+        """Raise the reason why it takes no commands, if it takes none."""
         if self.down is not None:
             raise FlightFailed(self.down.failure, str(self.down))
         if not self.linked:
             raise FlightFailed(Failure.LINK, self.out_of_reach)
 
     def lost(self, why: str) -> None:
-        """Its link is gone: what it does ends here, as far as anybody can tell."""
+        """Mark its link as lost, and fail its command."""
         if not self.linked:
             return
         telemetry, now = self.telemetry, self.calls.clock()
@@ -181,17 +181,17 @@ class Vehicle:
         self.commands.fail(FlightFailed(Failure.LINK, self.out_of_reach))
 
     def crashed(self, why: str) -> None:
-        """It fell out of the air: a person must look after it."""
+        """Mark it as crashed: it needs a person."""
         self.must_land = False
         self.refuse(FlightFailed(Failure.CRASH, why))
 
     def force_landing(self, why: FlightFailed, *, needs_person: bool = True) -> None:
-        """It flies no further: from now on it comes down by itself."""
+        """Abort its command, and land it."""
         self.must_land = True
         self.refuse(why, needs_person=needs_person)
 
     def lose_position(self, why: str) -> None:
-        """It does not know any more where it is: what it would do there it must not do."""
+        """Mark its position as lost: it must do no action, and lands."""
         self.position_lost = True
         if self.must_land:
             return
@@ -199,21 +199,21 @@ class Vehicle:
         self.force_landing(FlightFailed(Failure.LINK, reason), needs_person=False)
 
     def refuse(self, why: FlightFailed, *, needs_person: bool = False) -> None:
-        """It takes no commands from now on; what it does ends here."""
+        """Refuse all commands from now on, and fail the current one."""
         self.calls.say(str(why))
         self.down, self.needs_person = why, needs_person
         if not (self.must_land and self.commands.doing == LAND):
             self.commands.fail(why)
 
     def clear_failure(self) -> None:
-        """It takes commands again."""
+        """Accept commands again."""
         self.down, self.needs_person = None, False
         self.must_land = self.is_cut = self.position_lost = False
 
     async def report_care(self) -> bool:
-        """Tell it that a person has looked after it, if one has and it wants to know; False: in vain.
+        """Notify it of its repair, if needed; return False if that failed.
 
-        One that flies need not know: what befalls it later has not been looked after.
+        Not while it flies: a later failure has not been repaired.
         """
         if not (self.looked_after and self.linked):
             return True
@@ -223,7 +223,7 @@ class Vehicle:
                 await self.calls.call("recover", RECOVER, self.navigation.looked_after)
             except FlightFailed as error:
                 self.calls.say(str(error))
-                self.looked_after = error.failure is Failure.LINK  # it may not have heard
+                self.looked_after = error.failure is Failure.LINK  # it may not have received it
                 return self.looked_after
         return True
 
@@ -245,17 +245,17 @@ class Vehicle:
         return told if blind is None else (*told, blind)
 
     def break_off(self) -> None:
-        """Stop what it does, and hover; but one that must land does."""
+        """Abort its command, and hover; one that must land continues."""
         if not self.must_land:
             why = f"{self.id} was told to break it off"
             self.commands.fail(FlightFailed(Failure.REFUSED, why))
 
-    # How that is done
+    # Implementation
 
     async def go(
         self, what: str, seconds: float, method: Callable[..., Awaitable[T]], *args: object
     ) -> T:
-        """Have it do something that takes so long at full speed, and return what came of it."""
+        """Run a command of this duration at full speed with a time-out, and return its result."""
         try:
             return await self.calls.call(what, seconds * TIME_FACTOR + TIME_MARGIN, method, *args)
         except FlightFailed as error:
@@ -263,7 +263,7 @@ class Vehicle:
             raise
 
     def _hears(self, error: FlightFailed) -> None:
-        """Believe what a failed command says of the drone: that may be known before it is seen."""
+        """Update the state by a failed command, which may be known before the telemetry shows it."""
         if error.failure is Failure.LINK and self.telemetry.silence > STALE:
             self.lost(str(error))
         elif error.failure is Failure.CRASH and self.flew_lately:
@@ -272,7 +272,7 @@ class Vehicle:
             self.force_landing(error)
 
     async def until(self, holds: Callable[[], bool], limit: float) -> bool:
-        """Wait until something holds of what it tells, and say whether it does within the limit."""
+        """Wait until its telemetry fulfils a condition; return whether it did so in time."""
         for _ in range(round(limit / LOOK)):
             if holds():
                 return True
@@ -280,7 +280,7 @@ class Vehicle:
         return holds()
 
     async def hover(self) -> None:
-        """Hover, after a command was broken off; where it cannot, the log says why."""
+        """Hover after an aborted command; log it if that fails."""
         await self.calls.parted()
         if self.linked and not self.telemetry.landed and not self.is_cut:
             try:
@@ -290,8 +290,8 @@ class Vehicle:
 
 
 def _nothing() -> None:
-    """Tells of no lost link."""
+    """Ignore a lost link."""
 
 
 def _seeing() -> None:
-    """It knows where it is by itself."""
+    """Return None: it localizes itself."""

@@ -1,1 +1,1 @@
-"""The gateway: between the app's brain and its drones, so that the brain may come and go."""
+"""The gateway between the app's brain and its drones, which outlives the brain."""

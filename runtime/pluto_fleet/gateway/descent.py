@@ -1,6 +1,6 @@
-"""How all drones come down at once: where they are, or each at home, apart from one another.
+"""Bringing all drones down at once, where they are or each at home, and apart from one another.
 
-Who goes home does so even if it stands somewhere else; what it carries comes along.
+A drone that goes home does so even if it is on the ground elsewhere, with what it carries.
 """
 
 from __future__ import annotations
@@ -30,15 +30,15 @@ if TYPE_CHECKING:
     from .traffic.ways import Section
 
 _LOOK = 0.1
-"""Seconds between two looks at those who are to pass first."""
+"""The polling interval while others are to pass first, in seconds."""
 _NEAR = 60
-"""How many ways to the ground are looked at, where it is not straight below."""
+"""How many ways to the ground are considered, other than straight below."""
 
 _Command = Callable[[], Coroutine[Any, Any, None]]
 
 
 class Descent:
-    """Brings down every drone that flies. One that cannot follow keeps no other up."""
+    """Brings down every drone in the air. One that fails does not hold up the others."""
 
     def __init__(
         self,
@@ -54,10 +54,10 @@ class Descent:
         self._tasks: list[Task[bool]] = []
         self._plan = Timetable()
         self._at: dict[str, tuple[int, int]] = {}
-        """In which pieces of their ways they are: the one that they left last, and the next stop."""
+        """The drones' progress: the piece of its course that each left last, and its next stop."""
 
     async def down(self, how: Down) -> None:
-        """Bring them down; if this is cancelled they hover."""
+        """Bring them down; if cancelled, they hover."""
         try:
             goers = self._goers(how)
             if self._traffic is None:
@@ -71,12 +71,12 @@ class Descent:
             for task in self._tasks:
                 task.cancel()
 
-    # Who goes where
+    # The plan
 
     def _goers(self, how: Down) -> list[DescendingDrone]:
-        """Return who is to come down, and by which ways: home, or near to where it is.
+        """Return the drones that are to come down, with their courses: home, or near to where they are.
 
-        Who has the longest way home chooses first: the others have time. Who lands below others
+        The one with the longest way home chooses first: the others have time. One that lands below others
         chooses before them.
         """
         found = []
@@ -93,9 +93,9 @@ class Descent:
     def _split(
         self, goers: Sequence[DescendingDrone], traffic: Traffic
     ) -> tuple[list[DescendingDrone], list[DescendingDrone]]:
-        """Return who goes by the plan, and who when there is room.
+        """Return the drones that go by the plan, and those that go when there is room.
 
-        Where only so many may be in the air, none of them must wait for one that stands.
+        With a limit of drones in the air, none of these may have to wait for one on the ground.
         """
         stand = [goer for goer in goers if traffic.is_limited and goer.courses[0].section.stands]
         return [goer for goer in goers if goer not in stand], stand
@@ -106,7 +106,7 @@ class Descent:
         return [*islice(self._traffic.ground.ways_down(drone.id), _NEAR)]
 
     def _ways_home(self, drone: FleetDrone) -> list[Section]:
-        """Return ways home; none where it is there, or cannot get there."""
+        """Return courses home; none if it is there, or cannot get there."""
         telemetry, traffic = self._pilots.telemetry[drone.id], self._traffic
         if telemetry.landed and docked(telemetry.location, drone.home):
             return []
@@ -121,15 +121,15 @@ class Descent:
         traffic = self._traffic
         return course(way, drone.category.speed, traffic is not None and traffic.is_real)
 
-    # How they go
+    # Flying it
 
     def _at_once(self, goers: Sequence[DescendingDrone]) -> None:
-        """Let all go by the quickest way: they need not be kept apart."""
+        """Fly all by the quickest way: they are not kept apart."""
         for goer in goers:
             self._send(goer.drone, partial(self._flies, goer.drone, goer.courses[0].section))
 
     def _in_turn(self, plan: Timetable, later: Sequence[DescendingDrone]) -> None:
-        """Let all go as it was planned, and then those for whom nothing could be, or was."""
+        """Fly all by the plan, and then those without a planned course."""
         self._plan = plan
         self._at = dict.fromkeys(plan.courses, (0, 0))
         for drone in plan.courses:
@@ -145,7 +145,7 @@ class Descent:
         )
 
     async def _follows(self, drone: str) -> None:
-        """Fly as far as no drone is in the way that was to pass before; and so on, to the end."""
+        """Fly stretch by stretch to the end, each time as far as those that go first have passed."""
         last = len(self._plan.courses[drone].pieces) - 1
         telemetry, at = self._pilots.telemetry[drone], 0
         try:
@@ -167,7 +167,7 @@ class Descent:
             del self._at[drone]
 
     def _stretch(self, drone: str) -> Section:
-        """Return what a drone flies next, from where it is: it may have been stopped on the way."""
+        """Return a drone's next stretch, from where it is: it may have been stopped on the way."""
         (first, last), one = self._at[drone], self._plan.courses[drone]
         telemetry = self._pilots.telemetry[drone]
         here = telemetry.location
@@ -175,7 +175,7 @@ class Descent:
         return one.stretch(here, telemetry.landed, first, last)
 
     def _free(self, drone: str, at: int) -> int:
-        """Return where it rests next; where it is, if another has to pass first."""
+        """Return its next resting place; the present one, if another has to pass first."""
         last = len(self._plan.courses[drone].pieces) - 1
         waits = [
             piece for piece, other, its in self._plan.after[drone] if not self._left(other, its)
@@ -184,7 +184,7 @@ class Descent:
         return self._plan.rest_after(drone, at, free)
 
     def _left(self, drone: str, piece: int) -> bool:
-        """Say whether a drone has left a piece of its way."""
+        """Return whether a drone has left a piece of its course."""
         if drone not in self._at:
             return True  # it is down, or fails
         if self._traffic is not None and self._traffic.touches_down(drone):
@@ -203,7 +203,7 @@ class Descent:
 
 
 async def _well(command: _Command) -> bool:
-    """Say whether a drone could do it; a failure keeps no other."""
+    """Return whether a command succeeded; a failure does not hold up other drones."""
     try:
         await command()
     except FlightFailed:
@@ -212,5 +212,5 @@ async def _well(command: _Command) -> bool:
 
 
 def _no_other(section: Section) -> Sequence[Section]:
-    """It was planned so, and all others rely on it."""
+    """No alternative: the plan of all others relies on this course."""
     return (section,)

@@ -1,7 +1,7 @@
-"""One process commands a drone: a lock for each, in a folder that all processes of a user share.
+"""Exclusive access to drones: a lock for each, in a folder that all processes of a user share.
 
-The lock of a gateway's folder goes with that folder; these stay. They belong
-to the process that takes them and end with it, so nothing has to be cleared away after a crash.
+The locks belong to the process that takes them and end with it, so nothing has to be cleaned up after
+a crash.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from ..process import locks
 from ..process.ipc import is_private
 
 LEAVING = 8.0
-"""Seconds that a gateway whose drones are down may take to let go of them."""
+"""Seconds that a gateway whose drones have landed may take to release them."""
 
 _EACH = 0.05
-"""Seconds between two looks."""
+"""The polling interval, in seconds."""
 
 
 class DroneInUse(BadInput):
@@ -35,10 +35,10 @@ class DroneInUse(BadInput):
 def lock_drones(
     drones: Mapping[str, str], folder: Path | None = None, patience: float = 0.0
 ) -> Iterator[None]:
-    """Let no other process command these drones, by their ids and URIs; `DroneInUse` if one does.
+    """Lock these drones, by their ids and URIs; raise `DroneInUse` if another process commands one.
 
     `folder` is where the locks are; default: where they are for all processes of this user.
-    Their last holder may just be ending: it is waited for `patience` seconds.
+    As their last holder may just be ending, it waits for `patience` seconds.
     """
     until = time.monotonic() + patience
     place = folder or _folder()
@@ -72,7 +72,7 @@ def _taken(file: Path, id: str, uri: str, until: float) -> int:
 
 
 def _name(uri: str) -> str:
-    """Return the same file for all ways to write where a drone is: by whichever dongle, too."""
+    """Return the lock file's name, the same for all forms of a drone's URI, whichever dongle it names."""
     plain = uri.strip().casefold().partition("?")[0].rstrip("/")
     scheme, has_host, rest = plain.partition("://")
     if scheme == _RADIO and has_host:
@@ -81,11 +81,11 @@ def _name(uri: str) -> str:
 
 
 _RADIO = "radio"
-"""Of these URIs the first part is a number of the dongle: another one reaches the same drone."""
+"""In these URIs the first part is the number of a dongle: another one reaches the same drone."""
 
 
 def _folder() -> Path:
-    """Return the folder of this user's locks; it is made where there is none."""
+    """Return the folder of this user's locks, which is created if needed."""
     runtime = os.environ.get("XDG_RUNTIME_DIR", "")
     usable = os.path.isabs(runtime) and os.access(runtime, os.W_OK | os.X_OK)
     folder = Path(runtime if usable else tempfile.gettempdir()) / f"pluto-drones-{os.geteuid()}"

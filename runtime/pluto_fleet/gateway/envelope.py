@@ -1,4 +1,4 @@
-"""Where drones may be sent at all: checked beside the brain, refused, and never made to fit."""
+"""The geofence: a target outside is refused, independently of the brain, and never adjusted."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Envelope:
-    """Inside the map, outside the no-fly areas, between ground and ceiling: all the way."""
+    """The permitted space: inside the map, outside the no-fly areas, between ground and ceiling."""
 
     def __init__(self, airspace: Airspace) -> None:
         self._airspace = airspace
@@ -34,7 +34,7 @@ class Envelope:
             raise FlightFailed(Failure.REFUSED, problem)
 
     def check_height(self, height: float) -> None:
-        """Raise `FlightFailed` if no drone may rise so high."""
+        """Raise `FlightFailed` if a height is outside."""
         ceiling = self._airspace.ceiling
         if not 0 <= height <= ceiling:
             reason = f"{number(height)} m is not between the ground and {number(ceiling)} m"

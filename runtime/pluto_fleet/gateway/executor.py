@@ -1,4 +1,4 @@
-"""Flies jobs and errands, by what each drone can be made to do: the `Navigation` of every gateway."""
+"""Executes jobs and single commands with the drones' controls: the `Navigation` of every gateway."""
 
 from __future__ import annotations
 
@@ -32,18 +32,18 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 Leaving = Callable[[str], AbstractContextManager[object]]
-"""Says that a drone takes off: asked before it is told to, left once it has."""
+"""A context for a take-off: entered before the command, left once it is done."""
 
 _HOVERS_ON = (Failure.REFUSED, Failure.ACTION)
-"""What goes wrong with a drone that hovers as before."""
+"""Failures after which a drone hovers as before."""
 
 
 def _nothing() -> None:
-    """A flight goes on that has begun."""
+    """Does nothing: the flight has begun already."""
 
 
 class Executor:
-    """One for each drone, as it were: they know the way, and what is permitted."""
+    """Executes jobs: finds routes, checks the geofence, and keeps drones apart."""
 
     def __init__(
         self,
@@ -59,15 +59,15 @@ class Executor:
         self._leaving: Leaving = leaving or nullcontext
         """Writes down which drone takes off; in a simulation that is not needed after a crash."""
         self._traffic = traffic
-        """Keeps them apart from each other; None: they are not kept apart."""
+        """Keeps drones apart; None: they are not kept apart."""
         self._envelope = Envelope(airspace)
         self._drones = {drone.id: drone for drone in drones}
         self._jobs: dict[str, Task[None]] = {}
-        """The jobs under way, by the drones' ids."""
+        """The jobs in progress, by the drones' ids."""
         self._rescues: dict[str, Task[bool]] = {}
         """The latest rescue of each drone."""
         self.telemetry: Mapping[str, Telemetry] = controls.telemetry
-        """What is known of each drone; the values stay current."""
+        """The drones' telemetry, always current."""
         self._cut = CutMotors(ledger, lambda drone: not controls.telemetry[drone].landed)
 
     # Jobs
@@ -129,12 +129,12 @@ class Executor:
         await self._noticed(drone, self._controls.hold(drone))
 
     def begins(self, drone: str) -> None:
-        """A flight begins, for no job."""
+        """Begin a flight without a job."""
         self._refuse_if_cut(drone)
         self._controls.begins(drone, None, 0.0)
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise to a height; does nothing for a drone that flies."""
+        """Take off to a height; does nothing for a drone that flies."""
         begins = partial(self.begins, drone)
         if self._controls.telemetry[drone].landed:
             await self.travels(drone, partial(self._up, drone, height), begins)
@@ -145,7 +145,7 @@ class Executor:
         """Fly straight to a point."""
         self._refuse_if_cut(drone)
         if self._controls.telemetry[drone].landed:
-            await self._controls.go_to(drone, target)  # says why not
+            await self._controls.go_to(drone, target)  # raises the reason
         else:
             await self.travels(drone, partial(self._straight, drone, target))
 
@@ -171,7 +171,7 @@ class Executor:
             await self._controls.cut(drone)
 
     def _refuse_if_cut(self, drone: str) -> None:
-        """Let no motor turn again before a person has looked after the drone."""
+        """Raise `FlightFailed` if the motors were cut, and the drone has not been repaired since."""
         if drone in self._cut:
             raise motors_cut(drone)
 
@@ -188,14 +188,14 @@ class Executor:
     # After a failure
 
     def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone: it may be asked again."""
+        """Called when a lost drone has been repaired: it takes commands again."""
         self._cut.mended(drone)
         self._controls.mended(drone)
 
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight, landed; False: it is lost.
 
-        What it still carries is taken off there.
+        What it still carries is unloaded there.
         """
         rescue = self._kernel.spawn(
             self._rescue(drone), self._key(drone), f"{drone} is brought home"
@@ -218,7 +218,7 @@ class Executor:
         if self._traffic is not None:
             self._traffic.found(drone)
         home = await self._flies_home(drone)
-        if drone in self._cut:  # meanwhile: it fell, and is not fetched before it is mended
+        if drone in self._cut:  # meanwhile: it fell, and stays there until it is repaired
             return False
         if not home and not await controls.fetched(drone):
             return False
@@ -233,14 +233,14 @@ class Executor:
                 begins()
                 return True
             await self.travels(drone, partial(self._home, drone), begins)
-            if not telemetry.landed:  # another drone stood there
+            if not telemetry.landed:  # another drone was in its dock
                 await self.land(drone)
         except FlightFailed:
             return False
         return True
 
     async def _noticed(self, drone: str, hovering: Coroutine[Any, Any, T]) -> T:
-        """Let a drone do something where it hovers; if it fails there, others keep away."""
+        """Await a command of a hovering drone; if it fails, keep others away from there."""
         try:
             return await hovering
         except FlightFailed as error:
@@ -259,9 +259,9 @@ class Executor:
         ways: Ways | None = None,
         anywhere: bool = False,
     ) -> None:
-        """Fly a section, or another of these ways to its end, as soon as one is free.
+        """Fly a section, or an alternative to the same end, as soon as one is free.
 
-        Who must wait for long, waits on the ground. `anywhere`: it is enough to be there.
+        A drone that must wait for long waits on the ground. `anywhere`: any end will do.
         """
         traffic, since = self._traffic, self._kernel.now
         if traffic is None:
@@ -289,7 +289,7 @@ class Executor:
             raise
 
     async def _arrives(self, way: Section, traffic: Traffic) -> bool:
-        """Follow a way; False: traffic has stopped the drone, and it must take another."""
+        """Follow a route; return False if traffic has stopped the drone, and it must take another."""
         traffic.halted.pop(way.drone, None)
         try:
             await self._follow(way)
@@ -340,7 +340,7 @@ class Executor:
         return Section(drone, tuple(points), stands, False, tail)
 
     def way_down(self, drone: str) -> Section:
-        """Return the way straight down, or beside it."""
+        """Return the way down, straight or beside it."""
         here = self._controls.telemetry[drone].location
         if self._traffic is not None:
             return self._traffic.ground.way_down(drone)
@@ -361,7 +361,7 @@ class Executor:
         return Section(drone, tuple(points), stands, lands)
 
     def _start(self, drone: str, height: float) -> tuple[list[Point], bool]:
-        """Return where a drone is, and where it is when it has taken off; whether it must."""
+        """Return where a drone is, where it will be after its take-off, and whether it must take off."""
         telemetry = self._controls.telemetry[drone]
         here = telemetry.location
         if not telemetry.landed:

@@ -1,7 +1,7 @@
-"""Between the brain and its drones: every command passes here, and may outlive the brain that gave it.
+"""The gateway: all commands of the brain pass through it, and may outlive the brain.
 
-A brain commands through a `Link`. When another brain links, or the brain's heartbeat stays away, the
-old link is cut: it commands nothing any more, and hears nothing.
+A brain commands through a `Link`. When another brain connects, or the brain's heartbeat is missing, the
+old link is cut: its commands are ignored, and it gets no reports.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ T = TypeVar("T")
 
 
 class Busy(RuntimeError):
-    """A drone was told to do a second thing at once: a mistake of the brain, not of a flight."""
+    """A drone was given a second command at once: a bug of the brain, not a failed flight."""
 
     @property
     def as_failure(self) -> FlightFailed:
-        """The same for a brain in another process."""
+        """Return it as a failure, for a brain in another process."""
         return FlightFailed(Failure.REFUSED, str(self))
 
 
 class Link:
-    """A `Navigation` that the gateway answers: none of it is heard once the link is cut.
+    """The `Navigation` of a brain, served by the gateway until the link is cut.
 
     After a cut no command ever returns: a caller must not mistake a lost link for a failed flight.
     The same holds from `bring_down` until `fleet_report`.
@@ -55,16 +55,16 @@ class Link:
         self._line = gateway.line
         self._is_heard = gateway.descent is None
         self._under_way: dict[str, None] = {}
-        """The drones that do something for themselves."""
+        """The commands in progress, by drone."""
 
-    # What every navigation does
+    # The navigation protocol
 
     def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone; the value stays current."""
+        """Return a drone's telemetry, which is always current."""
         return self._navigation.telemetry[drone]
 
     def fly(self, job: Job, report: Report) -> None:
-        """Give a drone its job. One that was done already is not flown, but reported once more."""
+        """Give a drone its job. A job that was done already is reported again, and not flown."""
         if self._is_heard:
             if job.drone in self._under_way:
                 raise Busy(f"{job.drone} was told to fly while it does something for itself")
@@ -80,11 +80,11 @@ class Link:
         await self._command(drone, self._navigation.hold(drone), stays=True)
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what a drone measures under this name, also while it flies."""
+        """Return a sensor or variable of a drone, also while it flies."""
         return await self._asked(self._navigation.read(drone, name))
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone has under this name, also while it flies."""
+        """Set a parameter of a drone, also while it flies."""
         await self._asked(self._navigation.write(drone, name, value))
 
     async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
@@ -101,7 +101,7 @@ class Link:
         return answer
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise to a height."""
+        """Take off to a height."""
         self._gateway.envelope.check_height(height)
         await self._command(drone, self._navigation.takeoff(drone, height))
 
@@ -115,7 +115,7 @@ class Link:
         await self._command(drone, self._navigation.land(drone))
 
     def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone: it can be recovered once more."""
+        """Called when a lost drone has been repaired: it can be recovered again."""
         if self._is_heard:
             self._navigation.mended(drone)
 
@@ -133,7 +133,7 @@ class Link:
     async def _command(
         self, drone: str, command: Coroutine[Any, Any, T], *, stays: bool = False
     ) -> T:
-        """Let a drone do something, and return when it has; never, once the link is cut."""
+        """Run a command, and return when it is done; never, once the link is cut."""
         if not self._is_heard:
             command.close()
             await _for_ever()
@@ -148,12 +148,12 @@ class Link:
         finally:
             self._under_way.pop(drone, None)
 
-    # What only the gateway does
+    # Beyond the navigation protocol
 
     async def fleet_report(self) -> FleetReport:
-        """Ask all drones and the ledger how everything stands; from now on the link is heard.
+        """Query all drones and the ledger; from now on this link is in command.
 
-        If the drones are being brought down, that is seen through first.
+        If the drones are being brought down, that is completed first.
         """
         gateway = self._gateway
         while gateway.descent is not None:
@@ -165,22 +165,22 @@ class Link:
         return roll
 
     def attach(self, id: str, report: Report) -> None:
-        """Hear of a job that was given before: when it ends, or now if it has."""
+        """Register for the report of an earlier job: called when it ends, or now if it has."""
         if self._is_heard:
             self._gateway.jobs.attach(id, report if self._line is None else self._line(report))
 
     def forget(self, id: str) -> None:
-        """Forget a job: its id may be given again."""
+        """Forget a job: its id may be used again."""
         if self._is_heard:
             self._gateway.jobs.forget(id)
 
     def heartbeat(self) -> None:
-        """Say that the brain is alive."""
+        """Signal that the brain is alive."""
         if self._gateway.is_commanded_by(self):
             self._gateway.heard = self._gateway.kernel.now
 
     async def bring_down(self, how: Down) -> None:
-        """Break off everything and bring all drones down; return when all that can are down.
+        """Abort everything and bring all drones down; return when all that can have landed.
 
         This goes on even if the brain ends.
         """
@@ -194,10 +194,10 @@ class Link:
         if not gateway.is_commanded_by(self):
             await _for_ever()
 
-    # What the gateway does to it
+    # Called by the gateway
 
     def cut(self) -> None:
-        """Hear nothing of it any more, and say so."""
+        """Ignore it from now on, and notify its brain."""
         self._is_heard = False
         for drone in list(self._under_way):
             self._navigation.break_off(drone)
@@ -207,7 +207,7 @@ class Link:
 
 
 async def _for_ever() -> NoReturn:
-    """Wait for what never happens."""
+    """Never return."""
     await Future[None]()
     raise AssertionError
 
@@ -215,8 +215,8 @@ async def _for_ever() -> NoReturn:
 class Gateway:
     """All drones of one fleet, and the jobs that they were given.
 
-    Without a ledger what is over is forgotten. Without patience
-    nothing is landed because the brain is silent.
+    Without a ledger, finished jobs are forgotten. Without `patience`,
+    a silent brain is no reason to land.
     """
 
     def __init__(
@@ -235,7 +235,7 @@ class Gateway:
     ) -> None:
         self.kernel = kernel
         self.traffic: Traffic | None = None
-        """Keeps drones apart from each other, if anybody wants that."""
+        """Keeps drones apart, if configured."""
         if apart > 0:
             self.traffic = Traffic(
                 kernel,
@@ -254,12 +254,12 @@ class Gateway:
         self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
         self.jobs = Jobs(kernel, self.navigation.fly, self._keys, self.envelope, ledger)
         self.commander: Link | None = None
-        """The link through which the drones are commanded now."""
+        """The link in command."""
         self.line: Callable[[Report], Report] | None = None
-        """What lies between a brain and its reports in a simulation: it wraps their listener."""
+        """Wraps the listeners of reports, to simulate a lossy line to the brain."""
         self._epoch = 0
         self.descent: Task[None] | None = None
-        """Brings all drones down, while that is so."""
+        """The task that brings all drones down, if any."""
         self._how = Down.LAND
         self._over = False
         self.heard = kernel.now
@@ -267,12 +267,12 @@ class Gateway:
         if patience is not None:
             self._watch(patience)
 
-    # Who commands
+    # The link in command
 
     def link(self, epoch: int, lost: Callable[[], object] | None = None) -> Link:
-        """Let a brain command; the one before does not any more.
+        """Put a brain in command, instead of the one before.
 
-        `lost` is told, once, when this link is cut in turn.
+        `lost` is called, once, when this link is cut in turn.
         """
         if epoch < self._epoch:
             raise BadInput("another run of this app has taken over the drones meanwhile")
@@ -282,14 +282,14 @@ class Gateway:
         return link
 
     def cut(self) -> None:
-        """Let no brain command. Jobs go on; what else the drones do for the brain is broken off."""
+        """Cut the link of the brain. Jobs go on; the brain's single commands are aborted."""
         link, self.commander = self.commander, None
         if link is not None:
             self.jobs.mute()
             link.cut()
 
     def is_commanded_by(self, link: Link) -> bool:
-        """Say whether this is the link through which the drones are commanded."""
+        """Return whether this link is in command."""
         return link is self.commander
 
     def break_off(self, drone: str) -> None:
@@ -305,7 +305,7 @@ class Gateway:
         return any(not known.landed for known in self.navigation.telemetry.values())
 
     def _watch(self, patience: float) -> None:
-        """Land everything when nothing was heard for too long; look again when that may be so."""
+        """Land everything when the brain was silent for too long; else check again in time."""
         if self._over:
             return
         due = self.heard + patience
@@ -321,7 +321,7 @@ class Gateway:
         return self.bring_down(how)
 
     def crash(self) -> None:
-        """End as a process that is killed: the drones hover, and what is in memory is gone."""
+        """End like a killed process: the drones hover, and the memory is gone."""
         self._over = True
         self.jobs.leave()
         if self.descent is not None:
@@ -331,7 +331,7 @@ class Gateway:
             self.navigation.break_off(drone.id)
 
     async def cut_motors(self, drone: str) -> str:
-        """Switch a drone's motors off now, with or without a brain; say why if it cannot be told."""
+        """Switch a drone's motors off now, with or without a brain; return why if it cannot be reached."""
         try:
             await self.navigation.cut_motors(drone)
         except FlightFailed as error:
@@ -341,7 +341,7 @@ class Gateway:
     # All drones
 
     async def fleet_report(self) -> FleetReport:
-        """Ask every drone how it stands, and settle by that what has become of every job."""
+        """Query every drone, and settle the outcome of every job by that."""
         spawn = self.kernel.spawn
         asked = [
             spawn(self._ask(drone), key, f"{drone} is asked") for drone, key in self._keys.items()
@@ -356,18 +356,18 @@ class Gateway:
         return standing
 
     async def recover(self, drone: str) -> bool:
-        """Bring a drone home after a failed flight; it may have been switched off for that."""
+        """Bring a drone home after a failed flight; it may have been restarted meanwhile."""
         found = await self.navigation.recover(drone)
         if found:
             await self._ask(drone)
         return found
 
     def bring_down(self, how: Down) -> Task[None]:
-        """Break off everything, and bring all drones down; the task is over when they are."""
+        """Abort everything, and bring all drones down; the task ends when they have landed."""
         descent = self.descent
         if descent is not None:
             if self._how is Down.LAND or how is Down.HOME:
-                return descent  # they come down no later than that
+                return descent  # it is at least as fast
             descent.cancel()
         for drone in self.drones:
             self.break_off(drone.id)

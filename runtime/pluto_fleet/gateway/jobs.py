@@ -1,4 +1,4 @@
-"""The jobs that drones were given: by their ids, so that nothing that was done is done again."""
+"""The jobs of the drones, identified by their ids, so that no action is done twice."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class AssignedJob:
-    """One job that was given to a drone: what navigation gets instead of the brain's own."""
+    """A job that was given to a drone; passed to navigation instead of the brain's own."""
 
     __slots__ = (
         "_job",
@@ -50,17 +50,17 @@ class AssignedJob:
 
     @property
     def parameters(self) -> Mapping[str, Plain]:
-        """How to do it."""
+        """The parameters of the action."""
         return self._known.parameters
 
     @property
     def item(self) -> Item | None:
-        """What to pick or to release."""
+        """The item to pick or release."""
         return self._known.item
 
     @property
     def seconds(self) -> float:
-        """How long the action is expected to take."""
+        """The expected duration of the action."""
         return self._known.seconds
 
     @property
@@ -71,16 +71,16 @@ class AssignedJob:
 
     @property
     def flies(self) -> bool:
-        """Whether navigation has it, and will report."""
+        """Whether navigation is executing it, and will report."""
         return self._job is not None
 
     @property
     def hovers(self) -> bool:
-        """Whether it came so far that its drone waits there, for an action of the app's own."""
+        """Whether its drone has arrived, and hovers there for an action of the app's own."""
         return self.action is None and self.state is JobState.DONE
 
     def begins(self) -> None:
-        """Hear that the action is about to be done: that is written down first."""
+        """Called right before the action is done: records that first."""
         job = self._known
         self.state = JobState.BEGUN
         try:
@@ -92,7 +92,7 @@ class AssignedJob:
         job.begins()
 
     def report(self, result: object) -> None:
-        """Hear how it ended, and tell the listener."""
+        """Called with its outcome, which is passed on to the listener."""
         if self._job is None:
             return
         self._job, begun = None, self.state is JobState.BEGUN
@@ -106,18 +106,18 @@ class AssignedJob:
             self.listener(result)
 
     def leave(self) -> None:
-        """Hear no more of it."""
+        """Ignore further reports."""
         self._job = self.listener = None
 
     def break_off(self) -> None:
-        """It is not flown any more; an action that has begun may have been done, or not."""
+        """Abort it; an action that has begun may have been done, or not."""
         self.leave()
         if self.state is JobState.FLYING or self.hovers:
             self.state = JobState.BROKEN_OFF
 
     @property
     def entry(self) -> Entry:
-        """What the ledger has of it."""
+        """Its entry in the ledger."""
         return Entry(
             id=self.id,
             drone=self.drone,
@@ -131,7 +131,7 @@ class AssignedJob:
 
 
 class Jobs:
-    """Every job that may still be asked for."""
+    """All jobs that the brain may still ask for."""
 
     def __init__(
         self,
@@ -144,17 +144,17 @@ class Jobs:
         self._kernel, self._fly, self._keys = kernel, fly, keys
         self._envelope, self._ledger = envelope, ledger
         self._known: dict[str, AssignedJob | Entry] = {}
-        """By their ids; an `Entry` is settled, or of another life of the gateway."""
+        """By their ids; an `Entry` is finished, or from an earlier run of the gateway."""
         if ledger is not None:
             self._known.update((entry.id, entry) for entry in ledger.entries())
         self._remembered: dict[str, DroneReport] = {}
-        """The drone that reports a job as done, by the job's id: only it may still know."""
+        """The drone that reports a job as done, by the job's id: it may be the only record."""
         self._current: dict[str, AssignedJob] = {}
-        """What drones fly, or hover for, by the drones' ids."""
+        """The current job of each drone, by the drones' ids."""
         self.boots = dict.fromkeys(keys, 0)
-        """How the drones' boots were numbered when they were last asked."""
+        """The drones' boot numbers in their latest reports."""
 
-    # What the brain asks for
+    # Requests of the brain
 
     def fly(self, job: Job, report: Report) -> None:
         """Give a drone its job, unless its action was done before, or may have been."""
@@ -174,7 +174,7 @@ class Jobs:
         self._fly(given, given.report)
 
     def _repeated(self, known: AssignedJob | Entry, report: Report) -> None:
-        """Answer who gives a job once more by what is known of it, never by a flight."""
+        """Answer a repeated job by what is known of it, never by a flight."""
         if known.state is JobState.BEGUN and not known.flies:
             reason = f"it cannot be told whether the action of {known.id} was done"
             self._post(known.drone, partial(report, FlightFailed(Failure.UNKNOWN, reason)))
@@ -188,7 +188,7 @@ class Jobs:
         return self._envelope.problem(job.stops)
 
     def attach(self, id: str, report: Report) -> None:
-        """Tell a listener how a job ends, or has ended; of others nothing is told."""
+        """Call a listener when a job ends, or now if it has; unknown jobs are ignored."""
         known = self._known.get(id)
         if isinstance(known, AssignedJob) and known.flies:
             known.listener = report
@@ -196,7 +196,7 @@ class Jobs:
             self._post(known.drone, partial(report, reported_result(_entry(known))))
 
     def forget(self, id: str) -> None:
-        """Drop a job that does not fly: its id may be given again."""
+        """Drop a job that does not fly: its id may be used again."""
         known = self._known.get(id)
         if known is None or known.flies:
             return
@@ -207,7 +207,7 @@ class Jobs:
             self._ledger.forget(id)
 
     def break_off(self, drone: str) -> None:
-        """Stop a drone's job, if it has one: it is not reported any more."""
+        """Abort a drone's job, if it has one: it is not reported any more."""
         job = self._current.pop(drone, None)
         if job is not None:
             job.break_off()
@@ -215,18 +215,18 @@ class Jobs:
                 self._known.pop(job.id, None)
 
     def is_flown_by(self, drone: str) -> bool:
-        """Say whether a drone flies a job now."""
+        """Return whether a drone flies a job now."""
         job = self._current.get(drone)
         return job is not None and job.flies
 
     def moves_on(self, drone: str) -> None:
-        """A drone is told to leave where it hovered for an action of the app's own."""
+        """Called when a drone leaves the place where it hovered for an action of the app's own."""
         job = self._current.get(drone)
         if job is not None and job.hovers:
             del self._current[drone]
             job.break_off()
 
-    # What becomes of listeners
+    # Listeners
 
     def mute(self) -> None:
         """Drop all listeners; the jobs go on."""
@@ -234,19 +234,19 @@ class Jobs:
             job.listener = None
 
     def leave(self) -> None:
-        """Write down no more of them: the gateway is gone."""
+        """Record nothing any more: the gateway has ended."""
         for job in self._current.values():
             job.leave()
 
-    # What jobs tell
+    # Called by jobs
 
     def write(self, job: Entry) -> None:
-        """Write down how a job stands, for good."""
+        """Record a job's state durably."""
         if self._ledger is not None:
             self._ledger.write(job)
 
     def ended(self, job: AssignedJob, begun: bool) -> None:
-        """Hear that a job is over; where nothing had begun, that need not be kept for good."""
+        """Called when a job has ended; if no action had begun, that need not be durable."""
         if self._ledger is None:
             self._known.pop(job.id, None)
         elif begun:
@@ -254,12 +254,12 @@ class Jobs:
         if not job.hovers:
             self._current.pop(job.drone, None)
 
-    # What drones tell
+    # Reports of drones
 
     def settle(self, drones: Mapping[str, DroneReport], again: bool) -> Mapping[str, Entry]:
-        """Find out from the drones what has become of actions that had begun; return all jobs.
+        """Settle actions that had begun by the drones' reports; return all jobs.
 
-        `again`: it is not the journal's first life, so what they remember may be of earlier ones.
+        `again`: it is not the journal's first run, so the drones may remember earlier ones.
         """
         if again:
             self._remembered = {id: drone for drone in drones.values() for id in drone.done or ()}
@@ -285,14 +285,14 @@ class Jobs:
         return entry
 
     def _believe(self, drone: DroneReport) -> None:
-        """Take the drone's word for what it did, where the ledger was damaged."""
+        """Record what a drone says that it did, as the ledger was damaged."""
         for id in drone.done or ():
             if id not in self._known:
                 self._known[id] = entry = _done(id, drone)
                 self._keep(entry)
 
     def _keep(self, job: Entry) -> None:
-        """Write down what came of an action; if that fails, its drone still remembers it."""
+        """Record an action's outcome; if that fails, its drone still remembers it."""
         with suppress(OSError):
             self.write(job)
 

@@ -1,4 +1,4 @@
-"""What must be remembered of jobs and of motors that were cut, even if the gateway is killed."""
+"""The durable record of jobs and of motors that were cut, which survives a kill of the gateway."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ from .wire import entry_data
 
 
 class Ledger:
-    """Keeps of each job whose action has begun how it stands; what is kept is there for good.
+    """Stores the state of each job whose action has begun.
 
-    This one keeps it in memory, for simulations and tests: it outlives a simulated gateway, not the
-    process.
+    This one stores it in memory, for simulations and tests: it outlives a simulated gateway, but not
+    the process.
     """
 
     def __init__(self) -> None:
         self._kept: dict[str, Entry] = {}
-        """How each job stands, in the order in which the jobs were given."""
+        """The state of each job, in the order in which the jobs were given."""
         self.cut: dict[str, None] = {}
         """The drones whose motors are cut."""
         self.is_whole = True
-        """Whether all that was ever kept can be read."""
+        """Whether everything that was ever stored can be read."""
 
     def entries(self) -> Iterator[Entry]:
-        """Yield what is kept, in the order in which the jobs were given."""
+        """Yield the stored jobs, in the order in which they were given."""
         yield from self._kept.values()
 
     def write(self, entry: Entry) -> None:
-        """Keep how a job stands; when this returns, it is kept. `OSError`: it is not."""
+        """Store a job's state durably; raise `OSError` if that fails."""
         self._kept[entry.id] = replace(entry, flies=False)
 
     def forget(self, id: str) -> None:
@@ -45,28 +45,28 @@ class Ledger:
         self._kept.pop(id, None)
 
     def write_cut(self, drone: str, is_cut: bool) -> None:
-        """Keep whether a drone's motors are cut; if the computer dies, only after `make_sure`.
+        """Store whether a drone's motors are cut; durable against a power failure only after `make_sure`.
 
-        Waits for no disk, for motors are cut right after that. `OSError`: it is not kept.
+        Does not wait for the disk, as motors are cut right after that. Raises `OSError` if it fails.
         """
         self.cut.pop(drone, None)
         if is_cut:
             self.cut[drone] = None
 
     def make_sure(self) -> None:
-        """Return when all is kept, even after a crash. `OSError`: perhaps not."""
+        """Make everything durable; raise `OSError` if that may have failed."""
 
 
 _SPARE = 1000
-"""Lines that may be of no use any more when a process begins; while it runs, twice as many."""
+"""How many obsolete lines are left when a process starts; twice as many while it runs."""
 
 _sync: Callable[[int], None] = getattr(os, "fdatasync", os.fsync)  # not every system has the former
 
 
 class FileLedger(Ledger):
-    """Every line has a checksum: what a torn or damaged one said is not believed.
+    """A durable ledger in a file; each line has a checksum, and damaged ones are ignored.
 
-    It is whole even if the line at its end was never finished.
+    It is whole even if its last line is incomplete.
     """
 
     def __init__(self, path: Path) -> None:
@@ -84,20 +84,20 @@ class FileLedger(Ledger):
             _sync_folder(path.parent)
 
     def write(self, entry: Entry) -> None:
-        """Keep how a job stands; when this returns, it is on the disk."""
+        """Store a job's state; when this returns, it is on the disk."""
         self._append(entry_data(entry))
 
     def forget(self, id: str) -> None:
-        """Drop a job. Should that be lost, it is only known for longer than it need be.
+        """Drop a job. If that is lost in a crash, the job is merely kept longer.
 
-        What has been dropped takes room until there is much of it; the disk is not waited for here.
+        The file is compacted when there is much to drop; this does not wait for the disk.
         """
         with suppress(OSError):
             self._append({"forget": id}, sync=False)
             self._compact(2 * _SPARE)
 
     def write_cut(self, drone: str, is_cut: bool) -> None:
-        """Keep whether a drone's motors are cut; if the computer dies, only after `make_sure`."""
+        """Store whether a drone's motors are cut; durable against a power failure only after `make_sure`."""
         self._append(_motors(drone, is_cut), sync=False)
 
     def make_sure(self) -> None:
@@ -105,7 +105,7 @@ class FileLedger(Ledger):
         _sync(self._file)
 
     def close(self) -> None:
-        """Leave the file as it is."""
+        """Close the file."""
         os.close(self._file)
 
     def _append(self, data: Mapping[str, object], *, sync: bool = True) -> None:
@@ -144,18 +144,18 @@ class FileLedger(Ledger):
             super().write(_entry(data))
 
     def _compact(self, spare: int) -> None:
-        """Write the file anew if most of it is of no use; what was damaged stays, to be looked at."""
+        """Rewrite the file if most of it is obsolete; a damaged one is kept for inspection."""
         needed = len(self._kept) + len(self.cut)
         if self.is_whole and self._lines > max(2 * needed, self._tried) + spare:
-            self._tried = self._lines  # on a full disk: not again at once
+            self._tried = self._lines  # on a full disk, do not retry at once
             with suppress(OSError):
                 self._write_anew()
                 self._lines, self._tried = needed, 0
 
     def _write_anew(self) -> None:
-        """Leave out what has been overtaken or forgotten: beside the file, then in its place.
+        """Write what is still valid into a new file, and replace the old one.
 
-        Until the folder knows of the new file the old one is whole; nothing is added to either.
+        Until the folder is synced the old file is complete; nothing is added to either.
         """
         part = self._path.with_name(f"{self._path.name}.part")
         kept = [*map(entry_data, self._kept.values()), *(_motors(id, True) for id in self.cut)]
@@ -214,7 +214,7 @@ def _read(line: bytes) -> Mapping[str, object]:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Let a new file's name be on the disk, too."""
+    """Sync the folder, so that a new file's name is durable."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_CLOEXEC)
     with suppress(OSError):
         os.fsync(descriptor)
@@ -222,15 +222,15 @@ def _sync_folder(folder: Path) -> None:
 
 
 class CutMotors:
-    """It is written down before it is done, for the process may be killed at any moment.
+    """Records cut motors before they are cut, as the process may be killed at any moment.
 
-    So an earlier gateway may have died in between. Then the drone flies, and is to be landed.
+    So an earlier gateway may have died in between: then the drone flies, and is to be landed.
     """
 
     def __init__(self, ledger: Ledger | None, flies: Callable[[str], bool]) -> None:
         self._ledger, self._flies = ledger or Ledger(), flies
         self._cut = dict.fromkeys(self._ledger.cut, False)
-        """By drone: whether they were cut here, and not by an earlier gateway."""
+        """By drone: whether its motors were cut by this gateway, and not by an earlier one."""
 
     def __contains__(self, drone: str) -> bool:
         here = self._cut.get(drone)
@@ -238,7 +238,7 @@ class CutMotors:
 
     @contextmanager
     def recording_cut(self, drone: str) -> Iterator[None]:
-        """Keep it; if the drone cannot be told, it is as it was: it shall come home if it can."""
+        """Record a cut within this context; undo it if the drone cannot be reached, so that it can come home."""
         before = self._cut.get(drone)
         self._cut[drone] = True
         if before is None:
@@ -254,13 +254,13 @@ class CutMotors:
         self._make_sure()
 
     def mended(self, drone: str) -> None:
-        """A person has looked after it."""
+        """Called when a drone has been repaired."""
         if self._cut.pop(drone, None) is not None:
             self._write(drone, False)
             self._make_sure()
 
     def _write(self, drone: str, is_cut: bool) -> None:
-        """Write it down, if that can be done: motors are not left on because a disk is full."""
+        """Record it if possible: a full disk must not keep motors from being cut."""
         with suppress(OSError):
             self._ledger.write_cut(drone, is_cut)
 

@@ -1,4 +1,4 @@
-"""A line to the brain on which reports come late, or break it: for simulations."""
+"""A simulated line to the brain that delays reports, or breaks."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ if TYPE_CHECKING:
     from .gateway import Gateway, Link
 
 LOST = -1.0
-"""The fate of a report that never arrives."""
+"""The delay of a report that is lost."""
 
 
 class LossyLine:
-    """Give it to a gateway as its `line`.
+    """To be set as a gateway's `line`.
 
-    `delay` says of each report how many seconds it takes, or that it is `LOST`: then the line is
-    broken, as a real one would be, and the link is cut. What was not heard is known to the gateway.
+    `delay` returns the seconds that a report takes, or `LOST`: then the line breaks, as a real one
+    would, and the link is cut. The gateway still knows what was not delivered.
     """
 
     def __init__(self, gateway: Gateway, delay: Callable[[], float]) -> None:
         self._gateway, self._delay = gateway, delay
         self.late = self.lost = 0
-        """How many reports were late, and how many got lost."""
+        """How many reports were delayed, and how many were lost."""
 
     def __call__(self, report: Report) -> Report:
-        """Return a listener that hears over this line, for another."""
+        """Wrap a listener, so that it is called through this line."""
         return partial(self._carry, report)
 
     def _carry(self, report: Report, result: object) -> None:

@@ -1,4 +1,4 @@
-"""The gateway as a process of its own: it starts nothing of the app, and ends when it is not needed."""
+"""The gateway as a process of its own, which runs none of the app's code and exits when not needed."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ if TYPE_CHECKING:
 
 
 LINGERS = 120.0
-"""Seconds for which one that may hover, unheard, is waited for when the gateway is not needed otherwise."""
+"""Seconds to wait for a silent drone that may be hovering, when the gateway is not needed otherwise."""
 
 
 class Ending:
-    """Sees to it that the process ends, and only when all drones are down.
+    """Ends the process when it is not needed, and only after all drones have landed.
 
-    A real drone that does not answer may still be in the air: it lands if it is back in time. No
-    brain is kept waiting for that.
+    A real drone that does not answer may still be in the air: it is landed if its link is back in
+    time. A brain need not wait for that.
     """
 
     def __init__(self, gateway: Gateway, over: Future[None], settings: Settings) -> None:
@@ -62,13 +62,13 @@ class Ending:
         self._alone = -1.0
         """Seconds without a brain and without a drone in the air."""
         self._told: float | None = None
-        """Seconds since it was told to end."""
+        """Seconds since it was asked to end."""
         self._lingers = 0.0 if settings.real is None else LINGERS
         self._left: float | None = None
-        """Seconds that are left to a drone that may hover."""
+        """Seconds left to wait for a drone that may be hovering."""
 
     def goodbye(self) -> None:
-        """End, once all drones are down."""
+        """End once all drones have landed."""
         gateway = self._gateway
         if gateway.flies:
             gateway.fail_safe(Down.LAND).watch(lambda _: self._down())
@@ -76,7 +76,7 @@ class Ending:
             self._over.set(None)
 
     def _down(self) -> None:
-        """All that can be told are down: end, or wait for who cannot, but keep no brain waiting."""
+        """End, as all reachable drones have landed; or wait for unreachable ones while no brain waits."""
         if not self._gateway.flies or self._lingers <= 0.0:
             self._over.set(None)
         elif self._left is None:
@@ -85,7 +85,7 @@ class Ending:
                 self.server.hang_up()
 
     def _linger(self, brain: bool) -> None:
-        """Wait a second more for a drone that may hover: without a brain it is landed when heard."""
+        """Wait another second for a drone that may be hovering, and is landed when its link is back."""
         if brain:
             self._left = None
         elif self._left is not None:
@@ -95,12 +95,12 @@ class Ending:
                 self._over.set(None)
 
     def told_to_end(self) -> None:
-        """End as if told goodbye, but give a brain that was told the same the time to stop."""
+        """End as by `goodbye`, but leave a brain with the same signal the time to stop."""
         if self._told is None:
             self._told = 0.0
 
     def look(self) -> None:
-        """End when no brain has come for a while; look again a second later."""
+        """End when no brain has connected for a while; else check again a second later."""
         gateway, kernel = self._gateway, self._gateway.kernel
         brain = self.server is not None and self.server.has_a_brain
         busy = brain or gateway.flies or gateway.descent is not None
@@ -116,10 +116,10 @@ class Ending:
 
 
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
-"""What lies in its folder; NOTE says where it listens."""
+"""The files in its folder; NOTE has the address at which it listens."""
 
 ANOTHER_RUNS, CANNOT, NO_ROOM = 3, 4, 5
-"""Exit codes; on a full disk there is no other word, for the log has no room either."""
+"""Exit codes; on a full disk they are the only message, as the log cannot be written either."""
 
 _FOR_APPS = "gateway: an app starts this by itself when it flies; there is nothing to do by hand"
 
@@ -155,14 +155,14 @@ def _alone(folder: Path) -> int:
 
 
 async def run(folder: Path, settings: Settings) -> None:
-    """Reach the drones, or let the simulated world go on, and let brains command until all is over."""
+    """Connect the drones, or resume the simulated world, and serve brains until the end."""
     kernel = RealTime(settings.speed)
     if settings.real is None:
         simulated = _simulated(folder, settings, kernel)
         seen = Sightings(folder / SEEN, simulated.telemetry, down=simulated.down)
         await _command(folder, settings, kernel, simulated, seen)
         return
-    from ..drones.team import make_team  # a simulation does without
+    from ..drones.team import make_team  # not needed in a simulation
 
     uris = {drone.id: drone.uri or drone.id for drone in settings.real.drones}
     with lock_drones(uris, patience=LEAVING):
@@ -177,7 +177,7 @@ async def run(folder: Path, settings: Settings) -> None:
 
 
 def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedNavigation:
-    """Return the simulated drones, in the world as it was left."""
+    """Return the simulated drones, in their stored world."""
     keeper = WorldStore(folder, kernel.time, settings.speed, this_moment)
     navigation = SimulatedNavigation(
         kernel,
@@ -196,7 +196,7 @@ def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedN
 async def _command(
     folder: Path, settings: Settings, kernel: RealTime, controls: Controls, seen: Sightings
 ) -> None:
-    """Let brains command."""
+    """Serve brains."""
     gateway = Gateway(
         kernel,
         controls,
@@ -241,9 +241,9 @@ async def _command(
 
 
 def _say(what: str) -> None:
-    """Write a line of the log; one that cannot be written is no reason to let drones fall.
+    """Write a line of the log; one that cannot be written is dropped.
 
-    What others' classes say is in it, and must command no terminal on which it is read.
+    Control characters are escaped, as it may contain texts of other people's classes.
     """
     said = "\n".join(map(printable, what.split("\n")))
     with suppress(OSError):

@@ -1,4 +1,4 @@
-"""The brain's end of the line to a gateway in another process: a link like any other."""
+"""The brain's link to a gateway in another process."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     from ..jobs.reports import Down, DroneReport, FleetReport
 
 GATEWAY_TIMEOUT = 5.0
-"""Seconds on the wall without a word from the gateway after which it is lost."""
+"""Seconds of real time without a message after which the gateway is lost."""
 
 
 class RemoteTelemetry:
-    """What was heard of a drone last."""
+    """A drone's latest telemetry."""
 
     __slots__ = ("_silent_since", "battery_level", "landed", "location")
 
@@ -39,14 +39,14 @@ class RemoteTelemetry:
         self._silent_since: float | None = 0.0
 
     def take(self, told: Sequence[Any]) -> None:
-        """Hear something new of it."""
+        """Take over new telemetry."""
         x, y, z, self.battery_level, self.landed, *since = told
         self.location = x, y, z
         self._silent_since = since[0] if since else None
 
     @property
     def silence(self) -> float:
-        """Seconds since the gateway last heard of it; infinite: it never has."""
+        """Seconds since the drone's last message to the gateway; infinite: it has sent none."""
         since = self._silent_since
         return 0.0 if since is None else inf if not since else max(0.0, time.time() - since)
 
@@ -54,7 +54,7 @@ class RemoteTelemetry:
 class RemoteLink:
     """Commands drones through a gateway in another process.
 
-    When that cannot be reached any more, `lost` is told, once, and no command ever returns.
+    When that cannot be reached any more, `lost` is called, once, and no command ever returns.
     """
 
     def __init__(
@@ -67,11 +67,11 @@ class RemoteLink:
         self._kernel, self._reader, self._writer, self._lost = kernel, reader, writer, lost
         self._drones: dict[str, RemoteTelemetry] = {}
         self._jobs: dict[str, Job] = {}
-        """What was given, by the jobs' ids: it is told when its action begins."""
+        """The jobs by their ids, to call `begins`."""
         self._reports: dict[int, tuple[str, Report]] = {}
-        """The listener for how a job ends, by the number of the request."""
+        """The listeners for the ends of jobs, by the numbers of their requests."""
         self._asks: dict[str, int] = {}
-        """The number under which each job was asked for last: no other is heard."""
+        """The number of the latest request for each job: others are ignored."""
         self._asked: dict[int, Future[Any]] = {}
         self._count = 0
         self._is_lost = False
@@ -80,7 +80,7 @@ class RemoteLink:
         self._tasks: list[asyncio.Task[None]] = []
 
     async def link(self, epoch: int, patience: float) -> None:
-        """Become the one who commands; `BadInput` if another does, since."""
+        """Take command; raise `BadInput` if another brain has done so meanwhile."""
         self._say({"do": "link", "epoch": epoch})
         told = message_in(await self._reader.readline())
         match told:
@@ -96,10 +96,10 @@ class RemoteLink:
         ]
 
     async def _read(self) -> None:
-        """Take what the gateway tells, until it tells nothing more."""
+        """Read messages of the gateway until the connection ends."""
         loop = asyncio.get_running_loop()
         self._heard = loop.time()
-        with suppress(Exception):  # a message that cannot be read: the line is broken
+        with suppress(Exception):  # an invalid message: the line is broken
             while told := await self._reader.readline():
                 self._heard = loop.time()
                 message = message_in(told)
@@ -113,13 +113,13 @@ class RemoteLink:
         self._end()
 
     async def _live(self, each: float) -> None:
-        """Say again and again that the brain is alive, and notice when the gateway is not."""
+        """Send heartbeats, and notice when the gateway is silent."""
         loop, late = asyncio.get_running_loop(), 0
         while not self._is_lost:
             self._say({"do": "heartbeat"})
             await asyncio.sleep(each)
             late = late + 1 if loop.time() - self._heard > GATEWAY_TIMEOUT else 0
-            if late > 1:  # not the first time: what it said may be waiting to be read
+            if late > 1:  # only if late twice in a row: its messages may be waiting to be read
                 self._writer.transport.abort()
 
     def _end(self) -> None:
@@ -150,7 +150,7 @@ class RemoteLink:
                 self._asked[number].set(value)
 
     def _report(self, number: int, result: object) -> None:
-        """Tell the listener, unless the job was asked for again since."""
+        """Call the listener, unless the job was requested again since."""
         if number in self._reports:
             id, report = self._reports[number]
             self._drop(id)
@@ -165,7 +165,7 @@ class RemoteLink:
         return self._count
 
     def _expect(self, id: str, report: Report) -> int:
-        """Set the only listener for how a job ends; return the number to ask with."""
+        """Set the only listener for a job's end; return the number for the request."""
         self._drop(id)
         self._asks[id] = number = self._number()
         self._reports[number] = id, report
@@ -176,7 +176,7 @@ class RemoteLink:
         self._reports.pop(self._asks.pop(id, 0), None)
 
     async def _ask(self, **message: Any) -> Any:
-        """Ask for what takes its time; cancelling this cancels it over there, too."""
+        """Send a request and await its answer; cancelling this cancels the request."""
         number = self._number()
         answer: Future[Any] = Future()
         self._asked[number] = answer
@@ -209,11 +209,11 @@ class RemoteLink:
         await self._ask(do="hold", drone=drone)
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what a drone measures under this name."""
+        """Return a sensor or variable of a drone."""
         return float(await self._ask(do="read", drone=drone, name=name))
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone has under this name."""
+        """Set a parameter of a drone."""
         await self._ask(do="write", drone=drone, name=name, value=value)
 
     async def takeoff(self, drone: str, height: float) -> None:
@@ -240,10 +240,10 @@ class RemoteLink:
         """Ask a drone where it is and what it has done."""
         return drone_report_of(await self._ask(do="roll_call", drone=drone))
 
-    # What only a gateway does
+    # Beyond the navigation protocol
 
     async def fleet_report(self) -> FleetReport:
-        """Ask all drones and the ledger how everything stands."""
+        """Query all drones and the ledger."""
         return fleet_report_of(await self._ask(do="call"))
 
     def attach(self, id: str, report: Report) -> None:
@@ -256,17 +256,17 @@ class RemoteLink:
         self._say({"do": "forget", "id": id})
 
     async def bring_down(self, how: Down) -> None:
-        """Break off everything and bring all drones down; return when all that can are down."""
+        """Abort everything and bring all drones down; return when all that can have landed."""
         await self._ask(do="down", how=how.value)
 
     def on_telemetry(self, watcher: Callable[[], object]) -> None:
-        """Call this whenever something was heard of the drones."""
+        """Call this at each update of the telemetry."""
         self._watcher = watcher
 
-    # How it ends
+    # The end
 
     async def goodbye(self) -> None:
-        """Let the gateway end, once all drones are down; nothing is lost by that."""
+        """Allow the gateway to exit once all drones have landed."""
         self._lost = None
         self._say({"do": "goodbye"})
         if self._tasks:
@@ -274,7 +274,7 @@ class RemoteLink:
         await self.close()
 
     async def close(self) -> None:
-        """Hang up: the gateway goes on, and lands everything if no other brain comes."""
+        """Close the connection: the gateway goes on, and lands all drones unless another brain connects."""
         self._lost = None
         self._end()
         for task in self._tasks:

@@ -1,7 +1,7 @@
-"""Lets a brain in another process command through the gateway; no message breaks it.
+"""Serves brains in other processes; no message can break it.
 
-One connection is one link. A client that has not linked may only say `stop` and
-`cut-motors`: who may open the socket may land the drones, whether the brain answers or not.
+One connection is one link. Without `link`, a client may only send `stop` and `cut-motors`: anyone who may
+open the socket may land the drones, whether the brain answers or not.
 """
 
 from __future__ import annotations
@@ -34,19 +34,19 @@ if TYPE_CHECKING:
     from .gateway import Gateway, Link
 
 _PENDING = 10_000
-"""Commands of one brain that may be under way."""
+"""Concurrent commands of one brain."""
 _UNREAD = 64 * 1024 * 1024
-"""Bytes that a brain may leave unread before it is given up."""
+"""Unread bytes after which a brain is disconnected."""
 _EACH = 0.1
-"""Seconds on the wall between two looks at the drones."""
+"""Seconds of real time between two updates of the telemetry."""
 _ALIVE = 1.0
-"""Seconds without any change after which something is said all the same."""
+"""Seconds without any change after which an empty update is sent."""
 
 Say = Callable[[str], object]
 
 
 class Server:
-    """Everybody who is connected."""
+    """All connections."""
 
     def __init__(
         self, gateway: Gateway, publisher: Publisher, say: Say, on_goodbye: Callable[[], object]
@@ -57,7 +57,7 @@ class Server:
 
     @property
     def has_a_brain(self) -> bool:
-        """Whether a brain commands."""
+        """Whether a brain is in command."""
         return any(one.link is not None and not one.leaves for one in self.connected)
 
     async def serve(self, reader: StreamReader, writer: StreamWriter) -> None:
@@ -70,23 +70,23 @@ class Server:
             self.connected.remove(connection)
 
     def hang_up(self) -> None:
-        """Let those go who have said goodbye: they need not wait for what is still to be done."""
+        """Disconnect those that have said goodbye: they need not wait for the end."""
         for connection in self.connected:
             if connection.leaves:
                 connection.hang_up()
 
 
 class Connection:
-    """One brain, or a client that wants the drones down."""
+    """The connection of a brain, or of a client that only stops."""
 
     def __init__(self, server: Server, writer: StreamWriter) -> None:
         self._server, self._writer, self._gateway = server, writer, server.gateway
         self.link: Link | None = None
         self._was_cut = False
         self._under_way: dict[int, Task[Any]] = {}
-        """Commands that are not answered yet, by their numbers."""
+        """Commands in progress, by their numbers."""
         self._telemetry: Subscription[tuple[object, ...]] | None = None
-        """None: it has never commanded."""
+        """None: it was never in command."""
         self.leaves = False
         """Whether it has said goodbye."""
 
@@ -96,12 +96,12 @@ class Connection:
             self._writer.close()
 
     async def serve(self, reader: StreamReader) -> None:
-        """Do what is asked, line by line, until nothing more comes."""
+        """Serve requests, line by line, until the connection ends."""
         try:
             with suppress(OSError):
                 while told := await reader.readline():
                     self._gateway.kernel.post(self._hear, told)
-        except ValueError:  # no line may be so long
+        except ValueError:  # the line is too long
             self._refuse(f"a line was longer than {MAX_COMMAND} bytes")
         finally:
             self._tell_no_telemetry()
@@ -109,7 +109,7 @@ class Connection:
             self.hang_up()
 
     def _leave(self) -> None:
-        """The brain is gone: its jobs go on, what it had drones do besides is broken off."""
+        """Handle the end of the connection: jobs go on, single commands are aborted."""
         link, self.link = self.link, None
         for task in self._under_way.values():
             _call_off(task)
@@ -117,7 +117,7 @@ class Connection:
             self._gateway.cut()
 
     def _tell(self, message: Message) -> None:
-        """Write a message; who does not read is given up."""
+        """Send a message; a client that does not read is disconnected."""
         transport = self._writer.transport
         if transport.get_write_buffer_size() > _UNREAD:
             self._server.say("the brain reads nothing any more: it is given up")
@@ -125,7 +125,7 @@ class Connection:
         elif not transport.is_closing():
             self._writer.write(line(message))
 
-    # What drones look like
+    # Telemetry
 
     def _tell_seen(self, changed: Message, late: float) -> None:
         if self.link is not None:
@@ -136,10 +136,10 @@ class Connection:
             self._telemetry.cancel()
 
     def _changed(self) -> Message:
-        """Return what has changed of the drones since it was told last."""
+        """Return the telemetry that has changed since it was last sent."""
         return {} if self._telemetry is None else self._telemetry.changed()
 
-    # What is asked
+    # Requests
 
     def _hear(self, told: bytes) -> None:
         message = message_in(told)
@@ -173,12 +173,12 @@ class Connection:
             case {"do": str(what)} if self.link is not None:
                 self._command(self.link, what, message)
             case {"do": str()} if self._was_cut:
-                pass  # it was on its way
+                pass  # it was in transit
             case _:
                 raise BadInput("this gateway does not know that message")
 
     def _cut_motors(self, drones: Sequence[str]) -> None:
-        """Switch motors off, at once; answer when that is done."""
+        """Switch motors off at once; answer when that is done."""
         self._server.say(f"told to cut the motors of {', '.join(drones)}")
         spawn, cut = self._gateway.kernel.spawn, self._gateway.cut_motors
         tasks = [spawn(cut(drone), FLEET, f"{drone}'s motors are cut") for drone in drones]
@@ -205,7 +205,7 @@ class Connection:
 
     def _link(self, epoch: int) -> None:
         self.link = self._gateway.link(epoch, self._lost)
-        self._tell_no_telemetry()  # this connection may have commanded before
+        self._tell_no_telemetry()  # this connection may have been in command before
         self._telemetry = self._server.publisher.subscribe(
             self._tell_seen, every=_EACH, view=seen, unchanged=_ALIVE
         )
@@ -213,7 +213,7 @@ class Connection:
         self._server.say(f"a brain commands, number {epoch}")
 
     def _lost(self) -> None:
-        if self.link is None:  # it has hung up
+        if self.link is None:  # it has disconnected
             return
         self._server.say("the brain that commanded is cut off")
         self.link, self._was_cut = None, True
@@ -285,7 +285,7 @@ class Connection:
 def _asked(
     link: Link, what: str, message: Message, known: Callable[[Any], str]
 ) -> Coroutine[Any, Any, object]:
-    """Return what answers a message; `known` refuses drones that there are not."""
+    """Return the coroutine that answers a request; `known` refuses unknown drones."""
     if what == "call":
         return _as_data(fleet_report_data, link.fleet_report)
     if what == "down":
@@ -320,7 +320,7 @@ async def _as_data(
 
 
 def _call_off(task: Task[Any]) -> None:
-    """Cancel what needs no answer any more."""
+    """Cancel a request that needs no answer any more."""
     task.over = _ignore
     task.cancel()
 

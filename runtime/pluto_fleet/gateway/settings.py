@@ -1,4 +1,4 @@
-"""What the gateway's process must know of the fleet: plain data, for it loads nothing of the app."""
+"""The settings of the gateway's process: plain data, as it loads nothing of the app."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
 from plutoc_runtime.domain.model import Category
 
-from ..drones.real_fleet import RealFleet, real_data, real_of
+from ..drones.real_fleet import RealFleet, real_of
 from ..simulation.body import SimulatedDrone, simulated
 
 if TYPE_CHECKING:
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
 
 PATIENCE = 3.0
-"""Seconds without a sign of life from the brain, after which all drones land."""
+"""Seconds without a heartbeat of the brain, after which all drones land."""
 IDLE = 60.0
-"""Seconds without a brain and with all drones down, after which the gateway ends."""
+"""Seconds without a brain and without a drone in the air, after which the gateway ends."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,9 +38,9 @@ class Settings:
     real: RealFleet | None = None
     """None: the drones are simulated."""
     max_airborne: int | None = None
-    """How many may be in the air at once."""
+    """The maximum number of drones in the air."""
     speed: float = 1.0
-    """How fast time passes: 10 is ten times as fast as on the wall."""
+    """How fast time passes: 10 is ten times real time."""
     patience: float = PATIENCE
     """Seconds on the wall."""
     idle: float = IDLE
@@ -96,7 +96,7 @@ def data_of(settings: Settings) -> dict[str, object]:
 
 
 def settings_of(data: Mapping[str, Any]) -> Settings:
-    """Return the settings that were written down."""
+    """Return stored settings."""
     return Settings(
         drones=tuple(map(_drone, data["drones"])),
         airspace=_airspace(data["airspace"]),

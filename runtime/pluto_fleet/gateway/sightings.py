@@ -1,7 +1,7 @@
-"""Where each drone was heard of last: kept on the disk, for a look when no brain commands them.
+"""The last known state of each drone, on the disk, for when no brain is in command.
 
-A brain knows where its drones are while it lives. After a Stop, a crash or a kill the gateway is the
-last that hears of them, so it writes that down, also while no brain is there.
+While a brain runs it knows where its drones are. After a Stop, a crash or a kill the gateway is the last
+to know, so it stores that, also while there is no brain.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ if TYPE_CHECKING:
 SEEN = "seen.json"
 """The file, in the gateway's folder."""
 EACH, SHORTEST = 1.0, 0.1
-"""Seconds between two looks, as the drones' time passes; and on the wall, however fast that is."""
+"""Seconds between two updates, in the drones' time; and at least in real time."""
 ANEW = 5
-"""After so many looks without any change the file says once more that nothing has changed."""
+"""After this many updates without any change the file is written again."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sighting:
-    """How a drone was when it was last heard of."""
+    """A drone's last known state."""
 
     at: Point
     battery: float
@@ -48,16 +48,16 @@ class Sighting:
 
     @property
     def has_fallen(self) -> bool:
-        """Whether it lies where only a person can help it."""
+        """Whether it has fallen, and needs a person."""
         return self.crashed and self.landed
 
 
 def _well(drone: str) -> None:
-    """It takes commands, for all that anybody says."""
+    """Always None: no drone is known to be down."""
 
 
 class Sightings:
-    """Writes down how all drones are, as long as one of them is heard of."""
+    """Stores the states of all drones, as long as one of them has telemetry."""
 
     def __init__(
         self,
@@ -67,15 +67,15 @@ class Sightings:
         down: Callable[[str], FlightFailed | None] = _well,
         clock: Callable[[], float] = time.time,
     ) -> None:
-        """Begin; `down` says why a drone takes no commands, if it takes none."""
+        """`down` returns why a drone takes no commands, if it takes none."""
         self._path, self._drones, self._down, self._clock = path, drones, down, clock
         self._before = _told(path)
         self._leaving: set[str] = set()
-        """The drones that take off: what they said of themselves before is not so any more."""
+        """The drones that are taking off: their earlier telemetry is outdated."""
 
     @contextmanager
     def leaving(self, drone: str) -> Iterator[None]:
-        """Write down that a drone is in the air before it leaves the ground, in case we are killed next."""
+        """Store that a drone is in the air before it takes off, in case the process is killed next."""
         self._leaving.add(drone)
         self.keep()
         try:
@@ -84,14 +84,14 @@ class Sightings:
             self._leaving.discard(drone)
 
     def subscribe(self, publisher: Publisher, speed: float) -> Subscription[object]:
-        """Write down what changes, from now on, and now and then that nothing has."""
+        """Store changes from now on, and now and then even without any."""
         every = max(SHORTEST, EACH / speed)
         return publisher.subscribe(
             lambda *_: self.keep(), every=every, view=self._state, unchanged=ANEW * every
         )
 
     def keep(self) -> None:
-        """Write down how all drones are; of one that is not heard of, what was known before."""
+        """Store the states of all drones; for one without telemetry, its last known state."""
         clock, drones = self._clock(), dict(self._before)
         for drone, known in self._drones.items():
             state = self._state(drone, known)
@@ -99,12 +99,12 @@ class Sightings:
                 *how, down = state
                 drones[drone] = [*how, round(clock - known.silence, 1), *down]
         part = self._path.with_name(f".{self._path.name}.part")
-        with suppress(OSError):  # on a full disk drones fly on; the next look is another chance
+        with suppress(OSError):  # on a full disk drones fly on; retried at the next update
             part.write_text(json.dumps(drones), encoding="utf-8")
             part.replace(self._path)
 
     def _state(self, drone: str, known: Telemetry) -> list[Any] | None:
-        """Return what is written down of a drone, but for when; None: it was never heard of."""
+        """Return a drone's state without its time; None: it has no telemetry yet."""
         if not isfinite(known.silence):
             return None
         place = [round(metres, 3) for metres in known.location]
@@ -115,8 +115,8 @@ class Sightings:
 
 
 def sightings_in(folder: Path) -> dict[str, Sighting]:
-    """Return how the drones of a gateway's folder were last heard of; what is unknown is not in it."""
-    with suppress(ValueError, TypeError):  # then it is none of ours, and nothing is known
+    """Return the last known states of the drones of a gateway's folder."""
+    with suppress(ValueError, TypeError):  # not one of our files: nothing is known
         return {drone: _sighting(*told) for drone, told in _told(folder / SEEN).items()}
     return {}
 
@@ -135,7 +135,7 @@ def _sighting(
 
 
 def at_home(folder: Path, homes: Mapping[str, Point]) -> None:
-    """Say of simulated drones that were never heard of where they begin."""
+    """Store the initial places of simulated drones that have no state yet."""
     known = {drone: [home, 1.0, True, time.time()] for drone, home in homes.items()}
     (folder / SEEN).write_text(json.dumps(known | _told(folder / SEEN)), encoding="utf-8")
 

@@ -1,4 +1,4 @@
-"""Finds the gateway of a folder, or starts it: a process that outlives the one that starts it."""
+"""Finding or starting the gateway of a folder: a process that outlives the one that starts it."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ if TYPE_CHECKING:
     from plutoc_runtime.time.kernel import Kernel
 
 _WITHIN, _EACH = 10.0, 0.01
-"""Seconds that a gateway may take to begin, and between two looks."""
+"""Seconds that a gateway may take to start, and between two polls."""
 _LOADING = 50.0
-"""Seconds more for what its drones are flown by: an import may take 20, and is tried before."""
+"""Further seconds to load the drones' navigations: an import may take 20, and is tried first."""
 _LONG = 1_000_000
-"""Bytes of a log after which another one is begun."""
+"""Bytes of a log after which a new one is begun."""
 
 _STARTED: list[subprocess.Popen[bytes]] = []
-"""The gateways that this process has started: one that has ended is noticed when the next begins."""
+"""The gateways that this process has started; ended ones are reaped when the next starts."""
 
 
 async def connect(
@@ -45,9 +45,9 @@ async def connect(
     lost: Callable[[], object] | None = None,
     command: Sequence[str] | None = None,
 ) -> RemoteLink:
-    """Command the drones through the gateway of a folder, which is started unless it runs.
+    """Connect to the gateway of a folder, which is started unless it runs.
 
-    `command` starts it, its folder added; default: this very program once more.
+    `command` starts it, with its folder appended; default: this program.
     """
     loop = asyncio.get_running_loop()
     until = loop.time() + _WITHIN + (0.0 if settings.real is None else _LOADING)
@@ -58,7 +58,7 @@ async def connect(
         except TimeoutError:
             _send(folder, signal.SIGKILL)  # it hangs and flies nothing any more: another one can
         except OSError:
-            pass  # there is none yet
+            pass  # there is no gateway yet
         if process is None or process.poll() is not None:
             if process is not None and _broke(process.returncode):
                 raise BadInput(_ended(folder, process.returncode))
@@ -67,13 +67,13 @@ async def connect(
             except OSError as error:
                 raise BadInput(f"{folder}: the gateway cannot be started: {error}") from error
         if loop.time() > until:
-            process.kill()  # or it would keep the next one out, and fly nothing
+            process.kill()  # else it would block the next one, and fly nothing
             raise BadInput(f"the gateway does not answer; what it said is in {folder / LOG}")
         await asyncio.sleep(_EACH)
 
 
 def _broke(code: int) -> bool:
-    """Whether a gateway could not begin; one that was killed, or that others are before, could."""
+    """Whether a gateway failed to start; not if it was killed, or if another one runs."""
     return code >= 0 and code != ANOTHER_RUNS
 
 
@@ -84,7 +84,7 @@ async def _linked(
     epoch: int,
     lost: Callable[[], object] | None,
 ) -> RemoteLink:
-    """Link to the gateway that runs; OSError: none does; TimeoutError: it does not answer."""
+    """Connect to the running gateway; raise `OSError` if there is none, `TimeoutError` if it does not answer."""
     reader, writer = await open_connection(folder / NOTE, MAX_REPORT)
     link = RemoteLink(kernel, reader, writer, lost)
     try:
@@ -99,7 +99,7 @@ async def _linked(
 def start(
     folder: Path, settings: Settings, command: Sequence[str] | None = None
 ) -> subprocess.Popen[bytes]:
-    """Start a gateway that outlives this process; what it says goes to its log."""
+    """Start a gateway that outlives this process; its output goes to its log."""
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     part = folder / f".{SETTINGS}.{os.getpid()}.part"
     part.write_text(json.dumps(data_of(settings)), encoding="utf-8")
@@ -114,14 +114,14 @@ def start(
 
 
 def speed_in(folder: Path) -> float | None:
-    """Return how fast time passes for the gateway of a folder; None: it was never started."""
+    """Return the speed of time of the gateway of a folder; None: it was never started."""
     with suppress(OSError, ValueError, KeyError, TypeError):
         return float(json.loads((folder / SETTINGS).read_text(encoding="utf-8"))["speed"])
     return None
 
 
 def stop_directly(folder: Path, how: Down, patience: float) -> str:
-    """Bring all drones down without their brain; return what the gateway says.
+    """Bring all drones down without their brain; return the gateway's answer.
 
     Raises `BadInput`, as `ask` does, if there is no gateway, or it says nothing in these seconds.
     """
@@ -129,7 +129,7 @@ def stop_directly(folder: Path, how: Down, patience: float) -> str:
 
 
 def cut_directly(folder: Path, drone: str | None, patience: float) -> str:
-    """Switch a drone's motors off, or with None those of all; return what the gateway says.
+    """Switch a drone's motors off, or with None those of all; return the gateway's answer.
 
     Raises `BadInput`, as `ask` does, if there is no gateway, or it says nothing in these seconds.
     """
@@ -138,12 +138,12 @@ def cut_directly(folder: Path, drone: str | None, patience: float) -> str:
 
 
 def still_runs(folder: Path) -> int | None:
-    """Return the number of the process that is the gateway of a folder; None: none runs."""
+    """Return the process id of the gateway of a folder; None: none runs."""
     return locks.holder(folder / LOCK)
 
 
 def let_end(folder: Path) -> None:
-    """Let the gateway of a folder end once all its drones are down: no brain comes back to it."""
+    """Ask the gateway of a folder to end once all its drones have landed: no brain will return."""
     _send(folder, signal.SIGTERM)
 
 
@@ -155,7 +155,7 @@ def _send(folder: Path, number: signal.Signals) -> None:
 
 
 def _ended(folder: Path, code: int) -> str:
-    """Say that a gateway could not begin, with the last it said."""
+    """Return the error of a gateway that failed to start, with the end of its log."""
     if code == NO_ROOM:
         return f"{folder}: the gateway cannot begin: the disk is full; make room, then resume"
     lines: list[str] = []

@@ -1,4 +1,4 @@
-"""What brain and gateway tell each other: one object of JSON a line."""
+"""The protocol between brain and gateway: one JSON object per line."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ..process.ipc import Message
 
 STALE_AFTER = 2.0
-"""Seconds without a word after which a drone's place is no longer news."""
+"""Seconds without a message after which a drone's position is stale."""
 MAX_COMMAND = 256 * 1024
 """Bytes of a line that the gateway reads."""
 MAX_REPORT = 256 * 1024 * 1024
@@ -32,7 +32,7 @@ MAX_REPORT = 256 * 1024 * 1024
 
 @dataclass(slots=True, kw_only=True)
 class ToldJob:
-    """A job as it came over the wire."""
+    """A job received over the wire."""
 
     id: str
     drone: str
@@ -44,7 +44,7 @@ class ToldJob:
     on_begin: Callable[[str], object] = field(repr=False)
 
     def begins(self) -> None:
-        """Hear that the action is about to be done."""
+        """Called right before the action is done."""
         self.on_begin(self.id)
 
 
@@ -62,7 +62,7 @@ def job_data(job: Job) -> dict[str, object]:
 
 
 def job_of(data: Message, on_begin: Callable[[str], object]) -> ToldJob:
-    """Return a job from plain data; KeyError, TypeError or ValueError: it is none."""
+    """Return a job from plain data; raise `KeyError`, `TypeError` or `ValueError` if it is invalid."""
     return ToldJob(
         id=str(data["id"]),
         drone=str(data["drone"]),
@@ -90,10 +90,10 @@ def result_of(data: Message) -> object:
 
 
 def seen(drone: str, telemetry: Telemetry) -> tuple[object, ...]:
-    """Return what is known of a drone, in short.
+    """Return a drone's telemetry in a compact form.
 
-    Last comes since when it is silent, in seconds since 1970: None where it is not, 0 where it was
-    never heard of.
+    The last element is since when it is silent, in seconds since 1970; None if it is not, 0 if it has
+    never sent anything.
     """
     silence, since = telemetry.silence, None
     if silence > STALE_AFTER:

@@ -65,7 +65,7 @@ class Entry:
 
 
 def reported_result(job: Entry) -> object:
-    """Return what was reported of a job that is over."""
+    """Return what was reported for a finished job."""
     if job.state is JobState.FAILED:
         return FlightFailed(Failure[job.failure], job.reason)
     return job.value

@@ -1,6 +1,6 @@
 """Tests that any navigation must pass: subclass `NavigationContract` in a test file, and run pytest.
 
-The subclass's `make` returns a navigation. `docs/navigation.md` shows one. No app carries this along.
+The subclass's `make` returns a navigation. `docs/navigation.md` shows one.
 """
 
 from __future__ import annotations

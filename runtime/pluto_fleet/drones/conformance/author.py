@@ -1,4 +1,4 @@
-"""What the author of a navigation gives to the kit, and the flights that are flown with it."""
+"""What the author of a navigation provides to the kit, and the flights that are flown with it."""
 
 from __future__ import annotations
 
@@ -26,49 +26,49 @@ _MISSING = {
 
 
 class Author:
-    """What the checks of `NavigationContract` go by."""
+    """The settings of `NavigationContract`, which an author may override."""
 
     height = 0.5
-    """Metres to rise to."""
+    """The height to take off to, in metres."""
     away = 1.0
     """Metres to fly, along x from where the drone stands: there must be room."""
     speed = 0.5
     """Metres per second: the limit that is given with each command."""
     rest = 0.4
-    """Seconds to look on after a command, at a drone that should stay where it is."""
+    """Seconds to observe a drone after a command, while it should stay where it is."""
     tolerance = 0.1
-    """Metres: how well it must know where it is, and get where it is sent."""
+    """The accuracy that is required of its position and of its arrival, in metres."""
     connect_limit = 15.0
-    """Seconds for `connect`; the runtime waits no longer."""
+    """The time-out of `connect` in seconds, as in a flight."""
     may_fall = False
-    """Whether the motors may be switched off a hand's breadth above the ground."""
+    """Whether the motors may be switched off ten centimetres above the ground."""
 
     together = False
-    """Whether drones may be in the air at once that know nothing of each other: simulated ones."""
+    """Whether the flights may run concurrently, as with simulated drones."""
 
-    # What the author gives
+    # Provided by the author
 
     def make(self) -> DroneNavigation:
         """Return a fresh navigation of a drone that stands on the ground, ready to fly."""
         raise NotImplementedError("give the kit a navigation: def make(self) -> DroneNavigation")
 
     def make_unreachable(self) -> DroneNavigation:
-        """Return a navigation of a drone that is not there."""
+        """Return a navigation of a drone that does not exist."""
         raise NotImplementedError
 
     def silence(self, navigation: DroneNavigation) -> None:
-        """Let its drone fall silent from now on."""
+        """Make its drone fall silent."""
         raise NotImplementedError
 
     def crash(self, navigation: DroneNavigation) -> None:
-        """Let its drone crash now."""
+        """Make its drone crash."""
         raise NotImplementedError
 
     def truth(self, navigation: DroneNavigation) -> Truth | None:
-        """Return how its drone really is, where something knows: a simulator, cameras."""
+        """Return the true state of its drone, if a simulator or cameras know it."""
         return None
 
-    # The flights, each flown when the first check asks for it
+    # The flights, each flown when the first check needs it
 
     def _tour(self) -> FlightRecord:
         return self._flown("tour")
@@ -86,7 +86,7 @@ class Author:
         return flown[name]
 
     def _flights(self) -> Mapping[str, _Flight]:
-        """Return the flights that can be flown with what is given."""
+        """Return the flights that can be flown with what is provided."""
         possible: dict[str, _Flight] = {
             "tour": lambda: flights.tour(self),
             "closed in the air": lambda: flights.closed_in_the_air(self),
@@ -105,7 +105,7 @@ class Author:
         return getattr(type(self), hook) is not getattr(Author, hook)
 
     def _needs(self, hook: str) -> None:
-        """Skip a check, saying so, if the author does not give what it takes."""
+        """Skip a check if the author does not provide what it needs."""
         if not self._gives(hook):
             raise SkipTest(f"{hook} is not given: {_MISSING[hook]}")
 
@@ -114,7 +114,7 @@ _Flight = Callable[[], Coroutine[Any, Any, FlightRecord]]
 
 
 async def _flying(wanted: Mapping[str, _Flight]) -> dict[str, FlightRecord]:
-    """Fly all of these at once, and look at what they leave behind."""
+    """Fly all of these concurrently, and check what they leave behind."""
     before = resources()
     with LoopWatch() as loop:
         records = await asyncio.gather(*(flight() for flight in wanted.values()))

@@ -1,4 +1,4 @@
-"""The checks themselves: each looks at one flight, flown once for all of them."""
+"""The checks: each examines one flight, which is flown once for all of them."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ from .recording import (
 
 
 class NavigationContract(Author):
-    """What any navigation must do. Subclass it, give `make`, and what else can be given.
+    """What any navigation must do. Subclass it, and provide `make` and the optional hooks.
 
     pytest finds the checks by their names. Each test class flies each of its flights once, one after
-    the other; a check whose hook is not given is skipped, and says so.
+    the other; a check whose hook is not provided is skipped.
     """
 
     # Before and after flying

@@ -1,7 +1,6 @@
-"""The flights of the kit, each flown once and recorded; the checks look at the records.
+"""The flights of the kit, each flown once and recorded; the checks examine the records.
 
-A command that raises ends a flight, which then lands and closes: what it did until then is there to be
-looked at.
+A command that raises ends a flight, which then lands and closes; it is recorded up to then.
 """
 
 from __future__ import annotations
@@ -24,12 +23,12 @@ if TYPE_CHECKING:
     from ..protocol import DroneNavigation
 
 LOOK = 0.02
-"""Seconds between two looks at the drone."""
+"""The sampling interval of the drone, in seconds."""
 _MISTAKES: tuple[type[Exception], ...] = (Exception,)
 
 
 class Subject(Protocol):
-    """What the flights must know of the navigation that is tested."""
+    """The navigation under test."""
 
     height: float
     away: float
@@ -42,16 +41,16 @@ class Subject(Protocol):
         ...
 
     def truth(self, navigation: DroneNavigation) -> Truth | None:
-        """Return how its drone really is, if anybody knows."""
+        """Return the true state of its drone, if it is known."""
         ...
 
 
 class Ended(Exception):
-    """A command has failed: the flight goes no further."""
+    """A command has failed, which ends the flight."""
 
 
 class Flight:
-    """One flight under way."""
+    """One flight in progress."""
 
     def __init__(self, subject: Subject, navigation: DroneNavigation) -> None:
         self.subject, self.navigation = subject, navigation
@@ -59,7 +58,7 @@ class Flight:
         self.during = "before"
 
     def look(self) -> Sample:
-        """Look at the drone now, and keep what was seen."""
+        """Take a sample of the drone."""
         told, true = self.navigation.telemetry, self.subject.truth(self.navigation)
         sample = Sample(at=time.monotonic(), during=self.during, telemetry=told, truth=true)
         self.record.samples.append(sample)
@@ -68,7 +67,7 @@ class Flight:
     async def tries(
         self, name: str, command: Callable[[], Awaitable[object]], limit: float
     ) -> Step:
-        """Give a command and keep how it ended, within a limit."""
+        """Run a command with a time-out, and record how it ended."""
         self.during = name
         step = Step(
             name=name, began=time.monotonic(), ended=0.0, before=(first := self.look()), after=first
@@ -87,14 +86,14 @@ class Flight:
         return step
 
     async def does(self, name: str, command: Callable[[], Awaitable[object]], limit: float) -> Step:
-        """Give a command without which the flight cannot go on."""
+        """Run a command whose failure ends the flight."""
         step = await self.tries(name, command, limit)
         if step.error is not None:
             raise Ended from step.error
         return step
 
     def limit(self, metres: float) -> float:
-        """Return how long the runtime waits for a way of so many metres."""
+        """Return the runtime's time-out for a leg of this length."""
         return metres / self.subject.speed * 3 + 10
 
     async def sets_out(self) -> None:
@@ -109,17 +108,17 @@ class Flight:
         )
 
     async def rests(self) -> None:
-        """Look on for a moment."""
+        """Observe for a moment."""
         await asyncio.sleep(self.subject.rest)
 
     async def watched(self) -> None:
-        """Look at the drone again and again, until cancelled."""
+        """Sample the drone until cancelled."""
         while True:
             self.look()
             await asyncio.sleep(LOOK)
 
     async def hears(self) -> None:
-        """Listen to its events, until they end."""
+        """Record its events, until they end."""
         try:
             async for event in self.navigation.events():
                 self.record.events.append(event)
@@ -130,7 +129,7 @@ class Flight:
 
 @asynccontextmanager
 async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
-    """Make a navigation; however its flight ends, land it and close it."""
+    """Make a navigation; land and close it, however its flight ends."""
     flight = Flight(subject, make())
     drone = flight.navigation
     watching = asyncio.create_task(flight.watched())
@@ -152,7 +151,7 @@ async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> Async
 
 
 async def tour(subject: Subject) -> FlightRecord:
-    """Everything that a drone that is well must do."""
+    """Everything that a healthy drone must do."""
     async with flying(subject, subject.make) as flight:
         drone, speed, height = flight.navigation, subject.speed, subject.height
         await flight.does("connect", drone.connect, subject.connect_limit)
@@ -210,7 +209,7 @@ async def _cancelled(flight: Flight, target: Point) -> None:
 
 
 async def closed_in_the_air(subject: Subject) -> FlightRecord:
-    """Let go of a drone that hovers, as a program does that ends too early."""
+    """Close a navigation while its drone hovers, as a program does that ends too early."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
         await flight.tries("close", flight.navigation.close, 20.0)
@@ -219,7 +218,7 @@ async def closed_in_the_air(subject: Subject) -> FlightRecord:
 
 
 async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) -> FlightRecord:
-    """Let something happen to a drone on its way."""
+    """Cause a fault while a drone flies."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
         drone = flight.navigation
@@ -244,14 +243,14 @@ async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) 
 
 
 async def unreachable(subject: Subject, make: Callable[[], DroneNavigation]) -> FlightRecord:
-    """Connect to a drone that is not there."""
+    """Connect to a drone that does not exist."""
     async with flying(subject, make) as flight:
         await flight.tries("connect", flight.navigation.connect, subject.connect_limit)
     return flight.record
 
 
 async def cut(subject: Subject) -> FlightRecord:
-    """Switch the motors off, a hand's breadth above the ground."""
+    """Switch the motors off, ten centimetres above the ground."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
         await flight.does("emergency_stop", flight.navigation.emergency_stop, 3.0)

@@ -1,8 +1,7 @@
 """What a navigation does to its process: blocks the event loop, or leaves something behind.
 
-A busy machine holds up a loop as well: so it is not the clock that counts, but how often in a row the
-loop was seen in the very same turn, doing something. A loop that starts a thread waits for the machine,
-too: until that thread runs.
+As a busy machine delays the loop, too, it is not the clock that counts, but how many samples in a row show
+the loop busy in the very same turn. Waiting for a started thread to run is the machine's delay, too.
 """
 
 from __future__ import annotations
@@ -18,19 +17,19 @@ from types import FrameType
 from typing import Self
 
 LOOK = 0.01
-"""Seconds between two looks."""
+"""The sampling interval, in seconds."""
 LOOKS = 5
-"""So many in a row are 50 ms."""
+"""This many in a row are 50 ms."""
 _IDLE = ("select", "poll", "_run_once", "run_forever")
-"""What a loop is in when it does nothing."""
+"""The functions in which an idle loop is."""
 
 
 class LoopWatch:
-    """Watches the running event loop while it is entered."""
+    """Watches the running event loop within this context."""
 
     def __init__(self) -> None:
         self.found: list[str] = []
-        """A sentence for each time."""
+        """A sentence for each block."""
         self._turns = 0
         self._over = threading.Event()
         self._loop = asyncio.get_running_loop()
@@ -68,7 +67,7 @@ class LoopWatch:
 
 
 def _waits(frame: FrameType) -> bool:
-    """Whether a thread is idle, or waits until a thread that it has started runs."""
+    """Whether a thread is idle, or waits for a started thread to run."""
     at: FrameType | None = frame
     while at is not None and at.f_code.co_filename == threading.__file__:
         if at.f_code is threading.Thread.start.__code__:
@@ -78,7 +77,7 @@ def _waits(frame: FrameType) -> bool:
 
 
 def _place(frame: FrameType) -> str:
-    """Return the line of code that a thread is in: the innermost that is not of Python itself."""
+    """Return a thread's current line of code: the innermost outside of the standard library."""
     library = str(Path(asyncio.__file__).parent.parent)
     at: FrameType | None = frame
     while at is not None and at.f_code.co_filename.startswith((library, "<")):
@@ -93,7 +92,7 @@ _EXECUTOR = "asyncio_"
 
 @dataclass(frozen=True, slots=True)
 class Resources:
-    """What there is at one moment, in the running loop's process."""
+    """The resources of the process at one moment."""
 
     threads: frozenset[threading.Thread]
     tasks: frozenset[asyncio.Task[object]]
@@ -102,7 +101,7 @@ class Resources:
 
 
 def resources() -> Resources:
-    """Look around."""
+    """Return the present resources."""
     return Resources(
         threads=frozenset(
             thread
@@ -119,7 +118,7 @@ def resources() -> Resources:
 
 
 async def left_since(before: Resources, seconds: float = 1.0) -> list[str]:
-    """Return what has come since and is still there after a while, a few words each."""
+    """Return the resources that are new since then and still there after a while, described."""
     loop = asyncio.get_running_loop()
     limit = loop.time() + seconds
     while found := _found(before, resources()):

@@ -1,5 +1,5 @@
-"""What was seen of a flight: every command with how it ended, where the drone was meanwhile, and
-what can be read from that: how far it moved, how fast, how often it told something.
+"""The record of a flight: its commands with their outcomes, samples of the drone, and what follows from
+them: how far it moved, how fast, how often it sent telemetry.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Truth:
-    """How a drone really is, by its simulation or as measured from outside."""
+    """The true state of a drone, by its simulation or as measured from outside."""
 
     position: Point
     """Metres, in the map's frame."""
@@ -32,7 +32,7 @@ class Truth:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sample:
-    """One look at a drone."""
+    """One sample of a drone."""
 
     at: float
     """`time.monotonic()`."""
@@ -55,7 +55,7 @@ class Step:
     after: Sample
 
     def done(self) -> Step:
-        """Return the step itself; raise if the command did."""
+        """Return the step itself; raise its error if the command failed."""
         if self.error is not None:
             raise AssertionError(f"{self.name} raised {described(self.error)}") from self.error
         return self
@@ -74,26 +74,26 @@ class FlightRecord:
     events_error: BaseException | None = None
     events_ended: bool = False
     blocked: Sequence[str] = ()
-    """Where the event loop was held up, a sentence each."""
+    """Where the event loop was blocked, a sentence for each."""
     left: Sequence[str] = ()
-    """What was left after closing."""
+    """The resources left after closing."""
     failed: BaseException | None = None
-    """What ended it before its end."""
+    """The error that ended it early."""
 
     def step(self, name: str) -> Step:
-        """Return a step; raise if the flight did not come to it."""
+        """Return a step; raise if the flight did not reach it."""
         if name in self.steps:
             return self.steps[name]
         why = f": {described(self.failed)}" if self.failed is not None else ""
         raise AssertionError(f"the flight never came to {name}{why}") from self.failed
 
     def during(self, *names: str) -> list[Sample]:
-        """Return the looks during some steps, in order."""
+        """Return the samples during some steps, in order."""
         return [sample for sample in self.samples if sample.during in names]
 
 
 def described(error: BaseException) -> str:
-    """Write an error down."""
+    """Format an error."""
     return f"{type(error).__name__}: {error}"
 
 
@@ -104,16 +104,16 @@ def ensure(holds: object, sentence: str | Callable[[], str]) -> None:
 
 
 WINDOW = 0.5
-"""Seconds over which a speed is taken: positions are noisy."""
+"""Seconds over which a speed is averaged: positions are noisy."""
 MARGIN, JITTER = 1.1, 0.1
-"""How much faster it may seem, as a share, and by how many seconds what it tells may be late."""
+"""Tolerances of a measured speed, as a share, and of the delay of telemetry, in seconds."""
 _GROUND = 0.1
-"""Metres: so near to where it stood, motors may go off."""
+"""Metres above the ground below which motors may be switched off."""
 _KNOWN = tuple(failure.name for failure in Failure if failure is not Failure.UNKNOWN)
 
 
 def moved(samples: Sequence[Sample]) -> float:
-    """Return how far it ever was from where it was first."""
+    """Return its largest distance from its first position."""
     if not samples:
         return 0.0
     first = samples[0]
@@ -126,19 +126,19 @@ def moved(samples: Sequence[Sample]) -> float:
 
 
 def stands_still(samples: Sequence[Sample], tolerance: float) -> bool:
-    """Say whether it neither moved nor had its motors on."""
+    """Return whether it neither moved nor had its motors on."""
     turned = any(one.telemetry.flying or (one.truth and one.truth.motors) for one in samples)
     return moved(samples) <= tolerance and not turned
 
 
 def fell(record: FlightRecord, speed: float) -> bool:
-    """Say whether its motors went off in the air: higher than it can have sunk since the last look."""
+    """Return whether its motors went off in the air: higher than it can have sunk since the last sample."""
     looks = [
         (
             (one.at, one.truth.position[2], one.truth.motors)
             if one.truth
             else (one.telemetry.time, one.telemetry.position[2], one.telemetry.flying)
-        )  # told by then
+        )  # the telemetry by then
         for one in record.samples
     ]
     ground = looks[0][1] + _GROUND if looks else 0.0
@@ -149,7 +149,7 @@ def fell(record: FlightRecord, speed: float) -> bool:
 
 
 def off_course(samples: Sequence[Sample], start: Point, along: Point) -> float:
-    """Return how far it ever was from a straight line."""
+    """Return its largest distance from a straight line."""
     return max((_beside(one.telemetry.position, start, along) for one in samples), default=0.0)
 
 
@@ -160,9 +160,9 @@ def _beside(point: Point, start: Point, along: Point) -> float:
 
 
 def too_fast(samples: Sequence[Sample], speed: float, noise: float) -> float | None:
-    """Return how fast it was where that is above a limit; None: it never was.
+    """Return a speed above the limit; None: there was none.
 
-    What it tells comes by a link, a little sooner or later: so no moment is looked at alone.
+    As telemetry arrives with varying delay, speeds are averaged.
     """
     told = [one.telemetry for one in samples if isfinite(one.telemetry.time)]
     begin = 0
@@ -176,7 +176,7 @@ def too_fast(samples: Sequence[Sample], speed: float, noise: float) -> float | N
 
 
 def looks_without_news(samples: Sequence[Sample]) -> int:
-    """Return how often in a row there was nothing new; a busy machine looks less often, too."""
+    """Return the most samples in a row without new telemetry."""
     most = row = 0
     for earlier, later in pairwise(samples):
         row = row + 1 if later.telemetry.time == earlier.telemetry.time else 0
@@ -185,13 +185,13 @@ def looks_without_news(samples: Sequence[Sample]) -> int:
 
 
 def units_differ(samples: Sequence[Sample], tolerance: float, speed: float) -> str | None:
-    """Return in what telemetry and truth differ, by more than a drone's own error; None: nothing.
+    """Return in what telemetry and truth differ by more than a drone's own error, or None.
 
-    What it tells is a little old, and a busy machine looks late: it may have flown on meanwhile.
+    Telemetry is a little old, and a busy machine samples late: it may have flown on meanwhile.
     """
     for earlier, one in pairwise(samples):
         if one.truth is None or not isfinite(one.telemetry.time):
-            continue  # unknown, or it has not told anything yet
+            continue  # unknown, or no telemetry yet
         position, yaw = one.telemetry.position, one.telemetry.yaw
         off = dist(position, one.truth.position)
         late = one.at - min(earlier.at, one.telemetry.time)
@@ -210,7 +210,7 @@ def _written(point: Point) -> str:
 
 
 def known_failures(record: FlightRecord) -> list[str]:
-    """Return what the commands raised that is no failure that the runtime knows."""
+    """Return the errors of the commands that are not failures known to the runtime."""
     return [
         f"{step.name} raised {described(step.error)}"
         for step in record.steps.values()

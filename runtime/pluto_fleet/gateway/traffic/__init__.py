@@ -1,1 +1,1 @@
-"""Keeps drones in the air apart, in space and not in time: what one has taken, no other enters."""
+"""Keeping drones in the air apart, in space and not in time: no drone enters space reserved by another."""

@@ -1,7 +1,7 @@
-"""Which way a drone takes among the others that have chosen theirs, to be down soon.
+"""Choosing a drone's course to come down soon, among the courses that others have chosen.
 
-A drone is given a stretch as a whole, from where it rests to where it rests next: everything of it must
-be free when it departs, and stay so until it has left it. Short stretches are free sooner than long ones.
+A drone gets a stretch as a whole, from one resting place to the next: all of it must be free when it
+departs, and stay so until it has left it. Short stretches are free sooner than long ones.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from .courses import Course, Near, near, near_place
 
 Times = tuple[float, float]
 Taken = Mapping[int, Sequence[Times]]
-"""For pieces of a course: from when until when others have them."""
+"""For pieces of a course: the intervals in which others occupy them."""
 
 
 class Stretch(NamedTuple):
-    """A part of a course that is flown in one go."""
+    """A part of a course that is flown without a stop."""
 
     first: int
     """The piece at whose end the drone rests before."""
@@ -39,11 +39,11 @@ class _Rest(NamedTuple):
 
 
 Found = tuple[float, tuple[Stretch, ...]]
-"""When a drone is at the end of its course, and how it gets there."""
+"""When a drone reaches the end of its course, and by which stretches."""
 
 
 def at_once(course: Course, taken: Taken, until: float) -> Found | None:
-    """Return when a drone can be at the end without a rest; None: it cannot.
+    """Return when a drone can reach the end without a rest; None: it cannot.
 
     `until`: when it must have left the place where it is.
     """
@@ -55,7 +55,7 @@ def at_once(course: Course, taken: Taken, until: float) -> Found | None:
 
 
 def soonest(course: Course, taken: Taken, until: float, before: float) -> Found | None:
-    """Return when a drone can be at the end, resting as often as it must; None: not before that."""
+    """Return when a drone can reach the end, with rests where needed; None: not in time."""
     places, least, end = course.rests, course.least, course.rests[-1]
     best: Found | None = None
     rests: dict[int, list[_Rest]] = {0: [_Rest(0.0, until, ())]}
@@ -83,7 +83,7 @@ _ANY: tuple[Times, ...] = ((0.0, inf),)
 
 
 def _add(rests: list[_Rest], new: _Rest) -> None:
-    """Keep those rests that are better than all others in something."""
+    """Add a rest, unless another is better in every respect (Pareto front)."""
     if any(one.since <= new.since and one.until >= new.until for one in rests):
         return
     rests[:] = [one for one in rests if one.since < new.since or one.until > new.until]
@@ -93,9 +93,9 @@ def _add(rests: list[_Rest], new: _Rest) -> None:
 def _departure(
     course: Course, first: int, last: int, taken: Taken, since: float, until: float
 ) -> float | None:
-    """Return when a stretch may begin; None: not before the drone must be gone from where it is.
+    """Return when a stretch may begin; None: not before the drone must have left its place.
 
-    Whether the place of the next rest is free for long enough is for others to say.
+    Whether the next resting place is free for long enough is not checked here.
     """
     times = course.times(first, last)
     forbidden: list[Times] = []
@@ -113,7 +113,7 @@ def _departure(
 
 
 def _gaps(taken: Sequence[Times]) -> Iterator[Times]:
-    """Yield from when until when a piece is free."""
+    """Yield the intervals in which a piece is free."""
     opens = 0.0
     for comes, goes in sorted(taken):
         if comes > opens:
@@ -123,9 +123,9 @@ def _gaps(taken: Sequence[Times]) -> Iterator[Times]:
 
 
 MARGIN = 0.3
-"""Seconds between one's leaving and another's departure: so much later it may be without a wait."""
+"""Seconds between one drone's leaving and another's departure: the tolerated delay."""
 _MOMENT = 1.5
-"""Seconds that it takes at least to be gone from where one is."""
+"""The least seconds that a drone takes to leave its place."""
 
 
 @dataclass(slots=True, eq=False)
@@ -134,7 +134,7 @@ class DescendingDrone:
 
     drone: str
     courses: Sequence[Course]
-    """Which ways there are, the best first; at least one."""
+    """Its possible courses, the best first; at least one."""
 
 
 @dataclass(slots=True, eq=False)
@@ -145,20 +145,20 @@ class Choice:
     way: tuple[Stretch, ...]
     down: float
     times: list[Times]
-    """For each piece, from when it has it for itself, and when it has left it."""
+    """For each piece, the interval in which the drone occupies it."""
 
 
 class Chooser:
-    """Lets one after the other choose; remembers which pieces of which courses are near to each other."""
+    """Chooses for one drone after the other; caches which pieces of which courses are near each other."""
 
     def __init__(self, limit: float) -> None:
         self._limit = limit
         self.rests = False
         """Whether drones may rest on their way."""
         self.hurry = 1.0
-        """In which part of the time that they need others are expected to make room."""
+        """The share of their time in which others are expected to make room."""
         self.effort = 0
-        """How much was looked at, roughly: a piece is one."""
+        """A rough measure of the work done: one for each piece."""
         self._pairs: dict[tuple[Course, Course], list[Near]] = {}
         self._starts: dict[tuple[Course, DescendingDrone], list[int]] = {}
         self._gone: dict[tuple[DescendingDrone, bool], float] = {}
@@ -171,9 +171,9 @@ class Chooser:
         others: Sequence[DescendingDrone],
         enough: float,
     ) -> Choice | None:
-        """Return with which way a drone is down first; being down by then is good enough.
+        """Return the course by which a drone is down first; being down by a given time is good enough.
 
-        Where the others will go is not known yet: they are left a moment to go there.
+        As the others' courses are not known yet, they are given a moment to leave.
         """
         best: tuple[Course, Found] | None = None
         cost = inf
@@ -192,7 +192,7 @@ class Chooser:
         return Choice(course, way, down, _times(course, way))
 
     def _sorted(self, goer: DescendingDrone) -> list[tuple[float, Course]]:
-        """Return a drone's ways, with what they cost if none is in the way: the best first."""
+        """Return a drone's courses with their costs without others, the best first."""
         key = goer, self.rests
         if key not in self._ways:
             costs = [
@@ -210,7 +210,7 @@ class Chooser:
         others: Sequence[DescendingDrone],
         before: float,
     ) -> Found | None:
-        """Return when a course can be flown, and how; None: not before that."""
+        """Return when and how a course can be flown; None: not in time."""
         self.effort += len(course.pieces)
         taken: dict[int, list[Times]] = {}
         until = inf
@@ -224,7 +224,7 @@ class Chooser:
                 comes, goes = one.times[first][0], one.times[last][1]
                 if mine:
                     taken.setdefault(mine, []).append((comes - MARGIN, goes + MARGIN))
-                else:  # who has not left yet is there from the beginning
+                else:  # one that has not left yet is there from the beginning
                     until = min(until, comes - MARGIN)
         if self.rests:
             return soonest(course, taken, until, before)
@@ -237,7 +237,7 @@ class Chooser:
         return is_elsewhere and hypot(ax - bx, ay - by) < self._limit
 
     def _leaves(self, goer: DescendingDrone) -> float:
-        """Return when a drone is gone from where it is, if none is in the way."""
+        """Return when a drone has left its place, if none is in the way."""
         found = self._gone.get((goer, self.rests))
         if found is None:
             course, now = goer.courses[0], 0.0
@@ -253,7 +253,7 @@ class Chooser:
         return found
 
     def pairs(self, one: Course, other: Course) -> list[Near]:
-        """Return which pieces are too near to each other; where both begin, it cannot be helped."""
+        """Return the pieces that are too near to each other, except where both begin."""
         pairs = self._pairs.get((one, other))
         if pairs is None:
             self.effort += len(one.pieces) // 2
@@ -262,7 +262,7 @@ class Chooser:
         return pairs
 
     def _near_start(self, course: Course, goer: DescendingDrone) -> list[int]:
-        """Return which pieces are too near to where another is now; the start cannot be helped."""
+        """Return the pieces that are too near to another's present place, except the start."""
         key = course, goer
         pieces = self._starts.get(key)
         if pieces is None:
@@ -273,7 +273,7 @@ class Chooser:
 
 
 def _times(course: Course, way: Sequence[Stretch]) -> list[Times]:
-    """Return from when until when each piece is taken: from the departure on."""
+    """Return the interval in which each piece is occupied, from the departure on."""
     times = [(0.0, 0.0)] * len(course.pieces)
     for first, last, begins in way:
         left = course.times(first, last)

@@ -1,4 +1,4 @@
-"""A way cut into pieces: where its drone may rest, when it has left each, and which come too near to another."""
+"""Courses: routes cut into pieces, with resting places, times, and which pieces come too near to another."""
 
 from __future__ import annotations
 
@@ -20,32 +20,32 @@ if TYPE_CHECKING:
 
 
 PIECE, SHORT = 0.5, 0.2
-"""Metres: where two ways come near each other, one drone waits until another has left a piece. Where
+"""The length of pieces in metres: a drone waits until another has left a piece near its course. Where
 real drones land they are shorter."""
 _BESIDE = 3.0
-"""Seconds that a drone rather waits than land beside where it is."""
+"""Seconds that a drone prefers to wait rather than land beside its place."""
 _AT_LEAST = 1.0
 """Seconds that a leg takes from rest to rest, however short."""
 _PUSH, _MOST = 7.52, 4.0
 """On such a leg: the peak acceleration over distance and squared time; metres per second squared
 that it usually may be. Speeds are mean ones already: see `files.real`."""
 _BLURRED = 0.05
-"""Metres: so exactly is it known where a drone is."""
+"""The accuracy of a drone's position, in metres."""
 _NOTICED = 0.15
 """Seconds until a real drone's leg is known to be over."""
 _CLIMBS = 0.27
 """Metres a second that a real drone makes up and down, on average: its limit is a peak speed."""
 _RESTS = 30
-"""At about so many places a drone may rest on its way, at most."""
+"""The approximate maximum number of resting places on a course."""
 _LOWEST = 0.3
 """Metres of height below which no drone rests on the way."""
 _SMOOTHLY = [s**4 * (35 - 84 * s + 70 * s**2 - 20 * s**3) for s in (n / 100 for n in range(101))]
-"""The share of a leg that lies behind a real drone after each hundredth of its time."""
+"""The share of a leg that a real drone has flown after each hundredth of its time."""
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A part of a way that is flown without looking."""
+    """A part of a course, the unit in which space is occupied."""
 
     start: Point
     end: Point
@@ -53,7 +53,7 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """A straight part of a way: pieces from one number up to another."""
+    """A straight part of a course: a range of pieces."""
 
     first: int
     last: int
@@ -63,7 +63,7 @@ class Leg:
 
     @property
     def piece(self) -> float:
-        """How many metres each of its pieces has."""
+        """The length of its pieces in metres."""
         return dist(self.start, self.end) / (self.last - self.first)
 
 
@@ -79,11 +79,11 @@ class Course:
     from_rest: bool
     """Each leg begins and ends at rest, as those of real drones do."""
     seconds: float = field(init=False)
-    """How long it lasts in one go."""
+    """Its duration without rests."""
     cost: float = field(init=False)
-    """The same, and more for what is to be avoided."""
+    """Its duration, plus penalties for what is to be avoided."""
     rests: tuple[int, ...] = field(init=False)
-    """The pieces at whose ends a drone may rest without losing much time, the first and the last included."""
+    """The pieces at whose ends a drone may rest without much delay, with the first and the last."""
     _least: dict[int, float] = field(init=False, default_factory=dict, repr=False)
     _times: dict[tuple[int, int], tuple[float, ...]] = field(
         init=False, default_factory=dict, repr=False
@@ -99,7 +99,7 @@ class Course:
         object.__setattr__(self, "rests", tuple(sorted({*self._places()})))
 
     def _places(self) -> Iterator[int]:
-        """Yield where to rest: where legs end, and on long ones, and low above the ground."""
+        """Yield resting places: ends of legs, points on long ones, and points low above the ground."""
         end = len(self.pieces) - 1
         yield from (0, end)
         hop = max(PIECE, sum(dist(leg.start, leg.end) for leg in self.legs) / _RESTS)
@@ -116,7 +116,7 @@ class Course:
 
     @property
     def least(self) -> dict[int, float]:
-        """How long the rest of the way lasts at least, from each place where the drone may rest."""
+        """The least remaining duration from each resting place."""
         least, places = self._least, self.rests
         if not least:
             least[places[-1]] = 0.0
@@ -129,9 +129,9 @@ class Course:
         return least
 
     def times(self, first: int, last: int) -> tuple[float, ...]:
-        """Return when a drone that rests at the end of a piece has left that piece, and those that follow.
+        """Return when a drone that departs from the end of a piece has left that piece, and those that follow.
 
-        The very last is when it rests again, at the end of the last piece.
+        The last time is that of its arrival at the end of the last piece.
         """
         times = self._times.get((first, last))
         if times is None:
@@ -158,12 +158,12 @@ class Course:
         return min(_CLIMBS, self.speed) if self.from_rest else CLIMB_SPEED
 
     def _share(self, metres: float, of: float) -> float:
-        """Return after which share of a leg's time a drone is so far."""
+        """Return the share of a leg's time after which a drone has flown this share of it."""
         part = min(1.0, metres / of) if of else 1.0
         return bisect_left(_SMOOTHLY, part) / 100 if self.from_rest else part
 
     def piece_at(self, place: Point, first: int, last: int) -> int:
-        """Return in which of these pieces a drone is; where it may be in two, in the first."""
+        """Return the piece in which a drone is; the first, if it may be in two."""
         far = [
             between(place, place, piece.start, piece.end) for piece in self.pieces[first : last + 1]
         ]
@@ -171,7 +171,7 @@ class Course:
         return first + next(index for index, metres in enumerate(far) if metres <= near)
 
     def stretch(self, here: Point, stands: bool, first: int, last: int) -> Section:
-        """Return the section from here, where one piece ends or soon after, to another's end."""
+        """Return the section from here, at or soon after the end of one piece, to the end of another."""
         ends = {leg.last - 1 for leg in self.legs}
         points = [
             piece.end
@@ -208,11 +208,11 @@ def seconds(length: float, speed: float, from_rest: bool) -> float:
 
 
 Near = tuple[int, int, int]
-"""A piece of the first course; pieces of the second, from one to another."""
+"""A piece of the first course, and a range of pieces of the second."""
 
 
 def near(one: Course, other: Course, limit: float) -> list[Near]:
-    """Return the pieces of two courses that come nearer to each other than that, by their numbers."""
+    """Return the pieces of two courses, by number, that come nearer to each other than a distance."""
     found: list[Near] = []
     for mine in one.legs:
         low, high = mine.box[:3], mine.box[3:]
@@ -234,7 +234,7 @@ def near(one: Course, other: Course, limit: float) -> list[Near]:
 
 
 def _near_pieces(one: Course, mine: Leg, other: Course, its: Leg, limit: float) -> Iterator[Near]:
-    """Yield those of two legs. They are straight: what is near is in one part of each."""
+    """Yield those of two legs. As these are straight, the near pieces are one range of each."""
     was_near = False
     for i in range(mine.first, mine.last):
         a = one.pieces[i]
@@ -254,7 +254,7 @@ def _near_pieces(one: Course, mine: Leg, other: Course, its: Leg, limit: float) 
 
 
 def near_place(one: Course, place: Point, limit: float) -> list[int]:
-    """Return the pieces of a course that come nearer to a place than that."""
+    """Return the pieces of a course that come nearer to a point than a distance."""
     return [
         index
         for leg in one.legs

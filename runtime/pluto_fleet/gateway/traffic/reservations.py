@@ -1,4 +1,4 @@
-"""What part of the air a drone has for itself: the rest of its way, or the place where it hovers."""
+"""Reservations: the space that a drone has for itself, its remaining route or where it hovers."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point, Telemetry
 
 DRIFT = 0.3
-"""Metres that a drone may stray from where it hovers, before anybody looks."""
+"""Metres that a hovering drone may drift before it is noticed."""
 SINKS = 0.1
-"""Metres below where it should hover, from which on a drone is taken to be on its way down."""
+"""Metres below its hovering place, from which on a drone is taken to be descending."""
 
 NEARLY = 0.1
-"""Metres of height below which a drone that lands is as good as on the ground: it strays no more."""
+"""Metres of height below which a landing drone counts as being on the ground: it does not drift."""
 
 Box = tuple[float, float, float, float, float, float]
 
 
 class Reservation:
-    """One drone's part of the air. What lies behind the drone is free: it is asked where it is."""
+    """The space reserved for one drone. The part behind it is free, by its telemetry."""
 
     __slots__ = ("at", "box", "drone", "fails", "moves", "points", "tail", "telemetry", "until")
 
@@ -31,37 +31,37 @@ class Reservation:
         self.drone, self.telemetry = drone, telemetry
         self.moves = self.fails = False
         self.points: tuple[Point, ...] = ()
-        """Its way; where it hovers, that place alone."""
+        """Its route; while it hovers, that point alone."""
         self.at = 0
-        """Which of the points it has left last."""
+        """The index of the point that it left last."""
         self.tail: tuple[Point, ...] = ()
-        """Where it may go beyond that, or has not come to a stop yet."""
+        """Where it may go beyond that, or while it has not stopped yet."""
         self.until = 0.0
-        """For how long that may be so."""
+        """Until when that may be so."""
         self.box: Box = (0.0,) * 6
 
     def moves_along(self, points: tuple[Point, ...], tail: tuple[Point, ...]) -> None:
-        """It is about to fly this way, and may go on a little."""
+        """Reserve a route that it is about to fly, with its possible overshoot."""
         self.points, self.at, self.tail = points, 0, tail
         self.moves, self.fails = True, False
         self.box = box_of((*points, *tail) if tail else points)
 
     def rests(self, tail: tuple[Point, ...], until: float) -> None:
-        """It hovers where it is now."""
+        """Reserve the place where it hovers now."""
         here = self.telemetry.location
         self.points, self.at, self.tail, self.until = (here,), 0, tail, until
         self.moves = self.fails = False
         self._widen()
 
     def sinks(self) -> None:
-        """It does not do what it was told: wherever it is, it may come down from there."""
+        """Reserve the space below it: it has failed, and may come down from where it is."""
         self.points, self.at, self.tail = (self.telemetry.location,), 0, ()
         self.moves, self.fails = False, True
         self._widen()
 
     @property
     def touches_down(self) -> bool:
-        """Whether it lands, and is about to stand."""
+        """Whether it is landing, and nearly on the ground."""
         return (
             self.moves
             and self.points[-1][2] <= 0.0
@@ -70,13 +70,13 @@ class Reservation:
         )
 
     def _widen(self) -> None:
-        """Let the box hold all to where it may drift, or sink, before anybody looks."""
+        """Extend the box to where it may drift or sink before it is noticed."""
         x, y, z, *most = box_of((*self.points, *self.tail))
         x, y = x - DRIFT, y - DRIFT
         self.box = x, y, min(0.0, z), most[0] + DRIFT, most[1] + DRIFT, most[2] + DRIFT
 
     def shape(self, now: float) -> tuple[Point, ...]:
-        """Return what it has now: the corners of a line."""
+        """Return the reserved line, as its corners."""
         here = self.telemetry.location
         if self.moves:
             return (here, *self.points[self.at + 1 :], *self.tail)
@@ -111,7 +111,7 @@ def box_of(points: Sequence[Point]) -> Box:
 
 
 def nearest(a: tuple[Point, ...], b: tuple[Point, ...]) -> float:
-    """Return how near two lines come to each other."""
+    """Return the distance between two lines."""
     return min(
         between(p, q, r, s)
         for p, q in pairwise((a[0], *a) if len(a) == 1 else a)
@@ -120,7 +120,7 @@ def nearest(a: tuple[Point, ...], b: tuple[Point, ...]) -> float:
 
 
 def meets(a: tuple[Point, ...], b: tuple[Point, ...], limit: float) -> bool:
-    """Say whether two lines come nearer to each other than that."""
+    """Return whether two lines come nearer to each other than a distance."""
     legs = [*pairwise(b)] if len(b) > 1 else [(b[0], b[0])]
     p = a[0]
     px, py, pz = p

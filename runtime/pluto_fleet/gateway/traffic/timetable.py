@@ -1,11 +1,11 @@
-"""Which drone goes which way, and lets which pass, when many come down at once: all of them soon.
+"""Planning the courses and the precedence of many drones that come down at once, to be down soon.
 
 At first they choose as if all flew in one go, the one with the longest way first. If that is late, with
 rests on the way, and the last chooses first. Then the last chooses anew, again and again, together with a
 few that are in its way, among all others.
 
-Times are only planned with, never relied upon: what comes of it is where each rests, and which waits for
-which. Since each waits only for drones that should have been there earlier, none waits for ever.
+Times are used to plan, but never relied upon: the result is where each rests, and which waits for which.
+As each waits only for drones that are planned to pass earlier, there is no deadlock.
 """
 
 from __future__ import annotations
@@ -20,28 +20,28 @@ from .courses import Course
 Plan = dict[DescendingDrone, Choice]
 
 _HURRIES = (1.0, 0.6, 0.3)
-"""How much sooner than they need others may be expected to make room. They find a way, or they do not."""
+"""The values of `Chooser.hurry` to try: how soon others are expected to make room."""
 _EFFORT = 40_000
-"""How much may be looked at: between one and three tenths of a second."""
+"""The bound of the work: between one and three tenths of a second."""
 _SMALL = 10_000
-"""What the ways of ten drones or so take, in one go."""
+"""The work for about ten drones, without rests."""
 _RESTING = 0.5
 """Seconds that rests may cost: then it is good enough."""
 _WORSE = 1.0
-"""By how many seconds a plan may be worse than the one before, at first: it may lead to a better one."""
+"""Seconds by which a plan may initially be worse than the one before, as it may lead to a better one."""
 _ALSO, _WITHOUT = 0.05, 1000.0
-"""What counts beside the last: seconds of all who are late, and who finds no way."""
+"""Weights beside the last arrival: of all delays, and of drones without a course."""
 
 
 def planned(goers: Sequence[DescendingDrone], chooser: Chooser, good: float) -> Plan:
-    """Return how all come down; who is not in it finds no way. All being down by then is good enough."""
+    """Return the choices of all drones that find a course. All being down by a given time is good enough."""
     plan: Plan = {}
     for place, goer in enumerate(goers):
         choice = chooser.choice(goer, plan, goers[place + 1 :], 0.0)
         if choice is not None:
             plan[goer] = choice
         if (choice is None or choice.down > good) and chooser.effort > _SMALL:
-            break  # of so many, how late the others are does not matter
+            break  # for so many, the delays of the others do not matter
     if _score(plan, goers, good) <= good:
         return plan
     chooser.rests = True
@@ -56,7 +56,7 @@ def _chosen(
     chooser: Chooser,
     enough: float,
 ) -> Plan:
-    """Let them choose, one after the other."""
+    """Choose for one drone after the other."""
     plan = dict(among)
     for place, goer in enumerate(goers):
         choice = chooser.choice(goer, plan, goers[place + 1 :], enough)
@@ -66,7 +66,7 @@ def _chosen(
 
 
 def _whole(best: Plan, goers: Sequence[DescendingDrone], chooser: Chooser, good: float) -> Plan:
-    """Let all choose anew, a few times, the last one first."""
+    """Choose anew for all, a few times, the last one first."""
     order, least = list(goers), _score(best, goers, good)
     for chooser.hurry in _HURRIES * 2:
         plan = _chosen(order, {}, chooser, 0.0)
@@ -82,7 +82,7 @@ def _whole(best: Plan, goers: Sequence[DescendingDrone], chooser: Chooser, good:
 
 
 def _mended(best: Plan, goers: Sequence[DescendingDrone], chooser: Chooser, good: float) -> Plan:
-    """Let a few choose anew, as long as it is late and there is time."""
+    """Choose anew for a few, as long as the plan is late and there is time."""
     chance, now = Random(0), best
     least = score = _score(best, goers, good)
     begun = chooser.effort
@@ -103,7 +103,7 @@ def _mended(best: Plan, goers: Sequence[DescendingDrone], chooser: Chooser, good
 def _few(
     plan: Plan, goers: Sequence[DescendingDrone], chooser: Chooser, chance: Random
 ) -> list[DescendingDrone]:
-    """Return who chooses anew: the last, and a few others, above all of those in its way."""
+    """Return the drones to choose anew for: the last, and a few others, mainly those in its way."""
     last = _last(plan, goers)
     rest = [goer for goer in plan if goer is not last]
     in_the_way = [goer for goer in rest if chooser.pairs(last.courses[0], plan[goer].course)]
@@ -118,38 +118,38 @@ def _few(
 
 
 def _last(plan: Plan, goers: Sequence[DescendingDrone]) -> DescendingDrone:
-    """Return who is down last, or finds no way."""
+    """Return the drone that is down last, or finds no course."""
     without = [goer for goer in goers if goer not in plan]
     return without[0] if without else max(plan, key=lambda goer: plan[goer].down)
 
 
 def _score(plan: Plan, goers: Sequence[DescendingDrone], good: float) -> float:
-    """Return when the last is down, or that it is good enough, and a little more for all that is late."""
+    """Return when the last is down, at least the good-enough time, plus a weight for all delays."""
     late = [max(0.0, choice.down - good) for choice in plan.values()]
     without = len(goers) - len(plan)
     return good + max(late, default=0.0) + _ALSO * sum(late) + _WITHOUT * without
 
 
 GOOD = 0.5
-"""Seconds later than the slowest alone: nothing better is looked for."""
+"""Seconds later than the slowest alone that are good enough."""
 
 
 @dataclass(slots=True, eq=False)
 class Timetable:
-    """What everybody does."""
+    """The plan of all drones."""
 
     courses: dict[str, Course] = field(default_factory=dict)
     stretches: dict[str, tuple[Stretch, ...]] = field(default_factory=dict)
-    """From where to where each flies without a rest."""
+    """The stretches of each drone."""
     after: dict[str, list[tuple[int, str, int]]] = field(default_factory=dict)
-    """For each: before which of its pieces it waits, for whom, until which piece is left."""
+    """For each drone: before which of its pieces it waits, for which drone, until which piece is left."""
     awaited: dict[str, set[int]] = field(default_factory=dict)
-    """Which of each one's pieces another waits for."""
+    """For each drone, its pieces that another waits for."""
     without: tuple[DescendingDrone, ...] = ()
-    """Those for whom there was no way among the others."""
+    """The drones without a course."""
 
     def rest_after(self, drone: str, at: int, free: int) -> int:
-        """Return where a drone that rests at the end of a piece rests next; there, if it must wait.
+        """Return the next resting place of a drone; the present one, if it must wait.
 
         `free`: up to which piece none has to pass before it. It leaves out a rest where that saves
         time, and none waits for what is behind it then: a long leg leaves its beginning slowly.
@@ -168,7 +168,7 @@ class Timetable:
 
 
 def timetable(goers: Sequence[DescendingDrone], limit: float) -> Timetable:
-    """Plan for all, so that no two come nearer than that; the first chooses first, if that does."""
+    """Plan for all, so that no two come nearer than a distance; in this order, if that is good enough."""
     good = max((goer.courses[0].seconds for goer in goers), default=0.0) + GOOD
     chooser = Chooser(limit)
     return _written_down(goers, planned(goers, chooser, good), chooser)
@@ -177,7 +177,7 @@ def timetable(goers: Sequence[DescendingDrone], limit: float) -> Timetable:
 def _written_down(
     goers: Sequence[DescendingDrone], plan: dict[DescendingDrone, Choice], chooser: Chooser
 ) -> Timetable:
-    """Write down who lets whom pass."""
+    """Record the precedence."""
     table = Timetable(without=tuple(goer for goer in goers if goer not in plan))
     done: list[tuple[str, Choice]] = []
     for goer, choice in plan.items():

@@ -1,4 +1,4 @@
-"""Who may fly where, now: a section is given whole, or its drone waits for it."""
+"""Traffic control: a drone gets a whole section, or waits for it."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ if TYPE_CHECKING:
     from ...jobs.controls import Controls, FleetDrone
 
 AGAIN = 0.5
-"""Seconds after which those who wait are looked at again, even if none says to have passed."""
+"""Seconds after which waiting drones are checked again, even if none has reported to have passed."""
 WAIT_BEFORE_LANDING = 10.0
-"""Seconds that a drone hovers where it is in the way of others; then it lands, and waits there."""
+"""Seconds that a drone hovers in the way of others before it lands, and waits there."""
 AT_LAST = 30.0
-"""Seconds after which it lands even if others are about to let it pass."""
+"""Seconds after which it lands even if its way will soon be free."""
 ELDER = 20.0
-"""Seconds after which younger ones may take nothing any more of what a drone waits for."""
+"""Seconds after which later requests may not take what a drone waits for."""
 OVERSHOOT, STOPPING = 0.6, 2.0
-"""How far a real drone shoots past where it was told to stop, in metres, and for how long."""
+"""How far a real drone overshoots when it stops, in metres, and for how long."""
 _EXACT = 1e-9
 
 Ways = Callable[[Section], Iterable[Section]]
-"""The ways that a drone may take to where it wants to go, the best first."""
+"""Alternative sections to a drone's destination, the best first."""
 
 
 class Traffic:
-    """The air that drones have for themselves. Two have none of it nearer to each other than `apart`."""
+    """The reservations of all drones: no two come nearer to each other than `apart`."""
 
     def __init__(
         self,
@@ -55,27 +55,27 @@ class Traffic:
         self.apart, self.step = apart, apart + slack
         self.limit = self.step - _EXACT
         self.is_real = slack > 0
-        """What is simulated stops at once, and goes on as fast."""
+        """Whether drones are real: simulated ones stop at once."""
         self._overshoot = OVERSHOOT if self.is_real else 0.0
         self._most = len(drones) if max_airborne is None else max_airborne
         self.is_limited = self._most < len(drones)
-        """Whether only some may be in the air at once."""
+        """Whether the number of drones in the air is limited."""
         self._claims: dict[str, Reservation] = {}
-        """Of those in the air, or about to be."""
+        """The reservations of drones in the air, or about to take off."""
         self._silent: dict[str, float] = {}
-        """Who is lost, and until when it may still be in the air."""
+        """Lost drones, and until when each may still be in the air."""
         self._waiting: dict[str, Wait] = {}
         """The oldest first."""
         self._free: dict[str, None] = {}
-        """Who has given something free at this instant."""
+        """The drones that have released space at this instant."""
         self.halted: dict[str, None] = {}
-        """Drones that were stopped on their way, because another fails, and go on by another way."""
+        """Drones that were stopped because another has failed, and continue by another route."""
         self._timer: Timer | None = None
         self.ground = Ground(self._drones, self._telemetry, airspace, self.step)
         self.look_around()
 
     def look_around(self) -> None:
-        """See which drones are in the air that were not sent there."""
+        """Reserve space for drones that are in the air without a section."""
         for drone, telemetry in self._telemetry.items():
             if drone not in self._claims and not telemetry.landed:
                 self._claim(drone).rests((), 0.0)
@@ -83,7 +83,7 @@ class Traffic:
     # A drone's section
 
     def clear(self, section: Section, ways: Ways | None = None) -> Section | None:
-        """Give a drone its section, or another one to the same place; None: it must wait."""
+        """Reserve a section for a drone, or an alternative; return None if it must wait."""
         if not self._has_room(section):
             return None
         now = self._kernel.now
@@ -93,7 +93,7 @@ class Traffic:
         return None
 
     async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
-        """Wait for a section, and return what may be flown: it may only lead out of the way."""
+        """Wait for a section, and return it; it may only lead out of the way."""
         wait = Wait(section, since, tuple(self._ways(section, ways)))
         self._waiting[section.drone] = wait
         if self._timer is None:
@@ -105,12 +105,12 @@ class Traffic:
                 del self._waiting[section.drone]
 
     def passed(self, drone: str) -> None:
-        """A drone has come to the next point of its section."""
+        """Called when a drone has reached the next point of its section."""
         self._claims[drone].at += 1
         self._released(drone)
 
     def rests(self, drone: str) -> None:
-        """A drone is at the end of its section."""
+        """Called when a drone is at the end of its section."""
         if self._telemetry[drone].landed:
             self._claims.pop(drone, None)
         else:
@@ -119,7 +119,7 @@ class Traffic:
         self._released(drone)
 
     def stopped(self, drone: str, fails: bool) -> None:
-        """A drone has broken off what it was doing, or it fails."""
+        """Called when a drone's command was aborted, or has failed."""
         claim = self._claims.get(drone)
         telemetry = self._telemetry[drone]
         if telemetry.landed:
@@ -135,7 +135,7 @@ class Traffic:
         self._released(drone)
 
     def _stop_before(self, drone: str) -> None:
-        """Let none fly below a drone that sinks; one that is there already had better fly on."""
+        """Stop drones before they fly below a sinking one; one that is there already flies on."""
         column = self._claims[drone].shape(self._kernel.now)
         for other, claim in self._claims.items():
             if other == drone or not claim.moves or other in self.halted:
@@ -152,18 +152,18 @@ class Traffic:
             wait.over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
 
     def lost(self, drone: str) -> None:
-        """It is not known any more where a drone is: it comes down when its battery is empty."""
+        """Called when a drone's position is unknown: it is down when its battery is empty at the latest."""
         flight_time = self._drones[drone].category.flight_time
         self._silent[drone] = self._kernel.now + flight_time
 
     def found(self, drone: str) -> None:
-        """A drone is heard of again."""
+        """Called when a lost drone has telemetry again."""
         self._silent.pop(drone, None)
 
-    # Who waits
+    # The queue
 
     def _released(self, drone: str) -> None:
-        """A drone has released something: look at those that it kept, at the end of this instant."""
+        """Check the drones that wait for this one, at the end of this instant."""
         if self._waiting:
             if not self._free:
                 self._look_at(self._kernel.now, self._look_at_some)
@@ -173,7 +173,7 @@ class Traffic:
         return self._kernel.at(when, EventKind.CLOCK, FLEET, look)
 
     def _look_at_some(self) -> None:
-        """Give what they can get to those that waited for a drone that has gone."""
+        """Serve the drones that waited for those that have released space."""
         free, self._free = self._free, {}
         for wait in self._in_turn():
             is_for_room = wait.section.stands and self.is_limited
@@ -181,7 +181,7 @@ class Traffic:
                 self._serve(wait)
 
     def _look(self) -> None:
-        """Give those who wait what they can get: others fly on, and do not say so all the time."""
+        """Serve all waiting drones: space becomes free gradually, without a notice."""
         self._timer = None
         for wait in self._in_turn():
             self._serve(wait)
@@ -201,7 +201,7 @@ class Traffic:
             wait.over.set(self._give(section))
 
     def _found(self, wait: Wait) -> Section | None:
-        """Return a way that is free now. Most are still blocked by the drone that blocked them before."""
+        """Return a free section. Most are still blocked by the same drone as before."""
         if not self._has_room(wait.section):
             return None
         for index, way in enumerate(wait.ways):
@@ -209,7 +209,7 @@ class Traffic:
             if obstacle is not None and self._stays(obstacle, way):
                 continue
             if index and elder is not None and self._waiting.get(elder.section.drone) is elder:
-                continue  # of the first way it must be known whether a drone is on it
+                continue  # the first one's obstacle must be known
             claim = self._blocker(way)
             wait.obstacles[index] = None if claim is None else self._obstacle(claim, way)
             if claim is None:
@@ -219,7 +219,7 @@ class Traffic:
         return None
 
     def _stays(self, obstacle: Obstacle, way: Section) -> bool:
-        """Say whether a drone that was on a way still is."""
+        """Return whether an obstacle is still on a route."""
         claim, now = obstacle.claim, self._kernel.now
         if self._claims.get(claim.drone) is not claim:
             return False
@@ -236,7 +236,7 @@ class Traffic:
         return obstacle
 
     def _should_land(self, wait: Wait) -> bool:
-        """Whether a drone that waits had better do so on the ground."""
+        """Whether a waiting drone should do so on the ground."""
         waited = self._kernel.now - wait.since
         if wait.section.stands or waited < WAIT_BEFORE_LANDING:
             return False
@@ -244,7 +244,7 @@ class Traffic:
         blocker = None if first is None else self._claims.get(first.claim.drone)
         return blocker is None or not blocker.moves or waited >= AT_LAST
 
-    # Who has what
+    # Reservations
 
     def _ways(self, section: Section, ways: Ways | None) -> Iterable[Section]:
         return sections(section, self.step, self._airspace) if ways is None else ways(section)
@@ -261,7 +261,7 @@ class Traffic:
         return claim
 
     def _has_room(self, section: Section) -> bool:
-        """Say whether a drone may take off: so many may be in the air."""
+        """Return whether a drone may take off, by the limit of drones in the air."""
         claims = self._claims
         if not section.stands or len(claims) < self._most:
             return True
@@ -271,14 +271,14 @@ class Traffic:
         return len(claims) < self._most
 
     def _is_over(self, claim: Reservation) -> bool:
-        """Whether a drone that should hover, or fails, is in the air no more."""
+        """Whether a drone that should hover, or has failed, is not in the air any more."""
         if claim.telemetry.landed:
             return True
         until = self._silent.get(claim.drone)
         return until is not None and self._kernel.now >= until
 
     def _blocker(self, section: Section) -> Reservation | None:
-        """Return a drone that has what a section takes."""
+        """Return a drone whose reservation blocks a section."""
         claims, drone = self._claims, section.drone
         if not claims or (len(claims) == 1 and drone in claims):
             return None
@@ -302,7 +302,7 @@ class Traffic:
         return None
 
     def touches_down(self, drone: str) -> bool:
-        """Say whether a real drone is about to stand: it says for seconds more that it flies."""
+        """Return whether a real drone is about to be on the ground: it reports to fly for seconds more."""
         claim = self._claims.get(drone)
         return self.is_real and claim is not None and claim.touches_down
 
@@ -318,14 +318,14 @@ class Traffic:
             return False
         if stands:
             return True
-        # A drone that is too near to one that hovers already may go away, but no nearer.
+        # A drone that is too near to a hovering one already may fly away from it, but no nearer.
         now = nearest(way[:1], shape[:1])
         return now >= limit or meets(way, shape, now - 1e-6)
 
     def _elder(self, section: Section, since: float) -> Wait | None:
-        """Return a drone that has waited for long for what a section takes.
+        """Return a drone that has waited for long for space that a section takes.
 
-        One that lands is never kept, nor one that leaves that place to an older one.
+        A landing is never blocked by that, nor a drone that makes room for the elder one.
         """
         if section.lands:
             return None
@@ -347,12 +347,12 @@ class Traffic:
 
 
 def _whole(section: Section) -> tuple[Point, ...]:
-    """Return a way, and where it goes on at once."""
+    """Return a section with its continuation."""
     return (*section.points, *section.tail) if section.tail else section.points
 
 
 def _ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
-    """Return to where a drone shoots past the place where it is, on its way."""
+    """Return the point to which a drone may overshoot on its route."""
     if len(shape) < 2 or not metres:
         return ()
     here, there = shape[:2]

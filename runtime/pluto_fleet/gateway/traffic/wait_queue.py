@@ -1,4 +1,4 @@
-"""Drones that wait for a way, what has kept them from each, and how soon it is worth to look again."""
+"""Waiting drones, the obstacles on their routes, and when it is worth checking those again."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 
 _HALVINGS = 4
-"""So often a leg is halved to find how far a drone must fly on it before it has left a way."""
+"""Steps of the bisection of how far a drone must fly on a leg before it has left a route."""
 _HOVERS = 5.0
-"""Seconds after which it is looked at again whether a drone hovers there: it may have come down."""
+"""Seconds after which a hovering obstacle is checked again: it may have come down."""
 _EXACT = 1e-6
 
 
 class Obstacle:
-    """A drone on a way. While it does what it did, it is there until it can have left."""
+    """A drone on another's route. While its command is unchanged, it is there until it can have left."""
 
     __slots__ = ("_cruise", "_points", "_until", "_upright", "claim")
 
@@ -34,27 +34,27 @@ class Obstacle:
         self.claim = claim
         self._cruise = category.top_speed or category.speed
         self._upright = max(self._cruise, CLIMB_SPEED) if is_real else CLIMB_SPEED
-        """How fast it takes off and lands, at most: what is simulated, exactly so fast."""
+        """Its maximum vertical speed; for simulated drones the exact one."""
         self._points: tuple[Point, ...] = ()
         self._until = -inf
 
     def seen(self, way: tuple[Point, ...], limit: float, now: float) -> None:
-        """It is on the way now."""
+        """Called when it was found on the route."""
         claim = self.claim
         self._points = claim.points
         if claim.moves:
             self._until = now + self._seconds(way, limit, claim.shape(now)) - _EXACT
-        elif claim.tail and now < claim.until:  # it will have come to a stop
+        elif claim.tail and now < claim.until:  # until it has stopped
             self._until = claim.until
         else:
             self._until = now + _HOVERS
 
     def is_sure(self, now: float) -> bool:
-        """Say whether it must be there still; otherwise it has to be looked at."""
+        """Return whether it must still be there; if not, it has to be checked."""
         return now < self._until and self.claim.points is self._points
 
     def _seconds(self, way: tuple[Point, ...], limit: float, shape: tuple[Point, ...]) -> float:
-        """Return how long it flies at least until the rest of its way is clear of another way."""
+        """Return the least seconds until the rest of its route is clear of another route."""
         legs = [(a, b, self._cruise) for a, b in pairwise(shape)]
         if self.claim.at == 0 and self._points[0][2] <= 0.0:
             legs[0] = (*legs[0][:2], self._upright)
@@ -76,22 +76,22 @@ class Obstacle:
 
 @dataclass(slots=True, eq=False)
 class Wait:
-    """A drone waits for a section."""
+    """A drone that waits for a section."""
 
     section: Section
     since: float
     ways: Sequence[Section]
     over: Future[Section] = field(default_factory=Future)
     obstacles: list[Obstacle | None] = field(init=False)
-    """For each of the ways, the drone that was on it when it was looked at last."""
+    """For each alternative, the obstacle at the last check."""
     elders: list[Wait | None] = field(init=False)
-    """For each of them, the drone that was to have it first when none was on it."""
+    """For each alternative without an obstacle, the elder drone that was to have it first."""
 
     def __post_init__(self) -> None:
         self.obstacles, self.elders = [None] * len(self.ways), [None] * len(self.ways)
 
     def was_kept_by(self, drones: Iterable[str]) -> bool:
-        """Whether one of these was on one of the ways."""
+        """Whether one of these drones was an obstacle."""
         return any(
             obstacle is not None and obstacle.claim.drone in drones for obstacle in self.obstacles
         )

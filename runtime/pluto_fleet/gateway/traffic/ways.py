@@ -1,4 +1,4 @@
-"""Sections, at other heights, home, and down to the ground."""
+"""Alternative sections: at other heights, home, and down to the ground."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
 
 FURTHEST, SHARE = 1.5, 0.05
-"""How many metres higher or lower a drone flies to let another pass; on long ways, which share."""
+"""How many metres higher or lower a drone flies to avoid another; on long routes, a share of the length."""
 LOWEST = 0.5
 """Below this height a drone only takes off and lands."""
 
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A drone's way from where it rests to where it rests next, on the ground or hovering."""
+    """A drone's route from one resting place to the next, on the ground or hovering."""
 
     drone: str
     points: tuple[Point, ...]
@@ -37,19 +37,19 @@ class Section:
     lands: bool
     """It ends on the ground: the last point is right below the one before."""
     tail: tuple[Point, ...] = ()
-    """Where it goes at once after that by default: to its dock."""
+    """Where it goes next by default: to its dock."""
     aside: bool = False
-    """It only goes out of the way of others."""
+    """It only makes room for others."""
 
     def bent(self, offset: float) -> Section:
-        """Return the same way, so much higher in the middle of its one leg, which costs next to nothing."""
+        """Return the section with the middle of its only leg raised, which costs next to nothing."""
         index = 2 if self.stands else 1
         (ax, ay, az), (bx, by, bz) = self.points[index - 1 : index + 1]
         middle = (ax + bx) / 2, (ay + by) / 2, (az + bz) / 2 + offset
         return replace(self, points=(*self.points[:index], middle, *self.points[index:]))
 
     def at_height(self, offset: float) -> Section:
-        """Return the same way, so much higher; where it rests stays where it is."""
+        """Return the section raised by a height, with the same resting places."""
         points = self.points
         way = points[1 if self.stands else 0 : -1 if self.lands else None]
         shifted = tuple((x, y, z + offset) for x, y, z in way)
@@ -57,9 +57,9 @@ class Section:
 
 
 def sections(section: Section, step: float, airspace: Airspace) -> Iterator[Section]:
-    """Yield a section, and then the same at other heights: the smallest detour first.
+    """Yield a section, and then variants at other heights: the smallest detour first.
 
-    None is lower than where drones fly anyway: what stands there is not known.
+    None is lower than the cruise height: obstacles there are not known.
     """
     yield section
     way = section.points[1 if section.stands else 0 : -1 if section.lands else None]
@@ -80,11 +80,11 @@ def sections(section: Section, step: float, airspace: Airspace) -> Iterator[Sect
 
 
 _LEVELS_HOME = 9
-"""How many heights are looked at, one above the other."""
+"""How many heights are tried."""
 _PARTS = (0.5, 0.25, 0.75)
-"""At which part of a way it is farthest beside the straight one."""
+"""At which share of the length a route is farthest from the straight one."""
 _ASIDE = (0.6, -0.6, 1.2, -1.2)
-"""So many metres; negative: to the right."""
+"""Sideways offsets in metres; negative: to the right."""
 _SLOPES = (4.0, 1.5, 0.0)
 """Metres forward for each metre up or down; 0: straight up, and straight down."""
 
@@ -92,7 +92,7 @@ _SLOPES = (4.0, 1.5, 0.0)
 def ways_home(
     airspace: Airspace, drone: FleetDrone, here: Point, stands: bool, step: float
 ) -> list[Section]:
-    """Return ways home that end on the ground; none where there is no way."""
+    """Return sections home that end on the ground; none if there is no route."""
     cruise, (x, y, _) = airspace.cruise_height, here
     start = (x, y, cruise) if stands else here
     end = (drone.home[0], drone.home[1], min(start[2], cruise))
@@ -116,7 +116,7 @@ def ways_home(
 
 
 def _around(airspace: Airspace, start: Point, end: Point) -> Iterator[tuple[Point, ...]]:
-    """Yield ways to the left and to the right of the straight one."""
+    """Yield routes to the left and to the right of the straight one."""
     (x, y, z), (dx, dy, dz) = start, (end[0] - start[0], end[1] - start[1], end[2] - start[2])
     far = hypot(dx, dy)
     if not far:
@@ -139,7 +139,7 @@ def _around(airspace: Airspace, start: Point, end: Point) -> Iterator[tuple[Poin
 def _sloping(
     start: Point, over: tuple[Point, ...], end: Point, slope: float
 ) -> tuple[Point, ...] | None:
-    """Return a way that rises, crosses, and sinks; None: it is too short for these slopes."""
+    """Return a route that rises, crosses, and sinks; None: it is too short for these slopes."""
     up, down = slope * abs(over[0][2] - start[2]), slope * abs(over[-1][2] - end[2])
     first, last = dist(over[0], over[1]), dist(over[-2], over[-1])
     if up > first or down > last or (len(over) == 2 and up + down > first):
@@ -158,14 +158,14 @@ def _without_repeats(points: tuple[Point, ...]) -> tuple[Point, ...]:
 
 
 _SPOTS = 120
-"""How many places are looked at, the nearest first."""
+"""How many landing places are tried, the nearest first."""
 _LEVELS_ASIDE = (0, -1, 1, -2, 2)
 """At which heights a drone flies there, in multiples of what keeps drones apart."""
 _EXACT = 1e-9
 
 
 class Ground:
-    """Where drones stand, and where their docks are: there no other lands."""
+    """The drones on the ground and their docks, where no other may land."""
 
     def __init__(
         self,
@@ -178,9 +178,9 @@ class Ground:
         self._airspace, self._step = airspace, step
 
     def below(self, drone: str, here: Point) -> Point | None:
-        """Return the place below, where a drone may land; None: it may not.
+        """Return the point below, if the drone may land there.
 
-        In its own dock it may, however near others stand, if none stands in that very dock.
+        In its own dock it may, however near others are, unless another is in that very dock.
         """
         place, home = (here[0], here[1], 0.0), self._drones[drone].home
         if docked(place, home):
@@ -190,7 +190,7 @@ class Ground:
         return place if is_free(place, self._taken(drone), self._step - _EXACT) else None
 
     def _is_taken(self, drone: str) -> bool:
-        """Say whether another stands in a drone's dock."""
+        """Return whether another drone is in this drone's dock."""
         home = self._drones[drone].home
         return any(
             docked(telemetry.location, home) and telemetry.landed and other != drone
@@ -198,7 +198,7 @@ class Ground:
         )
 
     def _taken(self, drone: str) -> list[Point]:
-        """Return where others stand, or will want to."""
+        """Return the places of other drones and of their docks."""
         docks = [other.home for other in self._drones.values() if other.id != drone]
         standing = (
             telemetry.location
@@ -208,7 +208,7 @@ class Ground:
         return [*docks, *standing]
 
     def way_down(self, drone: str) -> Section:
-        """Return the best way to the ground; straight down where there is none that is free."""
+        """Return the best way to the ground; straight down if none is free."""
         x, y, z = self._telemetry[drone].location
         straight = Section(drone, ((x, y, z), (x, y, 0.0)), False, True, aside=True)
         return next(self.ways_down(drone), straight)
