@@ -1,4 +1,4 @@
-"""A small lithium battery: volts at rest, less under load, and what is said of it."""
+"""A small lithium battery: its voltage at rest and under load, and its reported state."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ LOW, EMPTY = 3.2, 3.0
 """Volts of a cell under load: below the first it is said to be low; below the second it switches
 itself off, if its build does that at all."""
 _LONG = 5.0
-"""Seconds that it must be so."""
+"""Seconds for which a low voltage must last."""
 _SAG = 0.3
-"""Volts that a hovering drone costs."""
+"""The voltage drop of hovering."""
 FLIGHT, CHARGE = 420.0, 1200.0
 """Seconds from full to empty in the air, and from empty to full on the pad."""
 
@@ -36,7 +36,7 @@ ON_BATTERY, CHARGING, CHARGED, LOW_POWER = 0, 1, 2, 3
 
 @dataclass(slots=True)
 class SimulatedBattery:
-    """What is left of it."""
+    """The state of a battery."""
 
     level: float = 1.0
     flight: float = FLIGHT
@@ -52,7 +52,7 @@ class SimulatedBattery:
 
     @property
     def volts(self) -> float:
-        """What is measured now."""
+        """The present voltage."""
         return self.cells * self._cell
 
     @property
@@ -62,7 +62,7 @@ class SimulatedBattery:
 
     @property
     def state(self) -> int:
-        """What `pm.state` says."""
+        """The value of `pm.state`."""
         if self.low:
             return LOW_POWER
         if self.charging:
@@ -70,11 +70,11 @@ class SimulatedBattery:
         return ON_BATTERY
 
     def set_volts(self, volts: float) -> None:
-        """Let it be as empty as it is when this is measured now."""
+        """Set the charge so that this voltage is measured now."""
         self.level = _level(volts / self.cells + (_SAG if self.loaded else 0.0))
 
     def step(self, seconds: float, *, loaded: bool, charging: bool) -> bool:
-        """Let time pass; return whether it is off: by its build, or as nothing is left."""
+        """Advance the time; return whether it has switched off: by its build, or because it is empty."""
         self.loaded, self.charging = loaded, charging
         if loaded:
             self.level = max(0.0, self.level - seconds / self.flight)

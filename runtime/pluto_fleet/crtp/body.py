@@ -1,4 +1,4 @@
-"""How a simulated Crazyflie moves: after its planner, after low-level setpoints, or down.
+"""The motion of a simulated Crazyflie: by its planner, by low-level setpoints, or falling.
 
 The planner's way is a polynomial of the 7th order from a moving start to a standing end. The drone
 follows late, and no faster than its position controller lets it: a position error becomes a velocity,
@@ -23,7 +23,7 @@ from .flight_log import Point
 
 
 class AxisState(NamedTuple):
-    """Where something is along one axis, how fast, and how that changes."""
+    """Position, velocity and acceleration along one axis."""
 
     position: float
     velocity: float = 0.0
@@ -32,13 +32,13 @@ class AxisState(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """One axis of a way: its coefficients, in units of the duration."""
+    """One axis of a trajectory: its coefficients, in units of the duration."""
 
     coefficients: tuple[float, ...]
     duration: float
 
     def at(self, seconds: float) -> AxisState:
-        """Return the state after some seconds; the end, once it is over."""
+        """Return the state after some seconds; the final one after the end."""
         s = min(1.0, max(0.0, seconds / self.duration)) if self.duration > 0.0 else 1.0
         position = velocity = acceleration = 0.0
         for c in reversed(self.coefficients):  # all three by Horner's rule
@@ -51,7 +51,7 @@ class Profile:
 
 
 def profile(start: AxisState, end: float, duration: float) -> Profile:
-    """Plan from a state to rest at the end.
+    """Plan a profile from a state to rest at the end.
 
     A drone that is moving at the start flies past the end and comes back, if there is no room to brake:
     as the firmware's planner does.
@@ -80,9 +80,9 @@ Limits = tuple[float, float, float]
 _GAIN = 2.0
 """Metres per second for each metre of error."""
 _SUMMED, _LEAKS = 0.8, 2.0
-"""The same for each metre second of summed error in height; seconds in which the sum fades."""
+"""The integral gain of the height, and the seconds in which the integral decays."""
 _LAGS = (0.3, 0.3, 0.15)
-"""Seconds in which the velocity follows, on each axis."""
+"""The time constants of the velocity, on each axis."""
 _OVERHEAD = 1.1
 """The firmware lets a drone fly this much faster than its parameters say."""
 _LEAST_UP = 0.5
@@ -91,14 +91,14 @@ _LEAST_UP = 0.5
 
 @dataclass(slots=True)
 class Tracking:
-    """Where a body is, and how fast, while its motors turn."""
+    """The position and velocity of a body while its motors turn."""
 
     position: list[float]
     velocity: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     _sum: float = 0.0
 
     def step(self, target: Point, error: Point, yaw: float, limits: Limits, seconds: float) -> None:
-        """Let it fly towards a target for a moment; `error`: how far off its estimate is."""
+        """Fly towards a target for a time step; `error`: the error of its estimate."""
         x, y, z = (
             wanted - (here + off)
             for wanted, here, off in zip(target, self.position, error, strict=True)
@@ -108,7 +108,7 @@ class Tracking:
         sideways = _limited(_GAIN * (c * y - s * x), limits[1])
         up = _GAIN * z + _SUMMED * self._sum
         limit = max(_LEAST_UP, limits[2])
-        if abs(up) < _OVERHEAD * limit:  # else the sum would grow for as long as it is limited
+        if abs(up) < _OVERHEAD * limit:  # against integral wind-up
             self._sum += (z - self._sum / _LEAKS) * seconds
         wanted = (c * forwards - s * sideways, s * forwards + c * sideways, _limited(up, limit))
         for axis, lag in enumerate(_LAGS):
@@ -128,19 +128,19 @@ _WANDER, _MOST, _SLOWLY = 0.008, 0.02, 0.5
 """Metres that it is off its way, usually and at most, where it knows it to a centimetre; seconds in
 which that changes."""
 _HARD = 20.0
-"""Metres per second squared: what no such drone can follow, and tumbles."""
+"""Metres per second squared at which a drone loses control, and tumbles."""
 _FALL, _FASTEST = 9.81, 6.0
 _BROKEN = 2.5
-"""Metres per second at which it does not stay upright on the ground."""
+"""Metres per second of an impact after which it is not upright."""
 _LOW = 0.3
-"""Metres of height below which it is less and less off its way."""
+"""Metres of height below which its deviation decreases."""
 _STEP = 0.02
-"""Seconds in which its motion is worked out at most, however late that is."""
+"""The largest time step of its motion, in seconds."""
 
 
 @dataclass(frozen=True, slots=True)
 class Trajectory:
-    """A way that is flown: one axis each, and the heading."""
+    """A trajectory: a profile for each axis, and the heading."""
 
     axes: tuple[Profile, Profile, Profile]
     yaw: Profile
@@ -163,19 +163,19 @@ class Body:
     velocity: Point = (0.0, 0.0, 0.0)
     yaw: float = 0.0
     plan: Trajectory | None = None
-    """What the planner has planned; it is flown unless low-level setpoints come before it."""
+    """The planner's trajectory, unless low-level setpoints have priority."""
     setpoint: Point | None = None
-    """Where the last low-level setpoint wants it; None: on the ground, its motors off."""
+    """The target of the last low-level setpoint; None: motors off."""
     preempted: bool = False
-    """Whether low-level setpoints come before the planner: since the first one, until released."""
+    """Whether low-level setpoints have priority: from the first one on, until released."""
     planner_off: bool = False
     """Whether a low-level setpoint has switched the planner off, and nothing was planned since."""
     error: Point = (0.0, 0.0, 0.0)
-    """How far its estimate of its position is off."""
+    """The error of its position estimate."""
     sway: float = 1.0
-    """How many times as far it is off its way, as the positions that it is told are noisier."""
+    """The factor of its deviation, by the noise of its position fixes."""
     limits: Limits = (1.0, 1.0, 1.0)
-    """How fast its position controller lets it fly."""
+    """The speed limits of its position controller."""
     tumbled: bool = False
     _off: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     _tracking: Tracking | None = None
@@ -195,17 +195,17 @@ class Body:
 
     @property
     def estimate(self) -> Point:
-        """Where it believes to be."""
+        """Its estimated position."""
         x, y, z = (here + off for here, off in zip(self.position, self.error, strict=True))
         return x, y, z
 
     @property
     def _flown(self) -> Trajectory | None:
-        """The plan, if it is flown."""
+        """The plan, if it is in effect."""
         return None if self.preempted else self.plan
 
     def fly(self, target: Point, yaw: float, duration: float, now: float, landing: bool) -> None:
-        """Plan a way to a point, from where and how fast the plan before has it now."""
+        """Plan a trajectory to a point from the present planned state."""
         if self.plan is None:
             axes = tuple(map(AxisState, self.estimate))
             heading = AxisState(self.yaw)
@@ -220,17 +220,17 @@ class Body:
             self.setpoint = None
 
     def obey(self, setpoint: Point | None) -> None:
-        """Take a low-level setpoint: it comes before all that is planned, and ends it."""
+        """Follow a low-level setpoint, which overrides and ends the plan."""
         self.cut()
         self.preempted = self.planner_off = True
         self.setpoint = setpoint
 
     def release(self) -> None:
-        """Let the planner have its way again."""
+        """Release the priority of low-level setpoints."""
         self.preempted = False
 
     def planned(self, now: float) -> Point:
-        """Return where the planner has it now."""
+        """Return the planner's present position."""
         return self.estimate if self.plan is None else _at(self.plan, now)
 
     def cut(self) -> None:
@@ -238,7 +238,7 @@ class Body:
         self.plan = self.setpoint = self._tracking = None
 
     def step(self, now: float, seconds: float) -> None:
-        """Let so much time pass, until now."""
+        """Advance the time until now."""
         steps = max(1, ceil(seconds / _STEP))
         for left in range(steps - 1, -1, -1):
             self._step(now - left * seconds / steps, seconds / steps)
@@ -291,7 +291,7 @@ class Body:
             self.position, self.velocity = (*self.position[:2], 0.0), (0.0, 0.0, 0.0)
 
     def place(self, position: Point) -> None:
-        """Put it somewhere, upright, as a person does."""
+        """Put it somewhere, upright."""
         self.cut()
         self.position, self.velocity, self.tumbled = position, (0.0, 0.0, 0.0), False
 
@@ -302,6 +302,6 @@ def _at(plan: Trajectory, now: float) -> Point:
 
 
 def _push(plan: Trajectory, now: float) -> float:
-    """Return how hard a plan accelerates now."""
+    """Return the present acceleration of a plan."""
     x, y, z = (one.at(now - plan.began).acceleration for one in plan.axes)
     return hypot(x, y, z)

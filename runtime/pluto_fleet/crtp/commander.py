@@ -1,4 +1,4 @@
-"""What moves a simulated Crazyflie: its high-level commander, and low-level setpoints.
+"""The commanders of a simulated Crazyflie: high-level commands, and low-level setpoints.
 
 Take off, go to, land: each a packet that is answered. Low-level setpoints are sent by a gamepad, a
 script or the end of a UDP link; only what they make of the drone's place is read from them: where it
@@ -23,7 +23,7 @@ META, RELEASE = 1, 0
 
 
 class Setpoint(IntEnum):
-    """Setpoints of the generic port that say where a drone is to be."""
+    """Position setpoints of the generic port."""
 
     STOP = 0
     Z_DISTANCE_LEGACY = 2
@@ -46,12 +46,12 @@ STOP = bytes(14)
 
 
 def hover(height: float) -> bytes:
-    """Return the setpoint that lets it hover where it is."""
+    """Return the setpoint to hover at its position."""
     return struct.pack("<Bffff", Setpoint.HOVER, 0.0, 0.0, 0.0, height)
 
 
 def target_of(port: int, data: bytes, here: Point) -> Point | None:
-    """Return where a setpoint wants a drone that is here; None: its motors stop."""
+    """Return the target of a setpoint for a drone that is here; None: motors off."""
     if port == Port.SETPOINT:
         return here if any(data[12:14]) else None
     kind = data[0] if data else Setpoint.STOP
@@ -73,11 +73,11 @@ def target_of(port: int, data: bytes, here: Point) -> Point | None:
 
 
 WRONG_STATE = 1
-"""The answer to what makes no sense now: to land where it lands, to take off where it flies."""
+"""The answer to a command in the wrong state: landing while it lands, taking off while it flies."""
 
 
 class FlightCommand(IntEnum):
-    """What can be commanded."""
+    """The high-level commands."""
 
     GROUP = 0
     STOP = 3
@@ -89,7 +89,7 @@ class FlightCommand(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Answered:
-    """A command, as it goes on record."""
+    """A command with its answer, for the log."""
 
     what: str
     values: Mapping[str, float]
@@ -97,9 +97,9 @@ class Answered:
 
 
 def command(data: bytes, body: Body, supervisor: Supervisor, now: float, busy: bool) -> Answered:
-    """Do what a packet says, and return what it was with the answer to it.
+    """Carry out a packet's command, and return it with the answer.
 
-    While low-level setpoints come first, that is the same answer, and nothing moves.
+    While low-level setpoints have priority, the answer is the same, and nothing moves.
     """
     what, values = _read(data)
     answer: int = Errno.ENOEXEC
@@ -136,7 +136,7 @@ def _fly(what: str, values: Mapping[str, float], body: Body, now: float) -> int:
 
 
 def _read(data: bytes) -> tuple[str | None, Mapping[str, float]]:
-    """Return what a packet says; None: nothing that is understood."""
+    """Parse a packet; return None if it is not understood."""
     try:
         match data[0]:
             case FlightCommand.GROUP:

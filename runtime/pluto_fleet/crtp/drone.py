@@ -1,4 +1,4 @@
-"""One simulated Crazyflie: takes packets, gives packets, and lets time pass as it is told to."""
+"""One simulated Crazyflie, driven by packets and by the given time."""
 
 from __future__ import annotations
 
@@ -18,28 +18,28 @@ from .params import Parameters, parameters
 from .supervisor import Supervisor
 
 _UNSURE = 0.5
-"""Square metres: how little it knows where it is while it is unsure."""
+"""The variance of its position while it is unsure, in square metres."""
 _SETTLES = 0.7
-"""Seconds until it knows again, after its estimator was reset."""
+"""Seconds until its estimate has settled after a reset."""
 _BOOTS = 1.0
-"""Seconds in which it says nothing after a restart."""
+"""Seconds of silence after a restart."""
 _DOCK = 0.3
 """Metres around its home within which its pad charges it."""
 _TRACED = 0.02
 """Seconds between two rows of the trace."""
 
 _LATEST = 5.0
-"""Seconds of motion that are made up for at most, where a machine was busy."""
+"""The most seconds of motion to catch up after a delay of the machine."""
 
 RELEASES = {8: "2024.10", 9: "2025.02", 10: "2025.12", 12: "2026.08"}
-"""Of the protocols, the newest release of the firmware that speaks each."""
+"""The newest firmware release for each protocol version."""
 
 _WHO = b"Bitcraze Crazyflie".ljust(30, b"\0")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Build:
-    """What a drone is like."""
+    """The build of a drone."""
 
     id: str
     home: Point
@@ -47,7 +47,7 @@ class Build:
     auto_arm: bool = False
     """Whether it arms by itself, as those with brushed motors do; else on request."""
     level: float = 1.0
-    """How full its battery is at the start."""
+    """Its initial charge."""
     flight: float = FLIGHT
     """Seconds that a full battery lasts in the air."""
     cells: int = 1
@@ -57,14 +57,14 @@ class Build:
     knows_where: bool = True
     """Whether it finds its position by itself; else only while it is told."""
     noise: float = NOISE
-    """Metres that a position is off, usually: 0.01 for Lighthouse, 0.05 to 0.15 for UWB."""
+    """The noise of a position fix in metres: 0.01 for Lighthouse, 0.05 to 0.15 for UWB."""
     rate: float = RATE
-    """How many positions a second it finds by itself."""
+    """The rate of its own position fixes per second."""
     seed: int = 0
 
 
 class SimulatedCrazyflie:
-    """A drone; what it sends goes to `send`. Times are those of `time.monotonic`."""
+    """A drone, which sends packets by `send`. Times are those of `time.monotonic`."""
 
     def __init__(self, build: Build, log: FlightLog, send: Callable[[bytes], None]) -> None:
         self.build, self._log, self._send = build, log, send
@@ -92,7 +92,7 @@ class SimulatedCrazyflie:
             info=self.info,
             holds=lambda: self.parameters["gripper.closed"],
         )
-        """What can be logged of it."""
+        """Its log variables."""
         self._logs = Logs(self.variables)
         self.on, self.busy, self.unsure = True, False, False
         self._boots_until = self._settles_at = -1e9
@@ -105,7 +105,7 @@ class SimulatedCrazyflie:
 
     @property
     def variance(self) -> float:
-        """How unsure it is of where it is, in square metres."""
+        """The variance of its position, in square metres."""
         if self.unsure or self._now < self._settles_at:
             return _UNSURE
         return self.estimator.variance(self._now)
@@ -120,7 +120,7 @@ class SimulatedCrazyflie:
         )
 
     def step(self, now: float) -> None:
-        """Let time pass until now, and send what is due."""
+        """Advance the time until now, and send what is due."""
         passed, self._now = now - self._now if self._now else 0.0, now
         seconds = min(0.1, passed)
         was_flying = self.body.airborne
@@ -146,11 +146,11 @@ class SimulatedCrazyflie:
                 self._send(raw)
 
     def hear(self, raw: bytes) -> None:
-        """Take a packet from another sender, now."""
+        """Process a packet of another sender at once."""
         self.receive(raw, self._now)
 
     def receive(self, raw: bytes, now: float) -> None:
-        """Take a packet, and answer it."""
+        """Process a packet, and answer it."""
         if not raw or not self.answers:
             return
         if raw == NULL:
@@ -183,7 +183,7 @@ class SimulatedCrazyflie:
                 self._low_level(port, channel, data, now)
 
     def note(self, what: str, **values: float) -> None:
-        """Put something on record."""
+        """Log something."""
         body = self.body
         flying = body.airborne
         self._log.command(
@@ -247,7 +247,7 @@ class SimulatedCrazyflie:
             self.supervisor.fed_at = now
 
     def _low_level(self, port: int, channel: int, data: bytes, now: float) -> None:
-        """Obey a setpoint: it comes before all that the commander plans, until it is released."""
+        """Follow a low-level setpoint, which overrides the commander until released."""
         if port == Port.GENERIC_SETPOINT and channel == META:
             if data[:1] == bytes([RELEASE]):
                 self.note("setpoints end")
@@ -267,12 +267,12 @@ class SimulatedCrazyflie:
 
     @property
     def _limits(self) -> tuple[float, float, float]:
-        """How fast its position controller lets it fly."""
+        """The speed limits of its position controller."""
         x, y, z = (self.parameters[f"posCtlPid.{axis}VelMax"] for axis in "xyz")
         return x, y, z
 
     def restart(self) -> None:
-        """Let it begin anew where it is; in the air it falls."""
+        """Restart it where it is; in the air it falls."""
         self.note("restart")
         self.switch(True)
         self._boots_until = self._now + _BOOTS

@@ -1,4 +1,4 @@
-"""What a simulated Crazyflie is fitted with: an AI-deck's camera, sensors and a gripper."""
+"""The equipment of simulated Crazyflies: an AI-deck's camera, sensors and a gripper."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ _ROUTE, _FUNCTION = 0x0C, 0x05
 
 
 def picture(number: int) -> bytes:
-    """Return a picture: grey that changes across it, and from one to the next."""
+    """Return a picture: a grey gradient that differs from one to the next."""
     row = bytes((column + number) % 256 for column in range(WIDTH))
     return row * HEIGHT
 
 
 def frames(number: int) -> bytes:
-    """Return a picture as it is sent: a header, then pieces, each with its length before it."""
+    """Return a picture's packets: a header, then pieces, each preceded by its length."""
     pixels = picture(number)
     head = struct.pack("<BHHBBI", _MAGIC, WIDTH, HEIGHT, 1, _RAW, len(pixels))
     pieces = [head, *(pixels[at : at + _CHUNK] for at in range(0, len(pixels), _CHUNK))]
@@ -57,13 +57,13 @@ async def _stream(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) ->
 
 
 def port_of(server: asyncio.Server) -> int:
-    """Return where it streams."""
+    """Return the port of the stream."""
     return int(server.sockets[0].getsockname()[1])
 
 
 _SENSORS = {"temperature": "bme.temp", "humidity": "bme.humidity", "pressure": "baro.pressure"}
 _ANY = {"*": "sim.measured"}
-"""A sensor for every other quantity, also for those that were not asked for yet."""
+"""The log variable for every other quantity."""
 _GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.5}
 
 
@@ -92,7 +92,7 @@ def _grip(given: object) -> Mapping[str, object]:
 
 
 def _sensors(given: object) -> Mapping[str, str]:
-    """Return which of the log variables that a file names there are."""
+    """Return the log variables of a file that exist."""
     there = SimulatedCrazyflie(_SAMPLE, MemoryLog(), lambda _: None).variables
     named = given if isinstance(given, Mapping) else {}
     return {

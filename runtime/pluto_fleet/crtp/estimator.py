@@ -1,4 +1,4 @@
-"""What a drone believes of its position: how sure it is, and how far off.
+"""The position estimate of a drone: its variance and its error.
 
 A position that comes in is a fix. The variance depends on how noisy fixes are and how often they
 come; without any it grows with the square of the time, and the estimate leaves the truth likewise.
@@ -21,15 +21,15 @@ from random import Random
 from .flight_log import Point
 
 NOISE, RATE = 0.01, 100.0
-"""Metres that a fix is off, usually; fixes a second."""
+"""The noise of fixes in metres, and their rate per second."""
 _LEAST, _PER_NOISE, _PER_GAP = 0.00022, 0.018, 0.004
 """Square metres: at best, for each metre of noise, for each second between fixes."""
 _GROWS = 2.5 / 11.0**2
 """Square metres of variance, and metres of error, after a second without a fix."""
 _MOST = 100.0
-"""Square metres: as sure as it ever stays of anything."""
+"""The largest variance, in square metres."""
 _LONGEST_GAP = 0.5
-"""Seconds between two fixes that still follow each other."""
+"""The longest interval of consecutive fixes, in seconds."""
 _NEVER = -1e9
 
 
@@ -39,7 +39,7 @@ class Estimator:
 
     random: Random
     own: bool = True
-    """Whether it finds its position by itself; else only while it is told."""
+    """Whether it localizes itself; else it depends on positions from outside."""
     noise: float = NOISE
     rate: float = RATE
     """Of its own fixes."""
@@ -48,43 +48,43 @@ class Estimator:
     _fixed_at: float = _NEVER
     _gap: float = 1.0 / RATE
     _away: tuple[float, float] = field(init=False)
-    """The direction in which its estimate goes astray."""
+    """The direction in which its estimate drifts."""
 
     def __post_init__(self) -> None:
         self._turn()
 
     def told(self, now: float) -> None:
-        """Take a position from outside."""
+        """Process a position from outside."""
         if not self.blind:
             if 0.0 < now - self._fixed_at < _LONGEST_GAP:
                 self._gap = now - self._fixed_at
             self._fixed_at = now
 
     def step(self, now: float) -> None:
-        """Let time pass: fixes of its own come in."""
+        """Advance the time, with fixes of its own."""
         if self.own and not self.blind:
             self._gap = 1.0 / self.rate
             self._fixed_at = now - now % self._gap
 
     def lose(self, on: bool) -> None:
-        """Let no fix arrive any more, or let them arrive again."""
+        """Block all fixes, or unblock them."""
         if on and not self.blind:
             self._turn()
         self.blind = on
 
     def variance(self, now: float) -> float:
-        """Return how unsure it is of its position, in square metres."""
+        """Return the variance of its position, in square metres."""
         age = now - self._fixed_at
         settled = _LEAST + _PER_NOISE * self.noise + _PER_GAP * self._gap
         return min(_MOST, settled + _GROWS * age * age)
 
     @property
     def sway(self) -> float:
-        """How many times as much it sways as with the usual noise: assumed, and not measured."""
+        """The factor of its sway relative to the usual noise; assumed, not measured."""
         return sqrt(self.noise / NOISE)
 
     def error(self, now: float) -> Point:
-        """Return how far its estimate is from the truth; nowhere, before the first fix."""
+        """Return the error of its estimate; zero before the first fix."""
         if self._fixed_at == _NEVER:
             return (0.0, 0.0, 0.0)
         age = now - self._fixed_at

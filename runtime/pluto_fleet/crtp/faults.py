@@ -1,4 +1,4 @@
-"""What can go wrong with a simulated drone, each by a name and a value."""
+"""The faults of a simulated drone, by name and value."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ lets it hover so high, or stops its motors. `deck`: whether one has a fault.
 
 
 def let(drone: SimulatedCrazyflie, air: LossyChannel, name: str, value: Value) -> None:
-    """Let something go wrong, or right again; ValueError: there is no such fault."""
+    """Set or reset a fault; raise `ValueError` if there is none of this name."""
     if name == "place" and isinstance(value, list):
         x, y, z = value
         drone.body.place((x, y, z))

@@ -1,4 +1,4 @@
-"""What was commanded, and where the drones were: what a test can hold against what was meant."""
+"""The log of commands and positions, for tests to check flights against."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LARGEST = 200_000_000
 
 
 class CommandRecord(NamedTuple):
-    """One command that a drone was given, or what else happened to it."""
+    """One command to a drone, or another event."""
 
     time: float
     drone: str
@@ -30,7 +30,7 @@ class CommandRecord(NamedTuple):
 
 
 class PositionRecord(NamedTuple):
-    """Where a drone was."""
+    """A drone's position."""
 
     time: float
     drone: str
@@ -38,35 +38,35 @@ class PositionRecord(NamedTuple):
 
 
 class FlightLog(Protocol):
-    """Told what happens; times are those of `time.monotonic`."""
+    """Receives events; times are those of `time.monotonic`."""
 
     def command(self, command: CommandRecord) -> None:
-        """Hear of a command."""
+        """Log a command."""
         ...
 
     def position(self, place: PositionRecord) -> None:
-        """Hear where a drone is that is above the ground."""
+        """Log the position of a drone in the air."""
         ...
 
 
 class MemoryLog:
-    """A record for tests in this process."""
+    """A log in memory, for tests in this process."""
 
     def __init__(self) -> None:
         self.commands: list[CommandRecord] = []
         self.positions: list[PositionRecord] = []
 
     def command(self, command: CommandRecord) -> None:
-        """Keep a command."""
+        """Log a command."""
         self.commands.append(command)
 
     def position(self, place: PositionRecord) -> None:
-        """Keep where a drone was."""
+        """Log a position."""
         self.positions.append(place)
 
 
 class FileLog:
-    """A record in two files of a folder, which are gone on with if they are there."""
+    """A log in two files of a folder, which are continued if they exist."""
 
     def __init__(self, folder: Path) -> None:
         self._commands: TextIO = (folder / COMMANDS).open("a", encoding="utf-8")
@@ -74,13 +74,13 @@ class FileLog:
         self._size = self._trace.tell()
 
     def command(self, command: CommandRecord) -> None:
-        """Write a command down at once."""
-        with suppress(OSError):  # a full disk is no reason to fall
+        """Write a command at once."""
+        with suppress(OSError):  # a full disk must not stop drones
             self._commands.write(json.dumps(command._asdict()) + "\n")
             self._commands.flush()
 
     def position(self, place: PositionRecord) -> None:
-        """Write down where a drone was, some time soon."""
+        """Write a position soon."""
         if self._size > _LARGEST:
             return
         x, y, z = place.at
@@ -89,7 +89,7 @@ class FileLog:
             self._size += self._trace.write(written)
 
     def flush(self) -> None:
-        """Write down what is not yet."""
+        """Write what is buffered."""
         with suppress(OSError):
             self._trace.flush()
 

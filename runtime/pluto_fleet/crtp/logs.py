@@ -1,4 +1,4 @@
-"""Log blocks: variables that a drone sends by itself, again and again."""
+"""Log blocks: variables that a drone sends periodically."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Reader = Callable[[], float]
 
 
 class BlockCommand(IntEnum):
-    """What is done with a block."""
+    """Commands for a block."""
 
     DELETE = 2
     START = 3
@@ -71,7 +71,7 @@ class Logs:
         return packed(Port.LOG, _CONTROL, bytes([data[0], number, self._do(data, number, now)]))
 
     def due(self, now: float) -> Iterator[bytes]:
-        """Yield what is to be sent now."""
+        """Yield the packets that are due."""
         for number, block in self._blocks.items():
             if block.period <= 0.0 or now < block.due:
                 continue
@@ -140,7 +140,7 @@ _WHOLE = {"B": (0, 0xFF), "H": (0, 0xFFFF), "L": (0, 0xFFFFFFFF)} | {
 
 
 def _written(letter: str, value: float) -> bytes:
-    """Return a value as it is sent, within what its type can say."""
+    """Pack a value, limited to the range of its type."""
     if letter in _WHOLE:
         low, high = _WHOLE[letter]
         return struct.pack("<" + letter, min(high, max(low, int(value))))
@@ -148,7 +148,7 @@ def _written(letter: str, value: float) -> bytes:
 
 
 _FAR = 4.0
-"""Metres that a range sensor says where there is nothing."""
+"""The reading of a range sensor without an obstacle, in metres."""
 
 
 def variables(
@@ -160,7 +160,7 @@ def variables(
     info: Reader,
     holds: Reader,
 ) -> Mapping[str, tuple[str, Reader]]:
-    """Return what can be logged: the type of each, and how it is read."""
+    """Return the log variables: the type of each, and its reader."""
     return {
         "stateEstimate.x": ("f", lambda: body.estimate[0]),
         "stateEstimate.y": ("f", lambda: body.estimate[1]),

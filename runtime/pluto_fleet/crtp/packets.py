@@ -1,6 +1,6 @@
-"""CRTP packets, the tables of contents they carry, and the way that loses or delays them.
+"""CRTP packets, their tables of contents, and a channel that loses or delays them.
 
-A packet is a byte that says port and channel, and up to 30 bytes.
+A packet is a byte with port and channel, and up to 30 bytes of data.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from random import Random
 from typing import NamedTuple
 
 NULL = b"\xff"
-"""Says nothing; a scan for drones sends it, and is answered the same."""
+"""The null packet, with which a scan is made and answered."""
 
 PROTOCOL = 12
-"""The version of the protocol that is spoken."""
+"""The protocol version."""
 
 
 class Port(IntEnum):
-    """What a packet is about."""
+    """The ports."""
 
     CONSOLE = 0
     PARAMETERS = 2
@@ -37,7 +37,7 @@ class Port(IntEnum):
 
 
 class Errno(IntEnum):
-    """What the firmware answers when it does not do what it is told."""
+    """The firmware's error codes."""
 
     OK = 0
     ENOENT = 2
@@ -50,7 +50,7 @@ class Errno(IntEnum):
 
 
 class Packet(NamedTuple):
-    """A packet, taken apart."""
+    """A parsed packet."""
 
     port: int
     channel: int
@@ -58,18 +58,18 @@ class Packet(NamedTuple):
 
 
 def packed(port: int, channel: int, data: bytes) -> bytes:
-    """Return a packet as it goes over the air."""
+    """Pack a packet."""
     return bytes([port << 4 | 0x0C | channel]) + data
 
 
 def unpacked(raw: bytes) -> Packet:
-    """Take apart what came over the air."""
+    """Parse a packet."""
     return Packet(raw[0] >> 4, raw[0] & 3, raw[1:])
 
 
 @dataclass(slots=True)
 class LossyChannel:
-    """The way to one drone and back."""
+    """The channel to one drone and back."""
 
     random: Random
     loss: float = 0.0
@@ -77,7 +77,7 @@ class LossyChannel:
     latency: float = 0.0
     """Seconds that a packet takes, each way."""
     silent: bool = False
-    """Whether nothing gets through at all."""
+    """Whether all packets are lost."""
 
     def loses(self) -> bool:
         """Whether the next packet is lost."""
@@ -90,7 +90,7 @@ TABLE_CHANNEL = 0
 
 
 class TableOfContents:
-    """What is on one port, by its number."""
+    """The table of contents of one port."""
 
     def __init__(self, port: Port, items: Sequence[tuple[str, int]], tail: bytes = b"") -> None:
         self._port, self._tail = port, tail
@@ -99,7 +99,7 @@ class TableOfContents:
         self._checksum = binascii.crc32(bytes([port]) + b"".join(self._items))
 
     def answer(self, data: bytes) -> bytes | None:
-        """Return the answer to a question about the table; None: it is none."""
+        """Return the answer to a request about the table; None: it is another request."""
         if data[:1] == bytes([_INFO]):
             head = struct.pack("<BHI", _INFO, len(self._items), self._checksum)
             return packed(self._port, TABLE_CHANNEL, head + self._tail)
@@ -111,5 +111,5 @@ class TableOfContents:
 
 
 def _spelled(name: str) -> bytes:
-    """Return a name as it is sent: group and name, a zero after each."""
+    """Pack a name: group and name, each terminated by a zero."""
     return name.replace(".", "\0").encode() + b"\0"

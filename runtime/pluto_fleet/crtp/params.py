@@ -1,4 +1,4 @@
-"""Parameters: what can be set on a drone, and read back."""
+"""The parameters of a drone."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ _EXTENDED, _READ_ONLY = 0x10, 0x40
 
 _READ, _WRITE, _MISC = 1, 2, 3
 _PERSISTENT = 1
-"""The one extended type that there is."""
+"""The only extended type."""
 
 
 class Misc(IntEnum):
-    """What is asked on the channel for all else."""
+    """Commands of the miscellaneous channel."""
 
     SET_BY_NAME = 0
     CHANGED = 1
@@ -59,7 +59,7 @@ class Parameter:
 
 
 class Parameters:
-    """The parameters of one drone; `changed` is told of each that is set."""
+    """The parameters of one drone; `changed` is called with each one set."""
 
     def __init__(
         self, parameters: Sequence[Parameter], changed: Callable[[str, float], None]
@@ -75,14 +75,14 @@ class Parameters:
         return self._by_name[name].value
 
     def reset(self) -> None:
-        """Let all be as after a restart: what was stored stays."""
+        """Reset all as after a restart, except for stored values."""
         for one in self._all:
             stored = one.stored if one.stored is not None else one.default
             assert stored is not None
             one.value = stored
 
     def put(self, name: str, value: float) -> bytes:
-        """Change one from within; return the packet that says so."""
+        """Change one from within; return the notification."""
         number = next(place for place, one in enumerate(self._all) if one.name == name)
         self._all[number].value = value
         return self._told(number)
@@ -127,7 +127,7 @@ class Parameters:
         return [packed(Port.PARAMETERS, _MISC, data[:3] + answer)]
 
     def _by_its_name(self, data: bytes) -> Sequence[bytes]:
-        """Set a parameter whose number the other side does not know."""
+        """Set a parameter by name."""
         group, _, rest = data[1:].partition(b"\0")
         name, _, value = rest.partition(b"\0")
         one = self._by_name.get(b".".join((group, name)).decode("latin-1"))
@@ -142,7 +142,7 @@ class Parameters:
 
 
 def _about(one: Parameter, command: int) -> bytes:
-    """Return what is said of a parameter, besides its value."""
+    """Return a parameter's metadata."""
     match command:
         case Misc.EXTENDED_TYPE:
             return bytes([_PERSISTENT if one.persistent else 0])

@@ -1,7 +1,7 @@
-"""Simulated drones as a process of its own, which outlives the program that flies them, as real ones would.
+"""Simulated drones in a process of their own, which outlives the program that flies them, as real ones would.
 
-It ends when all are on the ground and none was talked to for a while. A program that starts it again
-finds the drones where they were, at the same ports if those are still free.
+It ends when all are on the ground and without a packet for a while. When it is started again, the drones are
+where they were, at the same ports if those are still free.
 """
 
 from __future__ import annotations
@@ -29,19 +29,19 @@ from .flight_log import FileLog, Point
 from .server import HOST, Server
 
 NOTE, DRONES, LOCK, LOG = "crtp", "crtp.json", "crtp.lock", "crtp.log"
-"""What lies in its folder; NOTE says where it listens to `ask`."""
+"""The files in its folder; NOTE has the address for `ask`."""
 COMMAND = "crtp"
 
 GATEWAY_LOCK = "lock"
-"""What the gateway of a flight keeps locked in this folder."""
+"""The lock file of the flight's gateway in this folder."""
 _IDLE = 60.0
 """Seconds without a drone in the air and without a packet, after which it ends."""
 _PATIENCE = 10.0
-"""Seconds that it may take to begin, or to answer."""
+"""The time-out of a start or an answer, in seconds."""
 _LOOK = 1.0
 
 _STARTED: dict[Path, subprocess.Popen[bytes]] = {}
-"""What this process has started, by the folder: they are noticed to have ended by `end`."""
+"""The processes started by this one, by folder; reaped by `end`."""
 
 _FOR_APPS = "crtp: an app starts this by itself when it flies; there is nothing to do by hand"
 
@@ -49,17 +49,17 @@ _FOR_APPS = "crtp: an app starts this by itself when it flies; there is nothing 
 def start(
     folder: Path, homes: Mapping[str, Point], command: Sequence[str] | None = None
 ) -> dict[str, str]:
-    """See to it that simulated drones live behind a folder; return the URI of each.
+    """Start the simulated drones of a folder, unless they run; return their URIs.
 
-    Those that already do stay as they are. Raises `BadInput` if they cannot be started. `command`
-    starts them, the folder added; default: this very program once more.
+    Raises `BadInput` if they cannot be started. `command` starts them, with the folder appended;
+    default: this program.
     """
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     with suppress(BadInput):
         uris = uris_in(folder)
         if list(uris) == list(homes):
             return uris
-        end(folder)  # it flies others
+        end(folder)  # it has other drones
     kept = _kept(folder)
     drones = {id: {**kept.get(id, {}), "home": home} for id, home in homes.items()}
     _write(folder, drones)
@@ -75,13 +75,13 @@ def start(
 
 
 def uris_in(folder: Path) -> dict[str, str]:
-    """Return the URI of each drone; `BadInput`: none live behind this folder."""
+    """Return the drones' URIs; raise `BadInput` if none run for this folder."""
     uris: dict[str, str] = json.loads(told(folder, "uris"))
     return uris
 
 
 def told(folder: Path, do: str, **more: object) -> str:
-    """Ask the simulated drones of a folder for something; `BadInput` says why they do not do it.
+    """Send a request to the simulated drones of a folder; raise `BadInput` if it is refused.
 
     `fault` with `drone`, `name` and `value`, `state`, `uris`, `camera`, `end`.
     """
@@ -130,7 +130,7 @@ async def _run(folder: Path) -> None:
             while not over.is_set():
                 log.flush()
                 _write(folder, _state(server))
-                # the gateway of this folder hears drones that stand, and tells them nothing
+                # while this folder's gateway runs, drones on the ground still send telemetry
                 is_flown = locks.is_taken(folder / GATEWAY_LOCK)
                 if server.quiet > _IDLE and not server.airborne and not is_flown:
                     break
@@ -146,14 +146,14 @@ async def _run(folder: Path) -> None:
 
 
 class _Desk:
-    """Answers what other processes ask."""
+    """Serves requests of other processes."""
 
     def __init__(self, server: Server, over: asyncio.Event) -> None:
         self._server, self._over = server, over
         self._camera: asyncio.Server | None = None
 
     async def answer(self, request: Mapping[str, object]) -> str:
-        """Do what is asked, and say so."""
+        """Carry out a request."""
         match request:
             case {"do": "uris"}:
                 return json.dumps(self._server.uris)
@@ -191,7 +191,7 @@ def _build(id: str, number: int, data: Mapping[str, Any]) -> Build:
 def _restore(drone: SimulatedCrazyflie, data: Mapping[str, Any]) -> None:
     if "at" in data:
         x, y, _ = data["at"]
-        drone.body.place((x, y, 0.0))  # what flew has fallen meanwhile
+        drone.body.place((x, y, 0.0))  # drones in the air have fallen meanwhile
         drone.body.yaw = data["yaw"]
 
 
@@ -211,7 +211,7 @@ def _state(server: Server) -> dict[str, dict[str, object]]:
 
 
 def _kept(folder: Path) -> dict[str, dict[str, Any]]:
-    """Return what was written down of each drone."""
+    """Return the stored states of the drones."""
     with suppress(OSError, ValueError):
         kept: dict[str, dict[str, Any]] = json.loads((folder / DRONES).read_text(encoding="utf-8"))
         return kept

@@ -34,15 +34,15 @@ class Endpoint(asyncio.DatagramProtocol):
         self._client: Address | None = None
         self._transport: asyncio.DatagramTransport | None = None
         self.port = 0
-        """Where it listens."""
+        """Its port."""
 
     @property
     def uri(self) -> str:
-        """How it is reached."""
+        """Its URI."""
         return f"udp://{HOST}:{self.port}"
 
     async def listen(self, port: int) -> None:
-        """Listen at a port; 0, or one that is taken: at any that is free."""
+        """Listen at a port; at any free one for 0 or one that is taken."""
         loop = asyncio.get_running_loop()
         try:
             made = await loop.create_datagram_endpoint(lambda: self, local_addr=(HOST, port))
@@ -52,13 +52,13 @@ class Endpoint(asyncio.DatagramProtocol):
         self.port = self._transport.get_extra_info("sockname")[1]
 
     def close(self) -> None:
-        """Listen no more: a client is told that the port is closed."""
+        """Close the port, so that clients see it closed."""
         if self._transport is not None:
             self._transport.close()
             self._transport = None
 
     def datagram_received(self, data: bytes, addr: Address) -> None:
-        """Take a packet, unless it is lost on the way."""
+        """Process a packet, unless it is lost."""
         self.talked = monotonic()
         if self.air.loses():
             return
@@ -98,14 +98,14 @@ class Server:
         self._ticking: asyncio.Task[None] | None = None
 
     async def start(self, ports: Mapping[str, int] | None = None) -> None:
-        """Let drones listen, where they shall or where there is room, and time pass for them."""
+        """Start drones at the given ports or free ones, and their clock."""
         for id, endpoint in self.endpoints.items():
             await endpoint.listen((ports or {}).get(id, 0))
         self._ticking = asyncio.create_task(self._tick())
 
     @property
     def uris(self) -> dict[str, str]:
-        """How each is reached."""
+        """Return their URIs."""
         return {id: endpoint.uri for id, endpoint in self.endpoints.items()}
 
     @property
@@ -115,16 +115,16 @@ class Server:
 
     @property
     def airborne(self) -> bool:
-        """Whether one is above the ground."""
+        """Whether a drone is in the air."""
         return any(one.drone.body.airborne for one in self.endpoints.values())
 
     @property
     def quiet(self) -> float:
-        """Seconds since anybody has talked to any of them."""
+        """Seconds since the last packet to any of them."""
         return monotonic() - max(one.talked for one in self.endpoints.values())
 
     async def let(self, id: str, name: str, value: Value = True) -> None:
-        """Let something go wrong with one of them; `gone` closes its port, and opens it again."""
+        """Set a fault of a drone; `gone` closes its port, or opens it again."""
         endpoint = self.endpoints[id]
         if name != "gone":
             let(endpoint.drone, endpoint.air, name, value)
@@ -134,7 +134,7 @@ class Server:
             await endpoint.listen(endpoint.port)
 
     async def close(self) -> None:
-        """End it all."""
+        """Close everything."""
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
@@ -151,7 +151,7 @@ class Server:
 
 
 def collide(drones: Iterable[SimulatedCrazyflie]) -> None:
-    """Let those tumble whose propellers touch in the air."""
+    """Make drones tumble that touch in the air."""
     flying = [drone for drone in drones if drone.body.motors]
     for one, other in combinations(flying, 2):
         if dist(one.body.position, other.body.position) < _TOUCH:

@@ -1,21 +1,21 @@
-"""What the firmware allows: arming, and when motors stop for good."""
+"""The firmware's supervisor: arming, and locking the motors."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 _HYSTERESIS = 2.0
-"""Seconds after the motors' last turn in which it still counts as flying."""
+"""Seconds after the motors have stopped within which it still counts as flying."""
 LANDED, _UNUSED = 3.0, 30.0
-"""Seconds after which an armed drone is disarmed: on the ground again, or never taken off."""
+"""Seconds after which an armed drone is disarmed: after a landing, or without a take-off."""
 _RESETS = 0.12
-"""Seconds after that in which it can neither be armed nor fly: three rounds of its supervisor."""
+"""Seconds after a disarming within which it cannot be armed: three cycles of its supervisor."""
 _NOTICES = 0.05
-"""Seconds until it notices that motors turn: a take-off just before the disarming is cancelled."""
+"""Seconds until it notices turning motors: a take-off just before the disarming is cancelled."""
 _LEVEL, _LOCK = 0.5, 2.0
-"""Seconds without another low-level setpoint, after which it levels out, and then locks."""
+"""Seconds without a new low-level setpoint, after which it levels out, and then locks."""
 _FED = 1.0
-"""Seconds that the emergency watchdog waits, once it was fed."""
+"""The time-out of the emergency watchdog, once it was fed, in seconds."""
 _NEVER = -1e9
 
 
@@ -32,11 +32,11 @@ class Supervisor:
     tumbled: bool = False
     flying: bool = False
     setpoint_at: float | None = None
-    """When the last low-level setpoint came that still rules; None: none does."""
+    """The time of the last low-level setpoint in effect, or None."""
     fed_at: float | None = None
-    """When the emergency watchdog was fed."""
+    """When the emergency watchdog was last fed."""
     landed: float = LANDED
-    """Seconds on the ground, after which it is disarmed."""
+    """Seconds on the ground after which it is disarmed."""
     _turns_since: float | None = None
     _resets_until: float = _NEVER
     _resets: bool = False
@@ -51,7 +51,7 @@ class Supervisor:
 
     @property
     def can_arm(self) -> bool:
-        """Whether it would arm."""
+        """Whether it can be armed."""
         blocked = self.locked or self.crashed or self.tumbled or self.faulty
         return not (self.armed or self._resets or blocked)
 
@@ -68,7 +68,7 @@ class Supervisor:
         return True
 
     def _reset(self, now: float) -> None:
-        """Disarm; for a moment it can do nothing at all."""
+        """Disarm it; for a moment it cannot be armed."""
         self.armed, self._resets, self._resets_until = False, True, now + _RESETS
 
     def recover(self) -> bool:
@@ -78,11 +78,11 @@ class Supervisor:
         return not self.crashed
 
     def lock(self) -> None:
-        """Stop for good: it must be restarted."""
+        """Lock it until a restart."""
         self.locked, self.armed = True, False
 
     def restart(self) -> None:
-        """Forget all, as after a restart."""
+        """Reset, as after a restart."""
         self.armed = self.locked = self.crashed = self.flying = False
         self.faulty = self._warned = self._resets = False
         self._turns_since = None
@@ -90,7 +90,7 @@ class Supervisor:
         self._thrust_at = self._armed_at = _NEVER
 
     def step(self, now: float, *, thrust: bool, tumbled: bool) -> None:
-        """Let time pass."""
+        """Advance the time."""
         self._turns_since = (self._turns_since or now) if thrust else None
         if self._turns_since is not None and now - self._turns_since >= _NOTICES:
             self._thrust_at = now
@@ -109,7 +109,7 @@ class Supervisor:
             self.arm(True, now)
 
     def _watch(self, now: float) -> None:
-        """Lock when setpoints, the feeding of the watchdog, or a deck have failed in the air."""
+        """Lock if setpoints, the watchdog's feeding, or a deck have failed in the air."""
         if self.faulty and self.flying:
             self.lock()
         age = 0.0 if self.setpoint_at is None else now - self.setpoint_at
@@ -122,7 +122,7 @@ class Supervisor:
             self.lock()
 
     def info(self, *, high_level: bool, finished: bool, planner_off: bool = False) -> int:
-        """Return the bits that `supervisor.info` says."""
+        """Return the bits of `supervisor.info`."""
         bits = (
             self.can_arm,
             self.armed,

@@ -1,4 +1,4 @@
-"""A journal's file: three tables with a checksum in every row, looked at before a row is taken from it.
+"""A journal's file: three tables with a checksum in every row, which is checked before a row is used.
 
 The page `docs/journal.md` says the same for other programs.
 """
@@ -21,10 +21,10 @@ from . import errors, wal
 from .errors import TROUBLE
 
 APPLICATION = 0x506C7574
-"""`Plut`, in the place where SQLite's files say whose they are."""
+"""`Plut`, as SQLite's application id."""
 
 VERSION = 1
-"""Of the format; a reader refuses what is newer."""
+"""The version of the format; a reader refuses newer ones."""
 
 TABLES = {
     "journal": """CREATE TABLE journal (
@@ -66,26 +66,26 @@ def tip_checksum(seq: object, epoch: object) -> int:
 
 
 PATIENCE = 5.0
-"""Seconds that a commit waits for another program that looks at the file."""
+"""Seconds that a commit waits for another program that reads the file."""
 
 _MAGIC = b"SQLite format 3\0"
 _LOOKED_AT, _SIZE_OF_HEAD = 4096, 100
 _SANE = 1000
-"""No format will ever have that number: a bit was flipped."""
+"""The largest plausible version: a larger one is damage."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Found:
-    """What a journal says of itself."""
+    """The facts about a journal."""
 
     header: Event
     seq: int
-    """Of the last row."""
+    """The number of the last row."""
     epoch: int
     torn: str | None
-    """What is wrong with what was written last, if something is: it is left out."""
+    """What is wrong with the last commit, if it is torn: it is left out."""
     lost: bool
-    """Whether what was written after that row cannot be read."""
+    """Whether later rows exist that cannot be read."""
 
 
 class Row(NamedTuple):
@@ -93,7 +93,7 @@ class Row(NamedTuple):
 
     seq: int
     wall: float
-    """Seconds since 1970: when it was written."""
+    """When it was written, in seconds since 1970."""
     text: str
     """A JSON list of events."""
     epoch: int
@@ -101,7 +101,7 @@ class Row(NamedTuple):
 
 
 class Snapshot(NamedTuple):
-    """What the rows up to one come to."""
+    """The state after the rows up to one."""
 
     text: str | None
     """None: there is none."""
@@ -109,11 +109,11 @@ class Snapshot(NamedTuple):
     wall: float | None
     """When it was made."""
     damaged: tuple[str, ...]
-    """What is wrong with newer ones."""
+    """What is wrong with newer snapshots."""
 
 
 def connect(path: Path, how: str) -> sqlite3.Connection:
-    """Open a database as it is, such as by `mode=ro`; texts come as bytes."""
+    """Open a database with these URI parameters, such as `mode=ro`; texts come as bytes."""
     database = sqlite3.connect(
         f"{path.absolute().as_uri()}?{how}",
         uri=True,
@@ -128,7 +128,7 @@ def connect(path: Path, how: str) -> sqlite3.Connection:
 
 
 def look_at(path: Path) -> None:
-    """Refuse what is no journal, by its first bytes; nothing is changed."""
+    """Raise unless a file is a journal, by its first bytes; nothing is changed."""
     try:
         kind = path.stat()
         if stat.S_ISDIR(kind.st_mode):
@@ -155,7 +155,7 @@ def look_at(path: Path) -> None:
 
 
 def found(path: Path, database: sqlite3.Connection) -> Found:
-    """Say what a journal is, or raise a `JournalError`: how much of it is sound is seen later."""
+    """Return the facts about a journal, or raise a `JournalError`; its rows are not checked here."""
     try:
         if _schema(database) != set(TABLES.values()):
             raise errors.damaged(path, errors.other_tables())
@@ -195,7 +195,7 @@ def _tip(database: sqlite3.Connection) -> tuple[int, int]:
     for seq, epoch, checksum in database.execute("SELECT seq, epoch, checksum FROM tip"):
         if checksum == tip_checksum(seq, epoch):
             return seq, epoch
-    # Then the database's own structure has to tell, and it is looked at page by page.
+    # Then it is salvaged page by page, without the database.
     if [fault for (fault,) in database.execute("PRAGMA quick_check(1)")] != [b"ok"]:
         raise sqlite3.DatabaseError("database disk image is malformed")
     query = "SELECT seq, epoch FROM journal ORDER BY seq DESC LIMIT 1"
@@ -204,7 +204,7 @@ def _tip(database: sqlite3.Connection) -> tuple[int, int]:
 
 
 SURELY_LESS_OPENINGS = 1_000
-"""It is not known how often the journal was opened since its last row; an epoch only has to grow."""
+"""Added to an epoch if it is unknown how often the journal was opened since: it only has to grow."""
 
 
 def _sound(database: sqlite3.Connection, seq: int) -> bool:
@@ -217,12 +217,12 @@ def _sound(database: sqlite3.Connection, seq: int) -> bool:
 
 
 def last_row(database: sqlite3.Connection) -> int:
-    """Return the number of the last row, as it is by now."""
+    """Return the number of the last row at present."""
     return _tip(database)[0]
 
 
 def is_sound(row: tuple[object, ...]) -> bool:
-    """Whether a row of the journal is what was written."""
+    """Whether a row's checksum is right."""
     seq, epoch, wall, text, checksum = row
     return isinstance(text, bytes) and row_checksum(seq, epoch, wall, text) == checksum
 
@@ -242,7 +242,7 @@ def newest_snapshot(database: sqlite3.Connection) -> Snapshot:
 
 
 def sync_folder(path: Path) -> None:
-    """Let a name that was given to a file survive a power cut."""
+    """Sync a folder, so that a file's name survives a power failure."""
     descriptor = os.open(path.parent, os.O_RDONLY)
     try:
         os.fsync(descriptor)

@@ -1,4 +1,4 @@
-"""The way to the drones, for an app that keeps a journal: no drone leaves before that is on record."""
+"""The link to the gateway of an app with a journal: write-ahead, no drone leaves before its launch is durable."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 
 class DurableLink:
-    """Hands everything on to the gateway; a flight only once its launch is durable.
+    """Forwards everything to the gateway; a flight only once its launch is durable.
 
-    What brings drones down waits for nothing.
+    Commands that bring drones down are forwarded at once.
     """
 
     def __init__(self, link: CommandLink, recorder: Recorder) -> None:
@@ -26,7 +26,7 @@ class DurableLink:
         """The flights that wait for the journal, by the drones' ids."""
 
     def fly(self, job: Job, report: Callable[[object], None]) -> None:
-        """Send a drone on its way as soon as its launch is on record."""
+        """Give a drone its job as soon as its launch is durable."""
         self._held[job.drone] = job
         self._recorder.when_durable(partial(self._fly, job, report))
 
@@ -36,12 +36,12 @@ class DurableLink:
             self._link.fly(job, report)
 
     def break_off(self, drone: str) -> None:
-        """Stop what a drone does; a flight that has not left stays."""
+        """Stop what a drone does; a job that was not forwarded yet is dropped."""
         self._held.pop(drone, None)
         self._link.break_off(drone)
 
     def telemetry(self, drone: str) -> Telemetry:
-        """Return what is known of a drone."""
+        """Return a drone's telemetry."""
         return self._link.telemetry(drone)
 
     async def hold(self, drone: str) -> None:
@@ -49,15 +49,15 @@ class DurableLink:
         await self._link.hold(drone)
 
     async def read(self, drone: str, name: str) -> float:
-        """Return what a drone measures; that its action has begun is on record."""
+        """Return a sensor or variable; the begin of the action is durable already."""
         return await self._link.read(drone, name)
 
     async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone has; that its action has begun is on record."""
+        """Set a parameter; the begin of the action is durable already."""
         await self._link.write(drone, name, value)
 
     async def takeoff(self, drone: str, height: float) -> None:
-        """Rise to a height."""
+        """Take off to a height."""
         await self._link.takeoff(drone, height)
 
     async def go_to(self, drone: str, target: Point) -> None:
@@ -69,7 +69,7 @@ class DurableLink:
         await self._link.land(drone)
 
     def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone."""
+        """Called when a lost drone has been repaired."""
         self._link.mended(drone)
 
     async def recover(self, drone: str) -> bool:

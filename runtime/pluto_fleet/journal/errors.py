@@ -1,4 +1,4 @@
-"""What can be wrong with a journal, in sentences for a person."""
+"""The errors of journals, with their messages."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import counted
 
 TROUBLE = (sqlite3.Error, UnicodeDecodeError)
-"""What the database raises; the second where it quotes what is damaged."""
+"""The exceptions of the database; the second where it quotes damaged text."""
 
 
 class JournalError(BadInput):
-    """A journal that cannot be made, opened or gone on with; nothing is lost that was acknowledged."""
+    """A journal cannot be created, opened or resumed; nothing acknowledged is lost."""
 
 
 class Damaged(JournalError):
-    """A journal that is not what was written; part of it may be."""
+    """A journal is damaged, at least in part."""
 
 
 def exists(path: Path) -> JournalError:
-    """A new journal would take the place of another."""
+    """A new journal would overwrite another."""
     if path.is_dir():
         return is_folder(path)
     return JournalError(
@@ -32,34 +32,34 @@ def exists(path: Path) -> JournalError:
 
 
 def missing(path: Path) -> JournalError:
-    """There is no such journal."""
+    """The journal does not exist."""
     return JournalError(f"{path}: there is no such journal")
 
 
 def is_folder(path: Path) -> JournalError:
-    """A folder was named instead of a file."""
+    """The path is a folder."""
     return JournalError(f"{path}: it is a folder: name the journal, which is a file")
 
 
 def no_file(path: Path) -> JournalError:
-    """A pipe, a device."""
+    """The path is a pipe or a device."""
     return JournalError(f"{path}: it is no file: a journal is a file of its own")
 
 
 def empty(path: Path) -> JournalError:
-    """A file without a byte."""
+    """The file is empty."""
     return JournalError(
         f"{path}: the file is empty: it is no journal, and there is nothing to read"
     )
 
 
 def no_journal(path: Path) -> JournalError:
-    """Some other file."""
+    """The file is not a journal."""
     return JournalError(f"{path}: it is no journal of an app: nothing in it was read or changed")
 
 
 def newer(path: Path, version: int, known: int) -> JournalError:
-    """Written by a later version of the runtime."""
+    """The journal was written by a later version."""
     return JournalError(
         f"{path}: its format is {version}, and this app reads {known} at most: use the app as it was"
         " compiled by a newer plutoc"
@@ -76,26 +76,26 @@ def in_use(path: Path, pid: int | None) -> JournalError:
 
 
 def of_another_app(path: Path, theirs: str, ours: str) -> JournalError:
-    """It was begun by another app."""
+    """The journal belongs to another app."""
     return JournalError(
         f"{path}: this is a journal of {theirs}, and this app is {ours}: use {theirs}"
     )
 
 
 def cannot_make(path: Path, error: Exception) -> JournalError:
-    """It cannot be created where it was to be."""
+    """The journal cannot be created there."""
     return JournalError(
         f"{path}: the journal cannot be made: {why(error)}; name another place with --journal"
     )
 
 
 def cannot_open(path: Path, error: Exception) -> JournalError:
-    """It is there, but not for us."""
+    """The journal cannot be opened."""
     return JournalError(f"{path}: the journal cannot be opened: {why(error)}")
 
 
 def cannot_write(path: Path, error: Exception, seq: int) -> JournalError:
-    """A commit failed: from now on nothing is acknowledged."""
+    """A commit failed: nothing is acknowledged from now on."""
     return JournalError(
         f"{path}: the journal cannot be written: {why(error)}. What was written before,"
         f" {counted(seq, 'row')}, is safe, and nothing later counts: make room or mend the disk, then"
@@ -104,7 +104,7 @@ def cannot_write(path: Path, error: Exception, seq: int) -> JournalError:
 
 
 def gone(file: Path, now: Path | None, journal: Path) -> JournalError:
-    """It was deleted or renamed while it was written: it cannot be found by its name."""
+    """The journal was deleted or renamed while it was written."""
     if now is not None:
         return JournalError(
             f"{now}: it is part of a journal that is being written, and was moved away from {file}:"
@@ -118,7 +118,7 @@ def gone(file: Path, now: Path | None, journal: Path) -> JournalError:
 
 
 def cut_short(file: Path) -> JournalError:
-    """It was emptied, or another file was written over it, while it was written."""
+    """The journal was truncated or overwritten while it was written."""
     return JournalError(
         f"{file}: it was cut short or written over while the flight was being written into it: nothing of"
         " that flight can be gone on with"
@@ -126,24 +126,24 @@ def cut_short(file: Path) -> JournalError:
 
 
 def full(seq: int) -> JournalError:
-    """A journal in memory has no room left: as on a full disk."""
+    """A journal in memory is full, as on a full disk."""
     return cannot_write(Path("the journal in memory"), OSError(ENOSPC, ""), seq)
 
 
 def cannot_mend(path: Path, why_not: str) -> JournalError:
-    """A damaged journal stays as it is."""
+    """A damaged journal cannot be repaired, and stays as it is."""
     return JournalError(f"{path}: the journal cannot be mended: {why_not}")
 
 
 def refused(path: Path, error: Exception) -> JournalError:
-    """The database reports an error when it is looked at."""
+    """The database reports an error on reading."""
     if code(error) in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_ERROR):
         return damaged(path, f"{why(error)}")
     return cannot_open(path, error)
 
 
 def why(error: Exception) -> str:
-    """Say why the disk refused, as far as it told."""
+    """Return the reason of an error of the disk."""
     if isinstance(error, OSError):
         if error.errno in (ENOSPC, EDQUOT, EFBIG):
             return "the disk is full"
@@ -154,7 +154,7 @@ def why(error: Exception) -> str:
 
 
 def code(error: Exception) -> int:
-    """Return SQLite's number for an error, without its finer shades."""
+    """Return SQLite's primary error code."""
     number: int = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT)
     return number & 0xFF
 
@@ -172,7 +172,7 @@ _WHY = {
 
 
 def damaged(path: Path, what: str) -> Damaged:
-    """Bits were flipped, or parts are gone."""
+    """The journal is damaged."""
     return Damaged(
         f"{path}: the journal is damaged: {what}. The command journal prints what can be read;"
         " with --mend it makes a whole journal of that, or put back a copy of the file"
@@ -180,18 +180,18 @@ def damaged(path: Path, what: str) -> Damaged:
 
 
 def unsound_row(seq: int, last: int) -> str:
-    """One row's checksum does not fit."""
+    """A row's checksum is wrong."""
     return f"row {seq} of {last} is not what was written{_before(seq)}"
 
 
 def missing_rows(first: int, until: int, last: int) -> str:
-    """Rows that were acknowledged are not there."""
+    """Acknowledged rows are missing."""
     rows = f"row {first}" if first == until else f"rows {first} to {until}"
     return f"{rows} of {last} cannot be found{_before(first)}"
 
 
 def unreadable_from(seq: int, last: int, why_not: str) -> str:
-    """The database gives nothing more."""
+    """Nothing more can be read from a row on."""
     return f"from row {seq} of {last} on it cannot be read ({why_not}){_before(seq)}"
 
 
@@ -200,27 +200,27 @@ def _before(seq: int) -> str:
 
 
 def no_header() -> str:
-    """The first row, which says whose journal it is, is not readable."""
+    """The header row is unreadable."""
     return "its first row, which says whose it is, cannot be read"
 
 
 def no_beginning() -> str:
-    """The first bytes of the file."""
+    """The beginning of the file is damaged."""
     return "the first bytes of the file are not what was written"
 
 
 def other_tables() -> str:
-    """Its tables are not ours."""
+    """The tables are not those of a journal."""
     return "its tables are not those of a journal"
 
 
 def lost_log() -> str:
-    """The write-ahead log beside it has parts that the database no longer sees."""
+    """Acknowledged parts of the write-ahead log are lost."""
     return "part of what was written last, in the file beside it that ends in -wal, cannot be read"
 
 
 def torn(seq: int) -> str:
-    """The very last row is not whole: it is dropped."""
+    """The last row is incomplete, and dropped."""
     return (
         f"row {seq}, the last one, is not what was written: it is left out, as if the app had been"
         " killed right before it"
@@ -228,7 +228,7 @@ def torn(seq: int) -> str:
 
 
 def torn_log() -> str:
-    """The last commit in the log is not whole."""
+    """The last commit in the log is incomplete."""
     return (
         "what was being written last is not whole and is left out: so it is when a machine loses"
         " its power in the middle of it"
@@ -236,24 +236,24 @@ def torn_log() -> str:
 
 
 def bad_snapshot(seq: int) -> str:
-    """A snapshot's checksum does not fit: the rows tell the same."""
+    """A snapshot's checksum is wrong; the rows are used instead."""
     return f"the snapshot of row {seq} is damaged: the rows are read instead"
 
 
 def unreadable_snapshots() -> str:
-    """They cannot even be listed."""
+    """The snapshots cannot be listed."""
     return "the snapshots cannot be read: the rows are read instead"
 
 
 def no_home() -> JournalError:
-    """This user has no home folder."""
+    """The user has no home folder."""
     return JournalError(
         "there is no home folder to keep journals in: name the journal, which for fly is --journal"
     )
 
 
 def no_default_place(folder: Path, error: OSError) -> JournalError:
-    """The folder of journals cannot be made or written."""
+    """The folder of journals cannot be created or written."""
     return JournalError(
         f"{folder}: the journal cannot be kept here: {why(error)}; name another place with --journal"
     )

@@ -1,4 +1,4 @@
-"""An event as one line of JSON: what a trace, or a journal, keeps of it."""
+"""Formatting an event as one line of JSON, for a trace or a journal."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ def line(event: Event) -> str:
 
 
 def exact(event: Event) -> str:
-    """Return an event as a line of JSON with every number as it is: what the journal keeps."""
+    """Return an event as a line of JSON with exact numbers, for the journal."""
     return _TEMPLATES[tuple(event)] % tuple([_EXACT[type(fact)](fact) for fact in event.values()])
 
 
 class _Templates(dict[tuple[str, ...], str]):
-    """The lines of all events with these facts: there is one for each transition."""
+    """Caches a template for each set of facts: there is one for each transition."""
 
     def __missing__(self, facts: tuple[str, ...]) -> str:
         named = [json.dumps(fact).replace("%", "%%") + ": %s" for fact in facts]
@@ -35,29 +35,29 @@ class _Templates(dict[tuple[str, ...], str]):
 
 
 class _Writers(dict[type, Callable[[Any], str]]):
-    """How a fact of each type is written; what is not here is left to `dumped`."""
+    """Writers for each type of fact; other types are left to `dumped`."""
 
     def __missing__(self, _: type) -> Callable[[Any], str]:
         return dumped
 
 
 class _ExactWriters(dict[type, Callable[[Any], str]]):
-    """The same, but nothing is rounded."""
+    """The same without rounding."""
 
     def __missing__(self, _: type) -> Callable[[Any], str]:
         return _as_can_be
 
 
 def _as_can_be(value: object) -> str:
-    """Write what may be no plain data: a hook may put anything anywhere."""
+    """Write a value that may not be plain data, as hooks can set anything."""
     try:
         return json.dumps(value, default=shown)
-    except (TypeError, ValueError):  # keys that are no text, circles
+    except (TypeError, ValueError):  # keys that are not text, or cycles
         return json.dumps(shown(value))
 
 
 class _Numbers(dict[float, str]):
-    """Numbers as they are written: a time, a place and a full battery come up again and again."""
+    """A cache of formatted numbers: times, places and full batteries recur."""
 
     def __missing__(self, value: float) -> str:
         if not isfinite(value):
@@ -69,7 +69,7 @@ class _Numbers(dict[float, str]):
 
 
 def _exact(value: float) -> str:
-    return repr(value) if isfinite(value) else json.dumps(value)  # as Python reads it again
+    return repr(value) if isfinite(value) else json.dumps(value)  # exact
 
 
 def _list(values: list[Any]) -> str:
@@ -84,7 +84,7 @@ _TEMPLATES = _Templates()
 
 _MOST_NUMBERS = 4096
 _NUMBERS = _Numbers()
-"""No more than so many; 0 and -0 are one number, and written alike."""
+"""The size of the cache; 0 and -0 are one number, and written alike."""
 
 _WRITE = _Writers(
     {

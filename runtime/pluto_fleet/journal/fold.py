@@ -1,7 +1,7 @@
-"""What a journal says, event by event, of every mission: where each stands, and what it has done.
+"""Folding a journal's events into records: the state and the history of every mission.
 
-The records are plain data: written down as JSON they are the journal's snapshot. One function an
-event; an event that is not here changes nothing that must survive.
+The records are plain data: as JSON they are the journal's snapshot. There is one function for each event;
+an event without one changes nothing that must survive.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ Record = dict[str, Any]
 Fact = Mapping[str, Any]
 
 REMEMBERED = 200
-"""Commands that are known by their names: an older one is not asked for again."""
+"""How many command ids are remembered: older ones are not repeated."""
 
 
 class Records:
-    """All missions of one journal, as far as it has been read."""
+    """The records of one journal, as far as it has been read."""
 
     def __init__(self, data: Record | None = None) -> None:
         self.data: Record = data or {
@@ -42,30 +42,30 @@ class Records:
             "stopped": None,
         }
         self.missions: dict[str, Record] = self.data["missions"]
-        for name, record in self.missions.items():  # an older snapshot may know fewer facts
+        for name, record in self.missions.items():  # an older snapshot may have fewer keys
             self.missions[name] = {**_new(), **record}
         self.results: list[list[Any]] = self.data["results"]
         """[mission, trip, round, attempt, value] of every action that was done."""
         self.flown: dict[str, int] = self.data["flown"]
-        """How many trips each drone was sent on."""
+        """How many trips each drone has flown."""
         self.commands: list[str] = self.data.setdefault("commands", [])
-        """The names of the last commands that were carried out, as their senders chose them."""
+        """The ids of the last commands, as chosen by their senders."""
         self.retired: list[str] = self.data.setdefault("retired", [])
-        """The drones that no trip may have."""
+        """The retired drones."""
         self.mended: list[str] = self.data.setdefault("mended", [])
-        """The drones that were lost, that a person has looked after, and that are not back yet."""
+        """The drones that were lost and repaired, and are not back yet."""
         self.lost: dict[str, Record] = self.data.setdefault("lost", {})
         """The drones that no trip may have before a person has looked after them: why, and where
         each was when it was lost."""
 
     @property
     def time(self) -> float:
-        """Seconds since the app first started, of the last event."""
+        """The time of the last event, in seconds since the app first started."""
         return float(self.data["t"])
 
     @property
     def stopped(self) -> bool:
-        """Whether everything was stopped on purpose, and nothing has begun again since."""
+        """Whether everything was stopped by a command, and not resumed since."""
         return self.data["stopped"] is not None
 
     def flown_last(self, mission: str) -> Record:
@@ -74,7 +74,7 @@ class Records:
         return trip
 
     def take(self, event: Fact) -> None:
-        """Something happened."""
+        """Process an event."""
         kind = event["event"]
         self.data["t"] = event["t"]
         change = _MISSION.get(kind)
@@ -119,13 +119,13 @@ def _new() -> Record:
 
 
 def _created(_: Records, record: Record, event: Fact) -> None:
-    plan, gone = event["plan"], record["gone"]  # it may begin anew, but without what was skipped
+    plan, gone = event["plan"], record["gone"]  # it may restart, but without skipped trips
     record.update(_new())
     record.update(index=plan["index"], fields=plan["fields"], todo=plan["trips"], gone=gone)
 
 
 def _changed(_: Records, record: Record, event: Fact) -> None:
-    """A hook has changed the mission itself: this is how it is now."""
+    """Take over a mission that a hook has changed."""
     names = {trip["name"] for trip in (*event["todo"], *event["done"])}
     record["gone"] += [t for t in (*record["todo"], *record["done"]) if t["name"] not in names]
     record.update(fields=event["fields"], todo=event["todo"], done=event["done"])
@@ -178,7 +178,7 @@ def _begun(_: Records, record: Record, event: Fact) -> None:
 
 def _completed(records: Records, record: Record, event: Fact) -> None:
     trip = _take(record["todo"], event["trip"])
-    _waits(trip)  # what is in this list was completed: nothing more is kept of it
+    _waits(trip)  # completed: nothing more is needed of it
     record["done"].append(trip)
     record["last_action_end"] = event["t"]
     result = [event["mission"], event["trip"], event["round"], event["attempt"], event["result"]]
@@ -271,7 +271,7 @@ def _ended(_: Records, record: Record, event: Fact) -> None:
 
 
 def _paused(_: Records, record: Record, event: Fact) -> None:
-    if record["paused"] is None:  # else it says so once more, in another life
+    if record["paused"] is None:  # else it is repeated by a later run
         record["paused"] = event["t"]
 
 
@@ -292,18 +292,18 @@ def _held(_: Records, record: Record, event: Fact) -> None:
 def _decided(_: Records, record: Record, event: Fact) -> None:
     record["answer"] = event["answer"]
     if event["answer"] == "go-on":
-        record["accepted"] = record["at"]  # this block need not be there any more
+        record["accepted"] = record["at"]  # this block may not exist any more
 
 
 def _inherited(records: Records, event: Fact) -> None:
-    """What the flights before this one have left: drones do not heal because a journal is new."""
+    """Take over the drones' states from earlier flights: a new journal repairs no drone."""
     records.lost.update(event.get("lost") or {})
     records.mended += event.get("mended") or []
     records.retired += event.get("retired") or []
 
 
 def _began(records: Records, event: Fact) -> None:
-    """A brain has taken over: delays that a Stop has interrupted keep their rest."""
+    """A run begins: delays interrupted by a Stop keep their remaining time."""
     if records.stopped:
         shift_delays(records, float(event["t"]) - float(records.data["stopped"]))
     records.data["stopped"] = None
@@ -315,7 +315,7 @@ def _stopped(records: Records, event: Fact) -> None:
 
 
 def _commanded(records: Records, event: Fact) -> None:
-    """A command was given, and may be given again by a sender that has not heard the answer."""
+    """Remember a command's id: a sender that has missed the answer may repeat it."""
     records.commands.append(str(event["id"]))
     del records.commands[:-REMEMBERED]
 
@@ -335,20 +335,20 @@ def _brought_back(records: Records, event: Fact) -> None:
 
 
 def _came_back(records: Records, event: Fact) -> None:
-    """A drone is back: that a person had looked after it says nothing any more."""
+    """Called when a drone is back: its repair is settled."""
     if event["drone"] in records.mended:
         records.mended.remove(str(event["drone"]))
 
 
 def _lost(records: Records, event: Fact) -> None:
-    """A drone is lost, perhaps once more; if it has been so all the time, the first reason counts."""
+    """Mark a drone as lost; if it already was, the first reason counts."""
     _came_back(records, event)
     found = {"reason": event.get("reason", ""), "at": event.get("at")}
     records.lost.setdefault(str(event["drone"]), found)
 
 
 def shift_delays(records: Records, seconds: float) -> None:
-    """Move every delay that is not over by so many seconds, in which the app did not run."""
+    """Postpone every pending delay by the seconds in which the app did not run."""
     for record in records.missions.values():
         if record["delay"] is not None:
             record["delay"][1] += seconds
@@ -357,7 +357,7 @@ def shift_delays(records: Records, seconds: float) -> None:
 
 
 def _goes_on(record: Record) -> None:
-    """The mission has done something with the end of its last flight: it need not hear it again."""
+    """Note that the mission has processed the end of its last flight."""
     if record["flight"] is not None:
         record["flight"]["heard"] = True
 
@@ -423,9 +423,9 @@ _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
 
 
 def replayed(read: Read, header: Event | None = None) -> Records:
-    """Return what a journal comes to: its header, or a snapshot, and what has happened since.
+    """Return the records of a journal: of its header or a snapshot, and all events since.
 
-    Ask afterwards whether `read` was damaged: then it is what was so far.
+    Check afterwards whether `read` was damaged: then these are the records up to the damage.
     """
     with _without_collections():
         records = Records(None if read.snapshot is None else json.loads(read.snapshot))
@@ -439,7 +439,7 @@ def replayed(read: Read, header: Event | None = None) -> Records:
 
 @contextmanager
 def _without_collections() -> Iterator[None]:
-    """Let the garbage collector rest: plain data has no cycles, and it would look at all of it."""
+    """Disable the garbage collector: plain data has no cycles, and it would traverse all of it."""
     was_on = gc.isenabled()
     gc.disable()
     try:

@@ -1,4 +1,4 @@
-"""The first row of a journal: whose it is, and what was to be flown."""
+"""The header row of a journal: its app and its plan."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 Header = Mapping[str, Any]
 
 LANGUAGE = 1
-"""The version of the language that apps are written in."""
+"""The version of Pluto's language."""
 
 EVENTS = 1
-"""The version of what the events mean: a later runtime reads all earlier ones."""
+"""The version of the events' meaning: a later runtime reads all earlier ones."""
 
 
 def header(
@@ -36,9 +36,9 @@ def header(
     faults: Mapping[str, float] | None = None,
     inherited: Mapping[str, object] | None = None,
 ) -> dict[str, object]:
-    """Return the header of a new journal; the two files are kept as text, for a later life.
+    """Return the header of a new journal, with the texts of the two files for later runs.
 
-    `inherited` is what is known of the drones from before: who is lost, mended or retired.
+    `inherited` has the drones that are lost, repaired or retired since earlier flights.
     """
     return {
         "t": 0.0,
@@ -60,7 +60,7 @@ def header(
 
 
 def check(path: Path, header: Header, app: App) -> None:
-    """Raise a `JournalError` if this app cannot go on with a journal that begins so."""
+    """Raise a `JournalError` if this app cannot resume a journal with this header."""
     if header.get("app") != app.name:
         raise errors.of_another_app(path, str(header.get("app")), app.name)
     version = header.get("events")
@@ -79,7 +79,7 @@ def fingerprint(app: App) -> str:
 
 
 def newer_events(path: Path, version: object) -> JournalError:
-    """What happened is told in words that this runtime does not know."""
+    """The events are of a newer version than this runtime reads."""
     return JournalError(
         f"{path}: it was begun by an app of a newer plutoc (events {version}, and this app knows"
         f" {EVENTS}): go on with that one, or compile this app by a newer plutoc"

@@ -1,4 +1,4 @@
-"""One process a journal: the lock goes with the process, however that ends."""
+"""Exclusive access to a journal: the lock ends with its process, however that ends."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _TRIES, _PAUSE = 3, 0.02
 
 
 class Lock:
-    """The right to write a journal; the process that holds it is named in the file `J.lock`."""
+    """The right to write a journal; its holder's process id is in the file `J.lock`."""
 
     def __init__(self, path: Path, descriptor: int) -> None:
         self._file, self._descriptor = beside(path, ".lock"), descriptor
@@ -23,7 +23,7 @@ class Lock:
 
     @classmethod
     def take(cls, path: Path) -> Lock:
-        """Take it, or raise a `JournalError` that names the process that has it."""
+        """Acquire it, or raise a `JournalError` that names its holder."""
         file, tries = beside(path, ".lock"), _TRIES
         while True:
             descriptor = locks.take(file)
@@ -31,23 +31,23 @@ class Lock:
                 tries -= 1
                 if not tries:
                     raise errors.in_use(path, locks.holder(file))
-                time.sleep(_PAUSE)  # perhaps another process only asks who has it
+                time.sleep(_PAUSE)  # another process may be just checking it
             elif _is(file, descriptor):
                 return cls(path, descriptor)
             else:
-                os.close(descriptor)  # its last holder took the file away while we waited for it
+                os.close(descriptor)  # its last holder removed the file while we waited
 
     def release(self) -> None:
-        """Let others have it; the file goes while no other process can have taken it."""
+        """Release it; the file is removed while no other process can have acquired it."""
         if os.getpid() != self._process:
-            return  # it is not a forked child's to release
+            return  # a forked child must not release it
         with suppress(OSError):
             self._file.unlink()
         os.close(self._descriptor)
 
 
 def holder(path: Path) -> int | None:
-    """Return the process that writes this journal; None: none does."""
+    """Return the process that writes this journal, or None."""
     return locks.holder(beside(path, ".lock"))
 
 

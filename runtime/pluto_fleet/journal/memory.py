@@ -1,4 +1,4 @@
-"""A journal in memory: for simulations, and for tests that let the app die wherever they like."""
+"""A journal in memory, for tests."""
 
 from __future__ import annotations
 

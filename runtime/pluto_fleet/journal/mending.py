@@ -1,4 +1,4 @@
-"""Puts a whole journal in the place of a damaged one: of all rows up to the first that is gone."""
+"""Repairing a damaged journal: replacing it by one with all rows up to the first missing one."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from .store import made
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Mended:
-    """What came of it."""
+    """The outcome of a repair."""
 
     rows: int
-    """How many there are now, beside the header."""
+    """How many rows there are now, without the header."""
     lost: int
-    """How many were whole and are left out, because one before them is not."""
+    """How many sound rows are left out because of a missing one before them."""
     kept: Path
-    """Where the damaged journal is now."""
+    """The path of the damaged journal."""
 
 
 def mend(path: Path) -> Mended | None:
-    """Mend a journal, and keep the damaged one beside it; None: nothing is damaged."""
+    """Repair a journal, and keep the damaged one beside it; return None if nothing is damaged."""
     path = Path(os.path.realpath(path))
     kept = beside(path, ".damaged")
-    begun = kept.exists() and not path.exists()  # it was interrupted before
+    begun = kept.exists() and not path.exists()  # an earlier repair was interrupted
     try:
         lock = Lock.take(path)
         try:
@@ -56,14 +56,14 @@ def mend(path: Path) -> Mended | None:
 
 
 def _rows(path: Path) -> tuple[list[Row], bool]:
-    """Return what can be read, and whether something is damaged."""
+    """Return the readable rows, and whether something is damaged."""
     with closing(Reader(path, locked=True)) as reader:
         rows = list(reader.rows())
     return rows, reader.damaged is not None
 
 
 def _moved(path: Path, kept: Path) -> Path:
-    """Give the damaged journal another name, with its log: without it, it would be an older one."""
+    """Rename the damaged journal together with its log, which has its newest rows."""
     number, first = 1, kept
     while os.path.lexists(kept):
         number += 1

@@ -1,4 +1,4 @@
-"""Where a journal is by default, and what lies beside each."""
+"""The paths of journals, and of the files beside them."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ def beside(path: Path, suffix: str) -> Path:
 
 
 def gateway_folder(path: Path) -> Path:
-    """Return where the gateway of this journal keeps its things."""
+    """Return the folder of this journal's gateway."""
     return beside(path, ".gateway")
 
 
 def commands_note(journal: Path) -> Path:
-    """Return the note that says where the app of a journal hears commands."""
+    """Return the note with the address for commands to a journal's app."""
     return gateway_folder(Path(os.path.realpath(journal))) / "brain"
 
 
 def new(app: str, now: float) -> Path:
-    """Return where a flight that begins now is written down by default.
+    """Return the default path of a new journal.
 
-    The folder is there after that, and only this user may look into it.
+    Creates the folder, accessible to this user only.
     """
     return new_in(folder_of(app), now)
 
@@ -45,14 +45,16 @@ def new_in(folder: Path, now: float) -> Path:
         raise errors.no_default_place(folder, error) from None
     begun = time.strftime("%Y-%m-%d-%H%M%S", time.localtime(now))
     path, number = folder / f"{begun}{ENDING}", 1
-    while os.path.lexists(path) or os.path.lexists(beside(path, ".lock")):  # another begins now
+    while os.path.lexists(path) or os.path.lexists(
+        beside(path, ".lock")
+    ):  # another one is just being created
         number += 1
         path = folder / f"{begun}-{number}{ENDING}"
     return path
 
 
 def newest(app: str) -> Path:
-    """Return the journal that was written last, of those in the default place."""
+    """Return the latest journal in the default folder."""
     folder = folder_of(app)
     path = newest_in(folder)
     if path is None:
@@ -61,7 +63,7 @@ def newest(app: str) -> Path:
 
 
 def newest_in(folder: Path) -> Path | None:
-    """Return the journal of a folder that was written last; None: it has none."""
+    """Return the latest journal in a folder, or None."""
     found: list[tuple[int, str, Path]] = []
     with suppress(OSError):
         for path in folder.glob(f"*{ENDING}"):
@@ -79,7 +81,7 @@ def written(path: Path) -> int:
 
 
 def folder_of(app: str) -> Path:
-    """Return where an app's journals are by default."""
+    """Return the default folder of an app's journals."""
     state = Path(os.environ.get("XDG_STATE_HOME", ""))
     if not state.is_absolute():  # it is not set
         home = Path(os.path.expanduser("~"))

@@ -1,6 +1,6 @@
-"""Reads a journal without writing it, up to the first row that is not what was written.
+"""Reading a journal without writing it, up to the first damaged row.
 
-Beside a running app, on a disk that may only be read, and one that is damaged: all that is readable.
+This works beside a running app, on a read-only disk, and with a damaged journal.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ from .place import beside
 from .salvage import salvage
 
 _AT_ONCE = 100
-"""Rows that are read together: more would no longer fit into the processor's cache."""
+"""Rows that are read at once: more would not fit into the processor's cache."""
 
 
 Chunks = Generator[list[Row], None, str | None]
-"""Rows in order; at the end, why there are no more although there should be."""
+"""Rows in order; at the end, why further ones cannot be read, if so."""
 
 
 class Read:
@@ -51,18 +51,18 @@ class Read:
         warnings: Sequence[str] = (),
     ) -> None:
         self.snapshot, self.after = snapshot, after
-        """The state after the row of this number, which is the last that is not read."""
+        """The snapshot, and the number of the last row that it covers."""
         self.warnings = tuple(warnings)
-        """What is damaged and does not matter."""
+        """Harmless damage."""
         self.damaged: str | None = None
-        """Why nothing more can be read, once all that can be was; None: that was everything."""
+        """Why nothing more can be read, after all readable rows; None: that was everything."""
         self.written = written
-        """When what was read last was written, in seconds since 1970."""
+        """When the last row read was written, in seconds since 1970."""
         self._chunks = chunks
 
     @property
     def rows(self) -> Iterator[Row]:
-        """The rows, in order; never a wrong one."""
+        """The rows in order, without damaged ones."""
         for chunk in self._sound():
             yield from chunk
 
@@ -86,7 +86,7 @@ class Read:
 
 
 def since_snapshot(database: sqlite3.Connection, last: int) -> Read:
-    """Read what is needed to go on: the newest sound snapshot, and the rows after it."""
+    """Read what is needed to resume: the newest sound snapshot, and the rows after it."""
     newest = newest_snapshot(database)
     rows = _rows(database, newest.seq + 1, last)
     return Read(rows, newest.text, newest.seq, written=newest.wall, warnings=newest.damaged)
@@ -99,7 +99,7 @@ def rows_between(database: sqlite3.Connection, first: int, last: int) -> Read:
 
 def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
     while seq <= last:
-        # each chunk is a query of its own: who waits in between keeps no writer from tidying up
+        # each chunk is a query of its own, so that a slow reader does not block a writer's checkpoints
         until = min(last, seq + _AT_ONCE - 1)
         rows, trouble = _fetched(database, seq, until)
         sound: list[Row] = []
@@ -121,7 +121,7 @@ def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
 def _fetched(
     database: sqlite3.Connection, first: int, last: int
 ) -> tuple[list[tuple[Any, ...]], Exception | None]:
-    """Return rows as they are, and what keeps the database from giving more."""
+    """Return unchecked rows, and the error that keeps the database from returning more."""
     rows: list[tuple[Any, ...]] = []
     try:
         rows.extend(database.execute(_QUERY, (first, last)))
@@ -136,20 +136,20 @@ _QUERY = (
 
 
 class Reader:
-    """A journal that is open for reading; close it when nothing more is wanted."""
+    """A journal that is open for reading."""
 
     def __init__(self, path: Path, *, follows: bool = False, locked: bool = False) -> None:
         self.damaged: str | None = None
-        """What is wrong with it, once all rows that can be read were; None: nothing is."""
+        """What is wrong with it, after all readable rows; None: nothing."""
         self.torn: str | None = None
-        """What is wrong with what was written last and is left out; None: nothing is."""
+        """What is wrong with the last commit, which is left out; None: nothing."""
         self._path, self._seen, self._follows = path, -1, follows
         self._copy: tempfile.TemporaryDirectory[str] | None = None
         self._database: sqlite3.Connection | None = None
         try:
             look_at(path)
             self._database, state = self._opened()
-            if locked or holder(path) is None:  # a log that grows is not whole at every moment
+            if locked or holder(path) is None:  # a log that is being written is not always complete
                 self.torn = state.torn
                 if state.lost:
                     self.damaged = str(errors.damaged(path, errors.lost_log()))
@@ -157,7 +157,7 @@ class Reader:
             self.damaged = str(error)
 
     def rows(self) -> Iterator[Row]:
-        """Yield all rows that are what was written, the header first; of damaged ones none."""
+        """Yield all sound rows, the header first."""
         yield from self.more()
         if self.damaged is not None:
             for row in salvage(self._path, self._seen):
@@ -165,7 +165,7 @@ class Reader:
                 yield row
 
     def more(self) -> Iterator[Row]:
-        """Yield the rows that have come since the last one."""
+        """Yield the rows that were added since the last one."""
         database = self._database
         if database is None:
             return
@@ -182,7 +182,7 @@ class Reader:
             self._trouble(read.damaged)
 
     def close(self) -> None:
-        """Let go of it."""
+        """Close it."""
         if self._database is not None:
             self._database.close()
         if self._copy is not None:
@@ -199,7 +199,7 @@ class Reader:
             logged = False
         at_rest = not logged and holder(self._path) is None
         if at_rest and not self._follows:
-            return _opened(self._path, "mode=ro&immutable=1")  # it leaves nothing beside the file
+            return _opened(self._path, "mode=ro&immutable=1")  # creates no file beside it
         try:
             return _opened(self._path, "mode=ro")
         except Damaged:

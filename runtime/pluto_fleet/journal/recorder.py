@@ -1,8 +1,8 @@
-"""Writes down what happens, so that nothing goes out before it is on record.
+"""Recording events in the journal before they have any effect outside (write-ahead).
 
-It listens to the trace, adds to an event what a later life of the app must know and a reader of the
-trace need not, and hands the events of each instant to the journal as one row: all or none. What
-moves a drone waits until the row that says so is durable.
+It listens to the trace, adds to an event what a later run must know and a reader of the trace need not,
+and appends the events of each instant to the journal as one row: all or none. A command to a drone waits
+until its row is durable.
 """
 
 from __future__ import annotations
@@ -31,41 +31,41 @@ Facts = dict[str, Any]
 
 
 class Sink(Protocol):
-    """Where rows go."""
+    """Receives rows."""
 
     def add(self, row: str) -> int:
-        """Take a row and return its number; `Recorder.durable` is told that number, or a higher."""
+        """Add a row and return its number; `Recorder.durable` is called with that number, or a higher one."""
         ...
 
 
 class Recorder:
-    """The journal of one life of an app."""
+    """Records one run of an app."""
 
     def __init__(self, app: App, kernel: Kernel, sink: Sink, records: Records) -> None:
         self._app, self._kernel, self._sink = app, kernel, sink
         self.records = records
         self.missions: dict[str, Mission[Any]] = {}
-        """The missions by name, as soon as they exist."""
+        """The missions by name, from their creation on."""
         self.results: ResultStore | None = None
         self.trace: Trace | None = None
         self._lines: list[str] = []
         """The events of this instant."""
         self._waiting: deque[tuple[int, Callable[[], object]]] = deque()
-        """What waits for a row to be durable, in order."""
+        """The calls that wait for a row to be durable, in order."""
         self._added = self._durable = 0
         self._due: list[Callable[[], object]] = []
-        """What this instant wants done once it is durable."""
+        """The calls that wait for this instant's row."""
         kernel.settled = self._settle
 
     def take(self, event: Event) -> None:
-        """Something happened: it goes on record with the others of its instant."""
+        """Add an event to those of its instant."""
         add = _ADDED.get(str(event["event"]))
         if add is not None:
             event = {**event, **add(self, event)}
         written = exact(event)
         self._lines.append(written)
         if event["event"] in _SHARED:
-            event = json.loads(written)  # its own, not what the living mission and its hooks have
+            event = json.loads(written)  # a copy, independent of the mission and its hooks
         self.records.take(event)
 
     def when_durable(self, call: Callable[[], object]) -> None:
@@ -74,20 +74,20 @@ class Recorder:
         self._due.append(call)
 
     async def on_record(self) -> None:
-        """Wait until all that has happened up to now is durable."""
+        """Wait until everything up to now is durable."""
         durable: Future[None] = Future()
         self.when_durable(lambda: durable.set(None))
         await durable
 
     def durable(self, number: int) -> None:
-        """The journal has everything up to the row of this number; told within the kernel."""
+        """Called within the kernel when the rows up to this number are durable."""
         self._durable = max(self._durable, number)
         waiting = self._waiting
         while waiting and waiting[0][0] <= self._durable:
             waiting.popleft()[1]()
 
     def look(self, mission: Mission[Any]) -> None:
-        """A hook has had this mission in its hands: if it changed its trips, that is an event."""
+        """Record it as an event if a hook that was given this mission has changed its trips."""
         app, record = self._app, self.records.missions[mission.name]
         todo = [trip_data(app, trip) for trip in mission.trips]
         fields = fields_of(app, Entity.MISSION, mission)
@@ -98,7 +98,7 @@ class Recorder:
             self.trace.note("mission.changed", **change_data(app, mission))
 
     def _settle(self) -> None:
-        """The instant is over: its row goes to the journal, and then what waits for it."""
+        """Append the row of an instant that has ended, with the calls that wait for it."""
         if self._lines:
             row = "[" + ",\n".join(self._lines) + "]"
             self._lines.clear()
@@ -145,7 +145,7 @@ def _added(recorder: Recorder, event: Event) -> Facts:
 
 
 _SHARED = ("mission.created", "mission.changed", "mission.extended", "trip.reset")
-"""The events with parts that a hook may have made, and may still have in its hands."""
+"""The events with parts that a hook may still change."""
 
 _ADDED: dict[str, Callable[[Recorder, Event], Facts]] = {
     "mission.created": _plan,
@@ -153,4 +153,4 @@ _ADDED: dict[str, Callable[[Recorder, Event], Facts]] = {
     "trip.reset": _fields,
     "mission.extended": _added,
 }
-"""What a later life of the app must know of an event beside what is on the trace."""
+"""What a later run must know of an event, beside what is in the trace."""

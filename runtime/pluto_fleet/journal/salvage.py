@@ -1,7 +1,7 @@
-"""Finds rows in a damaged journal without the database: in any page that still has some.
+"""Salvaging rows of a damaged journal without the database, from any page that still has some.
 
-A row says itself, by its checksum, whether it is what was written. So every page is taken for one
-that holds rows, even if its header is damaged, and so is every page in the write-ahead log.
+A row's checksum shows whether it is sound. So every page is tried, even if its header is damaged, and also
+every page in the write-ahead log.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from .place import beside
 _SIZES = {1 << power for power in range(9, 17)}
 _LOG_HEADER, _FRAME_HEADER = 32, 24
 _MOST = 1 << 30
-"""Bytes of a row: a larger number is not a row's."""
+"""The largest row in bytes: a larger number is damage."""
 
 _Pages = dict[int, bytes]
 _Found = dict[int, Row]
 
 
 def salvage(path: Path, after: int) -> list[Row]:
-    """Return all sound rows that come after one, in order; there may be gaps."""
+    """Return all sound rows after one, in order, with possible gaps."""
     content = path.read_bytes()
     size = _page_size(content)
     newest: _Pages = {}
@@ -61,7 +61,7 @@ def _logged(path: Path, size: int) -> Iterator[tuple[int, bytes]]:
 
 
 def _cells(page: bytes) -> Iterator[int]:
-    """Yield where the cells of a page begin; their places stand before the first of them."""
+    """Yield the offsets of a page's cells, which are listed before the first of them."""
     place, lowest = 8, len(page)
     while place + 2 <= lowest:
         cell = int.from_bytes(page[place : place + 2], "big")
@@ -73,7 +73,7 @@ def _cells(page: bytes) -> Iterator[int]:
 
 
 def _keep(cell: int, page: bytes, pages: _Pages, found: _Found) -> None:
-    """Keep the row of a cell, if it is one, and none of a later life is known."""
+    """Add the row of a cell, if it is sound, and none of a later epoch is known."""
     length, place = _number(page, cell)
     seq, place = _number(page, place)
     if not 0 < length < _MOST:
@@ -89,7 +89,7 @@ def _keep(cell: int, page: bytes, pages: _Pages, found: _Found) -> None:
 
 
 def _payload(page: bytes, place: int, length: int, pages: _Pages) -> bytes:
-    """Return what a row holds: what does not fit into its page goes on in others."""
+    """Return a row's payload, which may continue in overflow pages."""
     usable = len(page)
     most, least = usable - 35, (usable - 12) * 32 // 255 - 23
     if length <= most:

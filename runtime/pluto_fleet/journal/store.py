@@ -1,4 +1,4 @@
-"""One open journal: an SQLite file that one process writes."""
+"""A journal that is open for writing: an SQLite file that one process writes."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from .reader import Read, since_snapshot
 
 @contextmanager
 def made(path: Path, rows: Sequence[Row], epoch: int) -> Iterator[Path]:
-    """Give a file beside this path that holds these rows; it goes if it gets no other name."""
+    """Give a temporary file beside this path that holds these rows; it is removed unless renamed."""
     part = beside(path, f".{os.getpid()}.part")
     part.unlink(missing_ok=True)
     try:
@@ -68,10 +68,10 @@ RESERVE = 256 * 1024
 
 
 def keep_back(path: Path) -> None:
-    """Take up room beside a journal, all or none."""
+    """Reserve disk space beside a journal."""
     try:
         with beside(path, ".reserve").open("wb") as file:
-            file.write(os.urandom(RESERVE))  # no file system makes less of it
+            file.write(os.urandom(RESERVE))  # incompressible
             file.flush()
             os.fsync(file.fileno())
     except OSError:
@@ -80,20 +80,20 @@ def keep_back(path: Path) -> None:
 
 
 def give_back(path: Path) -> None:
-    """Let the room be used."""
+    """Release the reserve."""
     with suppress(OSError):
         beside(path, ".reserve").unlink()
 
 
 Identity = tuple[int, int]
-"""Which file it is under any name: its device and its number there."""
+"""The identity of a file: its device and inode."""
 
 _OPEN = Path("/proc/self/fd")
 _DELETED = " (deleted)"
 
 
 def identity(path: Path) -> Identity | None:
-    """Return which file has this name; None: none that can be seen."""
+    """Return the identity of the file of this name, or None."""
     try:
         found = os.stat(path)
     except OSError:
@@ -102,7 +102,7 @@ def identity(path: Path) -> Identity | None:
 
 
 def size(path: Path) -> int:
-    """Return how many bytes the file of this name has; 0: none that can be seen."""
+    """Return the size of the file of this name; 0 if it cannot be seen."""
     try:
         return os.stat(path).st_size
     except OSError:
@@ -110,7 +110,7 @@ def size(path: Path) -> int:
 
 
 def moved_to(which: Identity) -> Path | None:
-    """Return the name that an open file has now; None: it has none, or the system does not say."""
+    """Return the present name of an open file; None: it has none, or it is unknown."""
     with suppress(OSError):
         for entry in _OPEN.iterdir():
             with suppress(OSError):
@@ -121,10 +121,10 @@ def moved_to(which: Identity) -> Path | None:
 
 
 SNAPSHOTS = 2
-"""How many are kept: should the newest be damaged, there is the one before."""
+"""How many snapshots are kept, in case the newest is damaged."""
 
 _COLUMNS, _AT_ONCE = 5, 500
-"""Rows go in by few statements: a thread that executes one waits its turn among busy ones."""
+"""Rows are inserted by few statements, as each one waits for the interpreter's lock."""
 
 Clock = Callable[[], float]
 
@@ -137,23 +137,23 @@ class Store:
     ) -> None:
         self.path, self.header = path, header
         self.epoch = 0
-        """It grows at each opening: an older one is no longer obeyed."""
+        """A fencing token that grows at each opening."""
         self.seq = 0
         """The number of the last row."""
         self.torn: str | None = None
         """What was wrong with the last row, which was dropped; None: nothing was."""
         self.failure: JournalError | None = None
-        """Why nothing more is taken; None: all is well."""
+        """Why no more rows are accepted, or None."""
         self._lock, self._database, self._clock = lock, database, clock
         self._files: dict[Path, Identity | None] = {}
-        """The files that are written, and which they were when it was opened."""
+        """The files that are written, with their identities when it was opened."""
         self._closed, self._process, self._least = False, os.getpid(), 0
         most = database.getlimit(sqlite3.SQLITE_LIMIT_VARIABLE_NUMBER)
         self._at_once = min(_AT_ONCE, most // _COLUMNS)
 
     @classmethod
     def create(cls, path: Path, header: Event, clock: Clock = time.time) -> Store:
-        """Begin a journal, which must not be there yet, and open it."""
+        """Create a new journal, and open it."""
         path = _real(path)
         try:
             lock = Lock.take(path)
@@ -173,7 +173,7 @@ class Store:
 
     @classmethod
     def open(cls, path: Path, clock: Clock = time.time) -> Store:
-        """Go on with a journal: it gets a new epoch, durably."""
+        """Open a journal to resume it, with a new, durable epoch."""
         path = _real(path)
         look_at(path)
         try:
@@ -189,7 +189,7 @@ class Store:
 
     @classmethod
     def _opened(cls, path: Path, lock: Lock, clock: Clock) -> Store:
-        with closing(connect(path, "mode=ro")) as database:  # to look at it must not change it
+        with closing(connect(path, "mode=ro")) as database:  # the check must not change it
             state = found(path, database)
         if state.lost:
             raise errors.damaged(path, errors.lost_log())
@@ -206,7 +206,9 @@ class Store:
         self.seq, self.epoch, self.torn = seq, epoch, torn
         database = self._database
         database.execute("PRAGMA journal_mode = WAL")
-        database.execute("PRAGMA synchronous = FULL")  # with NORMAL a power cut takes what was told
+        database.execute(
+            "PRAGMA synchronous = FULL"
+        )  # with NORMAL a power failure loses acknowledged rows
         database.execute("BEGIN IMMEDIATE")
         database.execute("DELETE FROM journal WHERE seq > ?", (seq,))
         database.execute("DELETE FROM tip")
@@ -219,7 +221,7 @@ class Store:
         self._least = size(self.path)
 
     def look(self) -> None:
-        """Raise a `JournalError` if what is written is in no place any more where it would be found."""
+        """Raise a `JournalError` if the journal was deleted, renamed or truncated."""
         if self.failure is not None:
             raise self.failure
         for file, which in self._files.items():
@@ -227,7 +229,7 @@ class Store:
                 self.failure = errors.gone(file, moved_to(which), self.path)
                 give_back(self.path)
                 raise self.failure
-        if size(self.path) < self._least:  # it only grows by itself
+        if size(self.path) < self._least:  # it never shrinks by itself
             self.failure = errors.cut_short(self.path)
             give_back(self.path)
             raise self.failure
@@ -241,7 +243,7 @@ class Store:
             raise self._failed(error) from None
 
     def last_words(self, row: str) -> bool:
-        """Try once to write a row after all, such as why nothing more is written."""
+        """Try once to write a final row after a failure, such as why it failed."""
         try:
             self._commit([row])
         except TROUBLE:
@@ -250,7 +252,7 @@ class Store:
         return True
 
     def snapshot(self, state: str) -> None:
-        """Keep what all rows so far come to; the rows stay."""
+        """Store a snapshot of all rows so far; the rows stay."""
         if self.failure is not None:
             raise self.failure
         text, seq, wall = state.encode(), self.seq, _milliseconds(self._clock)
@@ -275,9 +277,9 @@ class Store:
         return since_snapshot(self._database, self.seq)
 
     def close(self) -> None:
-        """Let others have it; what was acknowledged is on disk already."""
+        """Close it and release the lock; everything acknowledged is durable already."""
         if self._closed or os.getpid() != self._process:
-            return  # what lies beside the journal may be another's by now
+            return  # the files beside the journal may belong to another process by now
         self._closed = True
         with suppress(*TROUBLE):
             self._database.execute("PRAGMA wal_checkpoint(TRUNCATE)")  # even beside a reader
@@ -301,7 +303,7 @@ class Store:
         self.seq = seq
 
     def _failed(self, error: Exception) -> JournalError:
-        """Stop for good: nothing later is acknowledged."""
+        """Fail permanently: nothing later is acknowledged."""
         self._roll_back()
         give_back(self.path)
         self.failure = errors.cannot_write(self.path, error, self.seq)
@@ -319,14 +321,14 @@ def _insertion(rows: int) -> str:
 
 
 def _make(path: Path, header: Event, wall: float) -> None:
-    """Write a whole journal beside its place, and only then let it be seen."""
+    """Write a complete journal under a temporary name, and then publish it."""
     if path.is_dir():
         raise errors.is_folder(path)
     if os.path.lexists(path):
         raise errors.exists(path)
     with made(path, [Row(0, wall, json.dumps([header]), 0)], 0) as part:
         try:
-            os.link(part, path)  # unlike a change of its name this never takes another's place
+            os.link(part, path)  # unlike a rename this never overwrites a file
         except FileExistsError:
             raise errors.exists(path) from None
         except OSError:  # a file system without links
@@ -335,7 +337,7 @@ def _make(path: Path, header: Event, wall: float) -> None:
 
 
 def _unmake(path: Path) -> None:
-    """Nothing can be written into it: as if it had never been."""
+    """Remove a new journal that cannot be written."""
     for suffix in ("-wal", "-shm", ""):
         with suppress(OSError):
             beside(path, suffix).unlink()
@@ -347,7 +349,7 @@ def _let_go(path: Path, lock: Lock) -> None:
 
 
 def _real(path: Path) -> Path:
-    """Follow links: a journal with two names is one journal, with one lock."""
+    """Resolve links: a journal with two names has one lock."""
     try:
         return Path(os.path.realpath(path))
     except ValueError as error:  # a NUL in the name

@@ -1,4 +1,4 @@
-"""Missions, trips and results as plain data, and back: what the journal keeps of them."""
+"""Missions, trips and results as plain data for the journal, and back."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def mission_data(app: App, mission: Mission[Any]) -> Data:
-    """Return everything that its user said of a mission, and its trips."""
+    """Return a mission's data with its trips, as its user gave them."""
     return {
         "index": mission.index,
         "fields": fields_of(app, Entity.MISSION, mission),
@@ -28,7 +28,7 @@ def mission_data(app: App, mission: Mission[Any]) -> Data:
 
 
 def trip_of(app: App, data: Mapping[str, Any], status: TripStatus = TripStatus.WAITING) -> Trip:
-    """Return the trip that was written down; raise KeyError or TypeError if the app has none such."""
+    """Return a stored trip; raise `KeyError` or `TypeError` if it does not fit the app."""
     app.actions[data["action"]]
     trip = app.trip(
         name=data["name"],
@@ -49,13 +49,13 @@ def trip_of(app: App, data: Mapping[str, Any], status: TripStatus = TripStatus.W
 
 
 def point_of(data: Sequence[float]) -> Point:
-    """Return a place that was written down."""
+    """Return a stored point."""
     x, y, z = data
     return x, y, z
 
 
 def item_of(data: Mapping[str, Any] | None) -> Item | None:
-    """Return an item that was written down."""
+    """Return a stored item."""
     return None if data is None else Item(name=data["name"], mass=data["mass"])
 
 
@@ -65,17 +65,17 @@ def item_data(item: Item | None) -> Data | None:
 
 
 def value_data(value: object) -> object:
-    """Return what an action gave as plain data; what is no plain data is kept as text.
+    """Return an action's result as plain data; what is not plain data becomes text.
 
-    A photo, and what is not plain, becomes an object with one key that no result of plain data is
-    mistaken for. What is too large, too deep or goes round in a circle is text as a whole.
+    A photo, and what is not plain, becomes an object with one reserved key. What is too large, too
+    deep or circular becomes text as a whole.
     """
     kept = keepable(value)
     return _data(value) if kept is value else {"$text": kept}
 
 
 def _data(value: Any) -> object:
-    """Return what can be kept; its class may be any, and is asked nothing."""
+    """Return a value as plain data, without calling its methods."""
     kind = type(value)
     if value is None or kind is bool:
         return value
@@ -105,13 +105,13 @@ def _photo_data(photo: Photo) -> object:
         "sees": [str(what) for what in photo.sees],
         "sharpness": float(photo.sharpness),
     }
-    if photo.file is not None:  # journals from before know no such thing
+    if photo.file is not None:  # older journals have no such key
         data["file"] = str(photo.file)
     return {"$photo": data}
 
 
 def value_of(data: object) -> object:
-    """Return what an action gave from what was written down."""
+    """Return a stored result of an action."""
     match data:
         case {"$number": str(text)}:
             return float(text)

@@ -1,8 +1,8 @@
-"""Whether SQLite has left out part of its write-ahead log.
+"""Detecting whether SQLite has ignored part of its write-ahead log.
 
-After a crash SQLite takes the log up to the first frame that is not sound and silently forgets the
-rest. That is right for what a crash has torn, which is the last commit at most. If further commits
-follow, they had been acknowledged, and something has damaged the log since.
+After a crash SQLite uses the log up to the first unsound frame and silently ignores the rest. That is right
+for a torn write, which is at most the last commit. If further commits follow, they were acknowledged, and
+the log has been damaged since.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ from .place import beside
 
 _HEADER, _FRAME = struct.Struct(">8I"), struct.Struct(">IIII8x")
 _ANY, _USES = 0xFFFFFFFF, 1 << 20
-"""At each use of a log the first of its two salts is one more."""
+"""The layout of the log's header: at each reset its first salt is incremented."""
 
 _TAKEN = struct.Struct("=16xI")  # of the shared index, which is in the machine's own order
 
 
 class Rest(Enum):
-    """What is in a log beyond what SQLite takes of it."""
+    """What is in a log beyond what SQLite uses."""
 
     NOTHING = "nothing"
-    TORN = "torn"  # one commit at most: most likely it was never acknowledged
-    LOST = "lost"  # what had been acknowledged
+    TORN = "torn"  # at most one commit, most likely not acknowledged
+    LOST = "lost"  # acknowledged commits
 
 
 def rest(path: Path) -> Rest:
-    """Say what there is in the log of an open database that SQLite does not see."""
+    """Return what SQLite ignores of the log of an open database."""
     taken = _taken(beside(path, "-shm"))
     if taken is None:
         return Rest.NOTHING
@@ -56,16 +56,16 @@ def _rest(log: BinaryIO, taken: int, path: Path) -> Rest:
         log.seek(page, 1)
         _, commit, *frames = _FRAME.unpack(start)
         if number <= taken or (salts and 0 < salts[0] - frames[0] & _ANY < _USES):
-            continue  # seen, or of an earlier use of the log: all that is in the database
+            continue  # used, or of an earlier generation that is in the database
         if commits:
             return Rest.LOST
-        commits += commit > 0  # without one it was never acknowledged
+        commits += commit > 0  # without a commit it was never acknowledged
         strange += salts is not None and salts[0] != frames[0] and salts[1] != frames[1]
     return Rest.TORN if commits or strange else Rest.NOTHING
 
 
 def _taken(index: Path) -> int | None:
-    """Return how many frames SQLite has found sound; None: it has not looked."""
+    """Return how many frames SQLite has found sound; None: unknown."""
     try:
         with index.open("rb") as file:
             start = file.read(_TAKEN.size)

@@ -1,4 +1,4 @@
-"""Group commit: while the disk takes one batch of rows, the next one gathers."""
+"""Group commit: while one batch of rows is written, the next one is collected."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Writer:
     """Writes rows in a thread of its own; adding one does not wait for the disk.
 
     `on_durable` and `on_failure` are called in that thread. After a failure nothing is written any
-    more, and no row is ever called durable.
+    more, and no further row is reported as durable.
     """
 
     def __init__(self, store: Store, on_durable: OnDurable, on_failure: OnFailure) -> None:
@@ -33,7 +33,7 @@ class Writer:
         self._thread.start()
 
     def add(self, row: str) -> int:
-        """Take a row and return its number; it is durable once `on_durable` was told that number."""
+        """Add a row and return its number; it is durable once `on_durable` was called with that number."""
         with self._changed:
             self._rows.append(row)
             self._added += 1
@@ -42,13 +42,13 @@ class Writer:
             return self._added
 
     def snapshot(self, state: str) -> None:
-        """Keep what the rows that were added up to now come to; of several the last will do."""
+        """Store a snapshot of the rows added so far; of several pending ones only the last."""
         with self._changed:
             self._snapshot = self._added, state
             self._changed.notify_all()
 
     def flush(self) -> None:
-        """Wait until all that was added is durable; raise a `JournalError` if it cannot be."""
+        """Wait until all added rows are durable; raise a `JournalError` if that fails."""
         with self._changed:
             number = self._added
             while self._snapshot is not None or self._durable < number:
@@ -57,7 +57,7 @@ class Writer:
                 self._changed.wait()
 
     def close(self) -> None:
-        """Write what is left, and end; the store stays open."""
+        """Write the rest, and end the thread; the store stays open."""
         with self._changed:
             self._over = True
             self._changed.notify_all()

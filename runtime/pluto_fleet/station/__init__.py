@@ -1,1 +1,1 @@
-"""The ground station: it serves an app in a browser."""
+"""The ground station, which serves an app in a browser."""

@@ -1,4 +1,4 @@
-"""What is known while nothing flies: the unfinished flight, where each drone was last heard of, which are lost."""
+"""The station between flights: the unfinished flight, the drones' last known states, the lost drones."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from .config import StationConfig
 
 FRESH_FOR = 4.0
-"""Seconds for which what was heard of a drone is how it is."""
+"""Seconds for which a drone's last known state counts as current."""
 
 HOVERED = "it was in the air when it was last heard of: go and look"
 COMES_DOWN = "it is in the air, and the gateway brings it down"
@@ -44,7 +44,7 @@ BACK = "it was brought back: it is asked how it is as soon as missions fly"
 
 
 class IdleDrones:
-    """The drones of a fleet, as the last gateway that flew them has left them."""
+    """The drones of a fleet, as the last gateway has left them."""
 
     def __init__(self, fleet: Sequence[DroneEntry], journal: Path | None) -> None:
         self._fleet, self._journal = fleet, journal
@@ -53,15 +53,15 @@ class IdleDrones:
         self._sightings: dict[str, Sighting] = {}
 
     def rows(self, known: Records | None) -> Iterator[rows.Row]:
-        """Yield what there is to see of each; `known` is what the journal says of them."""
+        """Yield the row of each; `known` is the journal's record of them."""
         sightings, now = self._newest(), time.time()
         for entry in self._fleet:
             yield _row(entry.id, sightings.get(entry.id), known, now)
 
     def write_down(self, app: App, known: Records | None) -> bool:
-        """Put on record the drones that crashed with no app there to be told; say whether any did.
+        """Record the drones that crashed while no app was running; return whether there are any.
 
-        Each news of the drones is looked at once.
+        Each state of a drone is processed once.
         """
         before, sightings = self._read_at, self._newest()
         if known is None or self._journal is None or self._read_at == before:
@@ -69,13 +69,13 @@ class IdleDrones:
         told = {*known.lost, *known.mended}
         new = [one for one in sightings if sightings[one].has_fallen and one not in told]
         for drone in new:
-            with suppress(BadInput, OSError):  # an app that flies them now hears it from them
+            with suppress(BadInput, OSError):  # an app that flies them now records it itself
                 seen = sightings[drone]
                 record_loss(app, self._journal, drone, seen.why, seen.at)
         return bool(new)
 
     def _newest(self) -> dict[str, Sighting]:
-        """Read the gateway's file, if it is another than before."""
+        """Read the gateway's file, if it has changed."""
         if self._folder is not None:
             with suppress(OSError):
                 found = (self._folder / SEEN).stat()
@@ -89,7 +89,7 @@ def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> r
     lost = known.lost.get(id) if known is not None else None
     trips = known.flown.get(id, 0) if known is not None else 0
     retired = known is not None and id in known.retired
-    if known is not None and id in known.mended:  # a person has taken it in their hands since
+    if known is not None and id in known.mended:  # it has been repaired since
         return rows.drone_at(id, "UNKNOWN", None, trips, retired, BACK)
     fresh = seen is not None and now - seen.when < FRESH_FOR
     if lost is not None:
@@ -108,21 +108,21 @@ def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> r
 
 
 PUT_AWAY_FILE = "put_away"
-"""The file that names the last journal that was put away."""
+"""The file with the name of the last discarded journal."""
 
 
 def unfinished_flight(app: App, config: StationConfig, going_on: bool = False) -> Resumable | None:
-    """Return the newest journal of the station's folder, opened, to be shown and gone on with.
+    """Return the newest journal of the station's folder, opened, to be shown and resumed.
 
-    A flight over another map would be drawn over this one, and misread: it is left alone, unless
-    this station was started to go on with it.
+    A flight over another map would be misread on this one: it is ignored, unless this station was
+    started to resume it.
     """
     journal = place.newest_in(config.folder)
     if journal is None or journal.name == _put_away(config):
         return None
     try:
         taken = reopen(app, journal)
-    except BadInput as why:  # another process flies it, it is damaged, or it is another app's
+    except BadInput as why:  # flown by another process, damaged, or another app's
         output.tell(f"the last flight cannot be shown: {why}")
         return None
     same = taken.header["sim"], taken.header.get("crtp_sim") is not None
@@ -142,12 +142,12 @@ def unfinished_flight(app: App, config: StationConfig, going_on: bool = False) -
 
 
 def shown_fleet(fleet: FleetFile) -> object:
-    """Return what people see of a fleet file."""
+    """Return the data of a fleet for pages."""
     return fleet.airspace, [(one.id, one.category, one.home) for one in fleet.drones]
 
 
 def put_away(config: StationConfig, journal: Path) -> None:
-    """Remember that a journal is not to be gone on with; it stays where it is."""
+    """Mark a journal as discarded, so that it is not resumed; the file stays."""
     (config.own_folder / PUT_AWAY_FILE).write_text(journal.name, encoding="utf-8")
 
 
@@ -161,7 +161,7 @@ DRONES_FILE = "drones.json"
 
 
 class FleetHistory:
-    """What is known of the drones before a flight begins."""
+    """The drones' states before a flight begins, from earlier flights."""
 
     def __init__(self, app: App, config: StationConfig) -> None:
         self._app, self._config = app, config
@@ -170,15 +170,15 @@ class FleetHistory:
         self._fleet = [entry.id for entry in config.fleet.drones]
         self.records = Records()
         self._journal: Path | None = None
-        """The newest one, if its drones are these."""
+        """The newest journal, if it is of these drones."""
         self._idle = IdleDrones(config.fleet.drones, None)
 
     def read(self) -> None:
-        """Read it anew: another process may have brought a drone back, or flown meanwhile."""
+        """Read it again, as another process may have brought a drone back, or flown."""
         self.records, self._journal = self._kept(), None
         journal = place.newest_in(self._config.folder)
         if journal is not None:
-            with suppress(BadInput):  # what shows the last flight says what is wrong with it
+            with suppress(BadInput):  # errors are reported where the last flight is shown
                 self._take(journal)
         self._idle = IdleDrones(self._config.fleet.drones, self._journal)
 
@@ -191,13 +191,13 @@ class FleetHistory:
             flown = fleet_in(self._app, journal, header)
             same = shown_fleet(flown) == shown_fleet(self._config.fleet)
             records = recovered(store).records
-        if "lost" not in header:  # it was not begun by a station
+        if "lost" not in header:  # it was not started by a station
             for drone, why in self.records.lost.items():
                 records.lost.setdefault(drone, why)
         self.records = records
         if same:
             self._journal = journal
-        else:  # what was a place on that map is none on this one
+        else:  # positions on another map mean nothing on this one
             for why in records.lost.values():
                 why["at"] = None
 
@@ -210,31 +210,31 @@ class FleetHistory:
         return records
 
     def leave(self, journal: Path, records: Records) -> None:
-        """Keep what a flight has left behind."""
+        """Store the states that a flight has left."""
         self.records, self._journal = records, journal
         self._idle = IdleDrones(self._config.fleet.drones, journal)
         self._keep()
 
     def _keep(self) -> None:
         text = json.dumps({"kind": self._kind, "drones": self.facts})
-        with suppress(OSError):  # the journal says it, too
+        with suppress(OSError):  # the journal has it, too
             part = self._file.with_name(f"{self._file.name}.part")
             part.write_text(text, encoding="utf-8")
             part.replace(self._file)
 
     @property
     def facts(self) -> dict[str, object]:
-        """What the next journal begins with."""
+        """Return the facts that the next journal inherits."""
         known = self.records
         return {"lost": known.lost, "mended": known.mended, "retired": known.retired}
 
     @property
     def lost(self) -> Sequence[str]:
-        """The drones of the fleet that may not fly."""
+        """The lost drones of the fleet."""
         return [drone for drone in self._fleet if drone in self.records.lost]
 
     def bring_back(self, id: str, drone: str) -> str:
-        """A person has looked after a drone, while nothing flies."""
+        """Bring a drone back while nothing flies."""
         if drone not in self._fleet:
             names = ", ".join(map(quoted, self._fleet))
             raise BadInput(f"no drone {quoted(drone)} is in the fleet; there are: {names}")
@@ -251,7 +251,7 @@ class FleetHistory:
         return said
 
     def flown_elsewhere(self) -> int | None:
-        """Return the process that commands the drones of the newest journal, if any does."""
+        """Return the process that commands the drones of the newest journal, if any."""
         journal = place.newest_in(self._config.folder)
         process = None if journal is None else lock.holder(journal)
         if journal is None or process is None:
@@ -262,16 +262,16 @@ class FleetHistory:
         return process if same else None
 
     def check_free(self) -> None:
-        """Raise `BadInput` where another process commands the drones of the newest journal."""
+        """Raise `BadInput` if another process commands the drones of the newest journal."""
         if (process := self.flown_elsewhere()) is not None:
             raise BadInput(
                 f"the last flight was gone on with elsewhere (process {process}): end it there first"
             )
 
     def hand_on_the_world(self, journal: Path) -> None:
-        """Let simulated drones be in the next flight where the last one has left them.
+        """Copy the simulated world of the last flight to the next one.
 
-        Those that no flight has left anywhere stand at home, and that is known.
+        Drones without an earlier flight are at home.
         """
         new = place.gateway_folder(journal)
         new.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -284,9 +284,9 @@ class FleetHistory:
             at_home(new, {entry.id: entry.home for entry in self._config.fleet.drones})
 
     def _world(self, folder: Path) -> Sequence[str]:
-        """Return the files of the simulated world of a gateway, which has ended."""
+        """Return the files of the simulated world of a gateway that has ended."""
         if self._config.crtp_sim is not None:
-            from ..crtp.process import DRONES as CRAZYFLIES  # few want them
+            from ..crtp.process import DRONES as CRAZYFLIES  # rarely needed
             from ..crtp.process import end
 
             end(folder)
@@ -294,7 +294,7 @@ class FleetHistory:
         return [DRONES] if self._config.sim else []
 
     def rows(self) -> Iterator[rows.Row]:
-        """Yield what there is to see of the drones while there is no flight at all."""
+        """Yield the rows of the drones while there is no flight."""
         if self._idle.write_down(self._app, self.records):
             self.read()
             self._keep()

@@ -1,4 +1,4 @@
-"""The commands that a station takes, and what each must say."""
+"""The commands of a station, and their arguments."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ NEEDS: Mapping[str, Mapping[str, tuple[type, ...]]] = {
     "bring-back": {"drone": (str,)},
     "cut-motors": {"drone": (str,)},
 }
-"""What goes with each command; what may be null may be left out."""
+"""The arguments of each command; those that may be null are optional."""
 
 HOWS = ("rtl", "land")
 
 LARGEST = 1_000_000_000
-"""No priority is further from 0, here as in a missions file."""
+"""The largest absolute priority, as in a missions file."""
 
 
 class Malformed(BadInput):
-    """A command that never makes sense: it lacks a name, say, or has two."""
+    """A malformed command: it lacks an argument, for example."""
 
 
 def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:
-    """Return everything that a command needs; raise `Malformed` if it is not all there."""
+    """Return a command's arguments; raise `Malformed` if one is missing or invalid."""
     needs = NEEDS.get(name)
     if needs is None:
         raise Malformed(f"there is no command {quoted(name)}")

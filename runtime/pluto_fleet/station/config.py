@@ -1,4 +1,4 @@
-"""What does not change while a station serves: its configuration, and what pages know of app and fleet."""
+"""The configuration of a station, and the constant data of app and fleet for pages."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StationConfig:
-    """What does not change while a station is there."""
+    """The configuration of a station."""
 
     folder: Path
-    """Where journals are; what only the station needs is in its folder `station`."""
+    """The folder of journals; the station's own files are in its subfolder `station`."""
     fleet: FleetFile
     fleet_text: str | None = None
     image: Path | None = None
     """The floor plan."""
     sim: bool = True
     crtp_sim: int | None = None
-    """How many simulated Crazyflies are flown as real ones; None: none."""
+    """The number of simulated Crazyflies that are flown as real ones, or None."""
     seed: int = 0
     faults: Mapping[str, float]
     speed: float | None = None
-    """How many times as fast time passes; None: as it does, or as it did."""
+    """The speed of time; None: real time, or as before."""
 
     @property
     def own_folder(self) -> Path:
-        """Where only the station keeps anything."""
+        """The folder of the station's own files."""
         return self.folder / "station"
 
 
@@ -51,7 +51,7 @@ Shape = dict[str, object]
 
 
 def described(app: App, config: StationConfig) -> Shape:
-    """Return it as plain data; of fields and actions only those that this app has."""
+    """Return the constant data of app and fleet, with the fields and actions that this app has."""
     graph, space = app_graph(app), config.fleet.airspace
     return {
         "name": app.name,
@@ -120,7 +120,7 @@ def _category(category: Category) -> Shape:
 
 
 def _retries(graph: Graph | None) -> bool:
-    """Whether a failed trip is ever tried again: some way that FAILED takes does not end there."""
+    """Whether a failed trip may be retried: some edge of FAILED leads on."""
     if graph is None:
         return True
     onward = {box.name for box in graph.boxes if box.shape == "block"}

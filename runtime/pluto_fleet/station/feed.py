@@ -1,4 +1,4 @@
-"""What pages are sent once and no more: lines of the console, results, and the rows that have changed."""
+"""Incremental updates for pages: console lines, results, and changed rows."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 
 class VersionedRows:
-    """Rows by their names, each as JSON with the number of its last change."""
+    """Rows by name, each as JSON with the version of its last change."""
 
     def __init__(self) -> None:
         self._rows: dict[str, tuple[int, object, str]] = {}
 
     def put(self, name: str, row: object, number: int) -> bool:
-        """Keep a row; say whether it is another than it was."""
+        """Store a row; return whether it has changed."""
         known = self._rows.get(name)
         if known is not None and known[1] == row:
             return False
@@ -32,37 +32,37 @@ class VersionedRows:
         return True
 
     def since(self, number: int) -> Iterator[str]:
-        """Yield the rows that have changed after that number."""
+        """Yield the rows that have changed after a version."""
         return (text for changed, _, text in self._rows.values() if changed > number)
 
 
 LINES_KEPT = 20_000
-"""Lines, and results; older ones are in the journal alone."""
+"""The number of lines, and of results, that are kept; older ones are only in the journal."""
 
 LINES_A_MESSAGE = 500
-"""Lines that a page gets in one message: the newest."""
+"""The most lines in one message: the newest ones."""
 
 LONGEST_VALUE = 1_000
-"""Characters of what an action returned that pages get; all of it is among the results."""
+"""Characters of an action's result on pages; all of it is in the results' file."""
 
 LARGEST_ROUNDED = 1_000_000
-"""Pages show six digits of a number: of a whole number that has more, they get all."""
+"""Pages show six digits of a number; larger whole numbers are sent as text, in full."""
 
 
 class Tail:
-    """The newest entries of a list that only grows; each has a number, from 1 on."""
+    """The newest entries of an append-only list, numbered from 1."""
 
     def __init__(self) -> None:
         self.last = 0
         self._texts: deque[str] = deque(maxlen=LINES_KEPT)
 
     def add(self, *facts: object) -> None:
-        """Add an entry: its number, and these facts."""
+        """Append an entry with these facts."""
         self.last += 1
         self._texts.append(json.dumps([self.last, *facts]))
 
     def since(self, number: int) -> Iterator[str]:
-        """Yield those after that number, no more than a page can show."""
+        """Yield the entries after a number, up to the most in one message."""
         new = min(self.last - number, LINES_A_MESSAGE, len(self._texts))
         return (self._texts[place] for place in range(-new, 0))
 
@@ -71,18 +71,18 @@ class Tail:
 
 
 class Feed:
-    """What is told of one flight."""
+    """The console and the results of one flight."""
 
     def __init__(self, app: App, units: Mapping[str, str]) -> None:
-        """Begin; `units` are those of the quantities that `measure` measures, where they are known."""
+        """`units` are those of the quantities that `measure` measures, if known."""
         self._app, self._units = app, units
         self.log, self.results = Tail(), Tail()
         self._lines: deque[str] = deque(maxlen=LINES_KEPT)
         self._whole: deque[object] = deque(maxlen=LINES_KEPT)
-        """What each of the results is, where pages get it in words."""
+        """The full values of results that pages get shortened."""
 
     def take(self, event: Event) -> None:
-        """Something happened, and is on record."""
+        """Process a durable event."""
         said = sentence_of(event)
         if said is not None:
             self._lines.append(line_of(event) or "")
@@ -94,23 +94,23 @@ class Feed:
             self._result(event, "verdict", f"{verdict}: {event.get('reason') or said}")
 
     def say(self, time: float, text: str, kind: str = "info") -> None:
-        """Tell what is no event of the flight's."""
+        """Add a line that is not an event of the flight."""
         self._lines.append(f"{time:>8.1f} s  {text}")
         self.log.add(time, None, text, kind)
 
     def console(self) -> str:
-        """Return all lines that are kept, as a text."""
+        """Return all kept lines as text."""
         return "".join(f"{line}\n" for line in self._lines)
 
     def brought(self) -> list[object]:
-        """Return the results that are kept, each with names for its facts."""
+        """Return the kept results, each as a mapping."""
         return [
             dict(zip(FACTS, json.loads(text), strict=False)) | {"value": value}
             for text, value in zip(self.results, self._whole, strict=True)
         ]
 
     def _completed(self, event: Event) -> None:
-        """A trip's action was done: tell what it gave, of what, and where."""
+        """Add the result of a trip's action, with its quantity and place."""
         trip: Any = event["did"]
         action = self._app.actions[trip["action"]]
         usual = {one.name: one.default for one in action.parameters}
@@ -135,16 +135,16 @@ FACTS = (
     *("number", "time", "mission", "trip", "round", "attempt", "drone", "kind", "value"),
     *("action", "target", "parameters", "quantity", "unit"),
 )
-"""What is told of a result, in this order: of a verdict only what stands in the first line."""
+"""The facts of a result, in this order; of a verdict only those in the first line."""
 
 
 def _value(data: Any) -> tuple[str, object]:
-    """Return what kind of result a page must show, and what it is."""
+    """Return the kind of a result for pages, and its value."""
     return "photo" if isinstance(data, dict) and "$photo" in data else "result", _plain(data)
 
 
 def _plain(data: Any) -> object:
-    """Return what is in the journal without the journal's own words."""
+    """Return a value of the journal without the journal's reserved keys."""
     match data:
         case {"$photo": inside} | {"$text": inside} | {"$number": inside}:
             return inside
@@ -157,7 +157,7 @@ def _plain(data: Any) -> object:
 
 
 def _in_words(value: object) -> object:
-    """Return what came of an action as a page shows it."""
+    """Return an action's result as text for a page."""
     match value:
         case None:
             return "nothing"
@@ -174,7 +174,7 @@ _BAD = ("trip.failed", "mission.judged", "mission.uncertain", "mission.held", "d
 
 
 def _kind(event: Event) -> str:
-    """Return how a line is to be shown: `good`, `bad`, `hook` (the app's own words), or `info`."""
+    """Return the style of a line: `good`, `bad`, `hook` (the app's own text), or `info`."""
     kind = event["event"]
     if kind == "log":
         return "hook"

@@ -1,4 +1,4 @@
-"""What pages show of a mission and of a drone, as plain data; and at which blocks a mission is."""
+"""The rows of missions and drones for pages, and the blocks at which a mission waits."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..journal.fold import Record
 
 END = "end"
-"""Where missions are that have ended."""
+"""The pseudo-block of missions that have ended."""
 
 ENDED = (Status.COMPLETED, Status.FAILED, Status.CANCELLED)
 
@@ -37,10 +37,10 @@ _WORD = re.compile(r"\w+")
 
 
 def blocks_of(state: MissionState, flow: Callable[..., Any]) -> tuple[str, ...]:
-    """Return the blocks at which a living mission waits: several within a fork.
+    """Return the blocks at which a running mission waits: several within a fork.
 
-    They are read off its coroutine, which waits below a comment that quotes the block's declaration:
-    so a flight costs nothing more for being watched.
+    They are found by its suspended coroutine, below a comment that quotes the block's declaration, so
+    that observing a flight costs it nothing.
     """
     if state.task is None:
         return (state.at,) if state.at is not None else ()
@@ -48,11 +48,11 @@ def blocks_of(state: MissionState, flow: Callable[..., Any]) -> tuple[str, ...]:
 
 
 _KNOWN: dict[tuple[CodeType, int], str] = {}
-"""Comments that were found before, by the line below them."""
+"""A cache of comments, by the line below them."""
 
 
 def _waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:
-    """Return the declaration of the block at which a mission's coroutine waits; empty: at none."""
+    """Return the declaration of the block at which a mission's coroutine waits, or nothing."""
     file, found = flow.__code__.co_filename, ""
     while coroutine is not None:
         frame: FrameType | None = getattr(coroutine, "cr_frame", None)
@@ -67,7 +67,7 @@ def _waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:
 
 @cache
 def _named(declaration: str) -> tuple[str, ...]:
-    """Read `launch -> [watch, timer] -> first = GateFIFO` as two blocks, `wait = Clock` as one."""
+    """Return the blocks' names: two for `launch -> [watch, timer] -> first = GateFIFO`, one for `wait = Clock`."""
     branches = _BRANCHES.search(declaration.partition("(")[0])
     if branches is not None:
         return tuple(word[0] for part in branches[1].split(",") if (word := _WORD.search(part)))
@@ -78,7 +78,7 @@ def _named(declaration: str) -> tuple[str, ...]:
 Row = dict[str, object]
 
 LONGEST_REASON = 200
-"""Characters of why a drone may not fly; all of it is on the console."""
+"""Characters of the reason why a drone may not fly; the full text is on the console."""
 
 
 def mission_row(
@@ -88,12 +88,12 @@ def mission_row(
     now: float,
     fleet: Callable[[Trip], str],
 ) -> Row:
-    """Return what there is to see of a mission; `fleet` says why no drone flies a trip yet."""
+    """Return the row of a mission; `fleet` returns why no drone flies a trip yet."""
     done, todo = mission.completed_trips, mission.trips
     at = blocks_of(state, app.flow) if state is not None else ()
     status = mission.status
     ends = status in ENDED
-    if ends and state is not None:  # its trips are done; what comes of it, a block has yet to say
+    if ends and state is not None:  # its trips are done; a block has yet to decide
         status, ends = Status.STANDBY, False
     until = _until(state, now)
     current = todo[0] if todo else None
@@ -119,11 +119,11 @@ def mission_row(
 
 
 def recorded_row(name: str, record: Record) -> Row:
-    """Return the same of a mission that nothing but a journal tells of."""
+    """Return the row of a mission from its journal's record."""
     done, todo = record["done"], record["todo"]
     status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
     if status is Status.RUNNING or (status in ENDED and not record["ended"]):
-        status = Status.STANDBY  # it flew, and does no longer; or what comes of it is not said yet
+        status = Status.STANDBY  # it flew, and does so no longer; or its outcome is open
     at = [END] if record["ended"] else [record["at"]] if record["at"] else []
     return {
         "name": name,
@@ -149,9 +149,9 @@ def recorded_row(name: str, record: Record) -> Row:
 def drone_row(
     drone: Drone, mission: str | None, retired: bool, why: str = "", status: str = ""
 ) -> Row:
-    """Return what there is to see of a drone; to the centimetre, and the thousandth.
+    """Return the row of a drone, rounded to centimetres and thousandths.
 
-    `why` is why it may not fly; `status` is its own unless a person had better read another.
+    `why` is why it may not fly; `status` replaces its own status if that would mislead.
     """
     silence = drone.telemetry.silence
     heard = isfinite(silence)
@@ -176,7 +176,7 @@ def drone_at(
     retired: bool,
     why: str,
 ) -> Row:
-    """Return the same of a drone that is not commanded now; `seen` is when it was heard of last."""
+    """Return the row of a drone without a flight; `seen` is the time of its last known state."""
     if seen is None:
         return _drone_row(id, status, None, None, None, trips, retired, why)
     battery = seen.battery if seen.when else None
@@ -184,7 +184,7 @@ def drone_at(
 
 
 def mission_of_each(states: Iterable[MissionState]) -> dict[str, str]:
-    """Return for which mission each drone works, by their names."""
+    """Return the mission of each drone, by name."""
     drones = ((_drone_of(state.mission, state), state.mission.name) for state in states)
     return {drone.id: name for drone, name in drones if drone is not None}
 
@@ -225,7 +225,7 @@ def _trip(trip: Trip) -> list[object]:
 def _recorded_trip(data: Record, status: str) -> list[object]:
     x, y, _ = data["target"]
     stands = data.get("status", status)
-    if stands == TripStatus.EXECUTING.value:  # not known: it will be asked
+    if stands == TripStatus.EXECUTING.value:  # unknown until it has been queried
         stands = TripStatus.WAITING.value
     priority = data.get("fields", {}).get(PRIORITY)
     return [data["name"], stands, round(x, 3), round(y, 3), priority, data["action"]]

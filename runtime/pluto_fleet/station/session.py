@@ -1,4 +1,4 @@
-"""What goes on at a station."""
+"""The current flight of a station."""
 
 from __future__ import annotations
 
@@ -42,22 +42,22 @@ if TYPE_CHECKING:
 
 
 class Phase(Enum):
-    """Whether anything flies, and what can be done next."""
+    """The phase of a station: whether anything flies, and what can be done next."""
 
     IDLE = "idle"
     FLYING = "flying"
     STOPPING = "stopping"
     """All drones are coming down."""
     STOPPED = "stopped"
-    """It was stopped: it can be resumed, or put away."""
+    """It was stopped: it can be resumed, or discarded."""
     INTERRUPTED = "interrupted"
-    """It has ended otherwise than it should: the same."""
+    """It has ended unexpectedly: it can be resumed, or discarded."""
     OVER = "over"
     """Every mission has ended."""
 
 
 def phase_of(session: FlightSession | None) -> Phase:
-    """Return what goes on, by the flight there is."""
+    """Return the phase of a flight."""
     if session is None:
         return Phase.IDLE
     if session.lives:
@@ -74,7 +74,7 @@ def phase_of(session: FlightSession | None) -> Phase:
 
 
 class FlightSession:
-    """A journal, the life that it is gone on with, and what pages show of it."""
+    """A journal, the run that writes it, and its data for pages."""
 
     def __init__(
         self,
@@ -83,9 +83,9 @@ class FlightSession:
         seen: Callable[[], object],
         known: Records | None = None,
     ) -> None:
-        """Begin; `seen` is called when drones were heard of, `ended` when it lives no more.
+        """`seen` is called at each update of telemetry, `ended` when the run has ended.
 
-        `known` is what is known of the drones before anything of it is on record.
+        `known` has the drones' states before the first record.
         """
         self.flight = flight
         self.id = flight.journal.name
@@ -93,44 +93,44 @@ class FlightSession:
         self.missions, self.drones = VersionedRows(), VersionedRows()
         self.stops = Stops()
         self.one: LiveFlight | None = None
-        """What is lived now."""
+        """The current run."""
         self.records: Records | None = known
-        """What the journal said when it was read last."""
+        """The journal's records when it was last read."""
         self.end: End | None = None
-        """How it ended the last time; None: it has not, or its process died."""
+        """How the last run ended; None: it has not, or its process died."""
         self.trouble = ""
-        """Why it could not go on."""
+        """Why it could not be resumed."""
         self.task: asyncio.Task[None] | None = None
         self._ended, self._seen = ended, seen
         self._idle = IdleDrones(flight.fleet.drones, flight.journal)
         self._waiting = WaitReasons(time.monotonic)
         self._left_at = 0.0
         self._read_at: int | None = None
-        """When its journal had been written last, as it was read."""
+        """The journal's modification time when it was last read."""
 
     @property
     def journal(self) -> Path:
-        """Where it is written down."""
+        """The path of the journal."""
         return self.flight.journal
 
     @property
     def lives(self) -> bool:
-        """Whether it goes on now."""
+        """Whether it is running."""
         return self.task is not None and not self.task.done()
 
     @property
     def life(self) -> RecordedFlight | None:
-        """What is lived now, if the drones can be reached."""
+        """The recorded flight, if the gateway is connected."""
         return self.one.life if self.one is not None else None
 
     @property
     def known(self) -> Records | None:
-        """What is on record, as of now."""
+        """The present records."""
         return self.life.recorder.records if self.life is not None else self.records
 
     @property
     def names(self) -> set[str]:
-        """The missions that it has."""
+        """The names of its missions."""
         if self.life is not None and self.life.missions:
             return {mission.name for mission in self.life.missions}
         known = self.records.missions if self.records is not None else {}
@@ -138,7 +138,7 @@ class FlightSession:
 
     @property
     def ends(self) -> dict[str, str]:
-        """How each of its missions has ended."""
+        """The final statuses of its missions."""
         known = self.known.missions if self.known is not None else {}
         return {
             name: str(record["status"]) if record["ended"] else BROKEN_OFF
@@ -146,7 +146,7 @@ class FlightSession:
         }
 
     def read(self, known: Recovered) -> None:
-        """Show what the journal of an ended life says."""
+        """Show the journal of a run that has ended."""
         self.records = known.records
         told = Records()
         with closing(Reader(self.flight.journal)) as reader:
@@ -158,7 +158,7 @@ class FlightSession:
                     self.feed.take(event)
 
     def begin(self, store: Store, known: Recovered | None) -> None:
-        """Let it live, from its beginning or from what is known."""
+        """Run it, from its beginning or from its records."""
         self.end, self.trouble, self.stops = None, "", Stops()
         self.task = asyncio.create_task(self._live(store, known))
         self.task.add_done_callback(lambda _: self._ended())
@@ -171,7 +171,7 @@ class FlightSession:
             self.trouble = str(error)
         except (asyncio.CancelledError, KeyboardInterrupt, SystemExit):
             raise
-        except ANY_ERROR as error:  # a mistake of ours: the drones land, and the page must say so
+        except ANY_ERROR as error:  # a bug: the drones land, and the page must say so
             output.tell("".join(traceback.format_exception(error)).rstrip())
             notes = " ".join(getattr(error, "__notes__", ()))
             self.trouble = f"internal error: {type(error).__name__}: {error} {notes}".strip()
@@ -186,17 +186,17 @@ class FlightSession:
                 self._show_what_counts()
 
     def _show_what_counts(self) -> None:
-        """What could not be written down has not happened: show what the journal says."""
+        """Show the journal's records only: what could not be written has not happened."""
         with suppress(BadInput, OSError):
             self.records = records_in(self.flight.app, self.flight.journal)
 
     def _born(self, one: LiveFlight) -> None:
-        self.records = self.known  # until the drones have been reached anew
+        self.records = self.known  # until the drones are connected again
         self.one = one
         one.on_telemetry(self._seen)
 
     def _hear(self, event: Event) -> None:
-        """Tell the pages, but not within the instant that flies: it must not fail by a console."""
+        """Update the pages outside of the current instant, so that errors there cannot affect the flight."""
         asyncio.get_running_loop().call_soon(self.feed.take, event)
 
     def _say(self, text: str, kind: str = "bad") -> None:
@@ -204,27 +204,29 @@ class FlightSession:
 
     @property
     def now(self) -> float:
-        """Seconds since it first began, in its own time."""
+        """Seconds since its beginning, in its own time."""
         if self.life is not None:
             return self.life.session.core.kernel.time()
         known = self.records.time if self.records is not None else 0.0
-        return max(known, self._left_at)  # that of those who saw the drones down does not go back
+        return max(
+            known, self._left_at
+        )  # the time must not go back for pages that saw the drones landed
 
-    # What pages show
+    # Data for pages
 
     def look(self, number: int) -> bool:
-        """Note what has changed, under this number; say whether anything has."""
+        """Update the rows with this version; return whether anything has changed."""
         self._look_into_the_journal()
         return any([self._see_missions(number), self._see_drones(number)])
 
     def _look_into_the_journal(self) -> None:
-        """While nothing flies, a command may have brought a drone back."""
+        """Read the journal again if it has changed, as a command may have brought a drone back."""
         if self.lives:
             self._read_at = None
             return
         with suppress(OSError):
             if self._read_at not in (None, written(self.journal)):
-                if holder(self.journal) is not None:  # it is read when that has ended
+                if holder(self.journal) is not None:  # read again when that process has ended
                     return
                 self._show_what_counts()
             if self._idle.write_down(self.flight.app, self.records):

@@ -1,4 +1,4 @@
-"""The station: what flies, what pages show of it, and what may be commanded."""
+"""The station: its flight, its commands, and its data for pages."""
 
 from __future__ import annotations
 
@@ -42,33 +42,33 @@ if TYPE_CHECKING:
     from .plan.plan import MissionPlan
 
 ANSWERS_KEPT = 1_000
-"""Commands whose answers are known, if they are asked for once more."""
+"""The number of commands whose answers are kept, in case they are repeated."""
 
 GATEWAY_ANSWERS_WITHIN = 5.0
-"""Seconds for a gateway without a brain to answer."""
+"""The time-out of a gateway without a brain, in seconds."""
 
 LOOK_EVERY = 0.1
-"""Seconds between two looks whether it has ended."""
+"""The polling interval of its end, in seconds."""
 
 
 class Station:
-    """One app, its fleet, the plan that people draw, and what flies of it."""
+    """One app with its fleet, its plan, and its flight."""
 
     def __init__(self, app: App, config: StationConfig, plan: MissionPlan) -> None:
         self._app, self._config, self.plan = app, config, plan
         self.described = described(app, config) | {"server": secrets.token_hex(8)}
         self.session: FlightSession | None = None
-        """What flies, or flew last."""
+        """The current or last flight."""
         self.leaves = asyncio.Event()
-        """Set when the station was told to end and nothing flies any more."""
+        """Set when the station is to end and nothing flies any more."""
         self._leaving = False
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._updates = Updates(self)
         self._one_at_a_time = asyncio.Lock()
         self.history = FleetHistory(app, config)
-        """What is known of the drones while there is no flight."""
+        """The drones' states while there is no flight."""
         self._before: Path | None = None
-        """The folder of the gateway that was put away last: its drones may still be coming down."""
+        """The folder of the last discarded flight's gateway, whose drones may still be landing."""
 
     @property
     def image(self) -> Path | None:
@@ -77,11 +77,11 @@ class Station:
 
     @property
     def phase(self) -> Phase:
-        """What goes on."""
+        """The present phase."""
         return phase_of(self.session)
 
     def begin(self, going_on: bool = False) -> None:
-        """Show the flight that an earlier station, or `fly`, has not brought to its end."""
+        """Show the unfinished flight of an earlier station or of `fly`, if any."""
         self.history.read()
         taken = unfinished_flight(self._app, self._config, going_on)
         if taken is None:
@@ -97,12 +97,12 @@ class Station:
         taken.store.close()
         self._lock_what_flies()
 
-    # What may be commanded
+    # Commands
 
     async def command(self, name: str, id: str, given: Mapping[str, object]) -> str:
-        """Do what is asked for, once; return what was done, or raise `BadInput`.
+        """Carry out a command, once; return what was done, or raise `BadInput`.
 
-        It is idempotent: a command that is sent again under the same id gets the answer of then.
+        It is idempotent: a command that is repeated with the same id gets the same answer.
         """
         arguments = checked(name, given)
         if id in self._answers:
@@ -115,7 +115,7 @@ class Station:
         answer.add_done_callback(_heard)
         while len(self._answers) > ANSWERS_KEPT and next(iter(self._answers.values())).done():
             self._answers.popitem(last=False)
-        return await asyncio.shield(answer)  # the page may go: it is done all the same
+        return await asyncio.shield(answer)  # it is completed even if the page disconnects
 
     async def _do(self, name: str, id: str, given: Mapping[str, object]) -> str:
         match name:
@@ -159,7 +159,7 @@ class Station:
         if given["revision"] not in (None, self.plan.revision):
             raise BadInput("the plan has changed meanwhile: look at it, and start again")
         text = self.plan.export_toml(keys)
-        self.plan.launched(keys)  # before anything flies: it may not be changed from now on
+        self.plan.launched(keys)  # before anything flies: they may not be changed from now on
         try:
             if phase is Phase.FLYING:
                 await self._add(id, missions)
@@ -173,7 +173,7 @@ class Station:
         return f"{counted(len(missions), 'mission')} started{without}"
 
     def _look_at_the_drones(self) -> None:
-        """Raise `BadInput` if none of them may fly."""
+        """Raise `BadInput` if no drone may fly."""
         self.history.read()
         self.history.check_free()
         lost = self.history.lost
@@ -183,14 +183,14 @@ class Station:
             )
 
     def _bring_back(self, id: str, drone: str) -> str:
-        """A person has looked after a drone, while nothing flies."""
+        """Bring a drone back while nothing flies."""
         said = self.history.bring_back(id, drone)
         if self.session is not None:
             self.session.records = self.history.records
         return said
 
     async def _add(self, id: str, missions: list[Mission[Any]]) -> None:
-        """Let missions set out beside those that fly."""
+        """Start more missions while others fly."""
         one = self.session.one if self.session is not None else None
         if one is None:
             raise BadInput(_NOT_YET)
@@ -203,7 +203,7 @@ class Station:
         await one.carry_out(add)
 
     def _lock_what_flies(self) -> None:
-        """Let the missions that the flight has, and no others, be as they are in the plan."""
+        """Lock the flight's missions in the plan, and no others."""
         if self.session is None:
             self.plan.unlock()
         elif self.phase is Phase.OVER:
@@ -245,7 +245,7 @@ class Station:
         self.session.begin(store, None)
 
     def resume(self) -> str:
-        """Go on with what was stopped or interrupted."""
+        """Resume a flight that was stopped or interrupted."""
         if self.phase is Phase.FLYING:
             return "it goes on already"
         if self.phase not in (Phase.STOPPED, Phase.INTERRUPTED) or self.session is None:
@@ -266,7 +266,7 @@ class Station:
                 f"it was gone on with elsewhere (process {elsewhere}): end it there first"
             )
         folder = place.gateway_folder(self.session.journal)
-        with suppress(BadInput):  # nothing flies any more, as it should be
+        with suppress(BadInput):  # the gateway has ended, as expected
             await asyncio.to_thread(stop_directly, folder, Down.LAND, GATEWAY_ANSWERS_WITHIN)
         let_end(folder)
         self._before = folder
@@ -278,7 +278,7 @@ class Station:
         return "put away; its journal is kept"
 
     async def _others_are_down(self) -> None:
-        """Let no second gateway command drones that are still coming down by the one before."""
+        """Raise `BadInput` while an earlier gateway is still landing its drones."""
         if self._config.sim or self._before is None:
             return
         until = asyncio.get_running_loop().time() + GATEWAY_ANSWERS_WITHIN
@@ -292,7 +292,7 @@ class Station:
         self._before = None
 
     async def _stop(self, how: Down) -> str:
-        """Bring all drones down: nothing stands between this and the drones."""
+        """Bring all drones down, without any delay."""
         session = self.session
         if session is None or not session.lives:
             return await self._stop_without_a_brain(how)
@@ -302,7 +302,7 @@ class Station:
         return "stopping, as soon as the drones can be reached"
 
     async def _stop_without_a_brain(self, how: Down) -> str:
-        """The app may have crashed, and its gateway may be bringing the drones down."""
+        """Bring the drones down by the gateway alone, as the app may have crashed."""
         if self.session is not None:
             folder = place.gateway_folder(self.session.journal)
             with suppress(BadInput):
@@ -310,7 +310,7 @@ class Station:
         return "nothing flies"
 
     async def _cut_motors(self, drone: str) -> str:
-        """Let the gateway switch a drone's motors off, past the app."""
+        """Switch a drone's motors off directly by the gateway."""
         if self.session is None:
             raise BadInput("nothing flies")
         folder = place.gateway_folder(self.session.journal)
@@ -321,7 +321,7 @@ class Station:
         except NoAnswer:
             raise BadInput("what commands the drones does not answer") from None
         if not self.session.lives:
-            with suppress(BadInput):  # an app that flies it writes that itself
+            with suppress(BadInput):  # an app that flies it records that itself
                 reason = f"{drone}'s motors were cut"
                 record_loss(self._app, self.session.journal, drone, reason, None)
         return said
@@ -342,7 +342,7 @@ class Station:
         return await session.one.carry_out(do)
 
     def leave(self) -> None:
-        """Let the station end as soon as all drones are down."""
+        """End the station as soon as all drones have landed."""
         self._leaving = True
         if self.session is not None and self.session.lives:
             self.session.stops.stop(Down.LAND)
@@ -350,7 +350,7 @@ class Station:
             self.leaves.set()
 
     def _over(self) -> None:
-        """Nothing flies any more: let the plan be drawn anew, and a station end that waits for it."""
+        """Called when nothing flies any more: unlock the plan, and end the station if it waits for that."""
         self._lock_what_flies()
         if self.session is not None and self.session.records is not None:
             self.history.leave(self.session.journal, self.session.records)
@@ -360,15 +360,15 @@ class Station:
     # What pages show
 
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
-        """Return what has changed since a page looked, as soon as anything has, or in a second."""
+        """Return the changes since a page's last update, as soon as there are any, or after a second."""
         return await self._updates.newer(flight, seen, log, results)
 
     def console(self) -> str:
-        """Return what has happened in the flight, line by line."""
+        """Return the flight's console."""
         return self.session.feed.console() if self.session is not None else ""
 
     def results(self) -> list[object]:
-        """Return what the flight has brought in."""
+        """Return the flight's results."""
         return self.session.feed.brought() if self.session is not None else []
 
 
@@ -376,6 +376,6 @@ _NOT_YET = "the drones are just being asked where they are: try again in a momen
 
 
 def _heard(answer: asyncio.Future[str]) -> None:
-    """The page may have gone: a refusal that is not heard is no mistake."""
+    """Retrieve an exception, as the page may have disconnected."""
     if not answer.cancelled():
         answer.exception()

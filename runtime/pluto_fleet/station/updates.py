@@ -1,7 +1,7 @@
-"""What pages show: one look at the station a tenth of a second, for all that watch.
+"""Updates for pages: the station is sampled ten times a second, once for all pages.
 
-A page says what it has seen, and is told once what has changed since, when anything has. So one that
-does not read costs nothing, and sees the newest state as soon as it does.
+A page sends the version that it has, and gets the changes since, as soon as there are any. So a page that does
+not read costs nothing, and gets the newest state when it does.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
     from .session import FlightSession
 
 LOOK_EVERY = 0.12
-"""Seconds between two looks at what has changed, unless something new is announced."""
+"""The sampling interval in seconds, unless a change is announced."""
 
 LOOK_NO_SOONER = 0.08
-"""Seconds between two looks, however much is new: the drones are heard of ten times a second."""
+"""The shortest sampling interval in seconds, however much changes."""
 
 ANSWER_WITHIN = 1.0
-"""Seconds after which a page is answered, though nothing has changed."""
+"""Seconds after which a page is answered even without changes."""
 
 
 class StationState(Protocol):
-    """What there is to see."""
+    """The data of a station that pages show."""
 
     described: dict[str, object]
     session: FlightSession | None
@@ -40,13 +40,13 @@ class StationState(Protocol):
 
 
 class Updates:
-    """The newest state of a station, and what of it is new to whom."""
+    """The newest state of a station, with the versions of its parts."""
 
     def __init__(self, station: StationState) -> None:
         self._station = station
         self._number, self._state = 0, ""
         self.drones = VersionedRows()
-        """Those that are seen while there is no flight."""
+        """The drones' rows while there is no flight."""
         self._tick: asyncio.Future[None] | None = None
         self._timer: asyncio.Handle | None = None
         self._ticked_at = 0.0
@@ -67,7 +67,7 @@ class Updates:
                 return self._told(session, seen, log, results)
 
     async def _next_tick(self) -> None:
-        """Wait for the next look, which all pages share."""
+        """Wait for the next sample, which all pages share."""
         loop = asyncio.get_running_loop()
         if self._tick is None:
             self._tick = loop.create_future()
@@ -75,9 +75,9 @@ class Updates:
         await asyncio.shield(self._tick)
 
     def hurry(self) -> None:
-        """The drones were just heard of: look now, and what is seen of them is new.
+        """Sample soon: there is new telemetry.
 
-        Not within this call: what flies must not fail by what is shown of it.
+        Not within this call, so that errors of the display cannot affect the flight.
         """
         loop = asyncio.get_running_loop()
         if self._timer is not None and loop.time() - self._ticked_at >= LOOK_NO_SOONER:
@@ -92,7 +92,7 @@ class Updates:
         self._ticked_at = asyncio.get_running_loop().time()
         try:
             self._note_what_is_new()
-        finally:  # pages are answered though something could not be shown
+        finally:  # pages are answered even if a sample has failed
             if tick is not None:
                 tick.set_result(None)
 
@@ -140,7 +140,7 @@ class Updates:
 
 
 def _busy(session: FlightSession | None) -> str:
-    """Return for what all have to wait."""
+    """Return what all missions wait for."""
     if session is None or not session.lives:
         return ""
     if session.life is None:

@@ -1,7 +1,6 @@
-"""Why a mission waits for a drone, and which free drone is ready: what allocation knows, in words.
+"""Why a mission waits for a drone, and which free drone is ready, from the allocation's data.
 
-Nothing is worked out here that the queue has not worked out already: routes take long, and what
-flies waits meanwhile.
+Only what the queue has computed already is used, as searching routes would delay the flight.
 """
 
 from __future__ import annotations
@@ -21,9 +20,9 @@ if TYPE_CHECKING:
     from ..flight.live_fleet import LiveFleet
 
 LOOK_EVERY = 3.0
-"""Seconds after which it is looked at anew."""
+"""Seconds after which a reason is updated."""
 MISSIONS_A_LOOK = 10
-"""Missions of which it is found out in one look: there may be hundreds."""
+"""The most missions whose reasons are updated in one sample: there may be hundreds."""
 
 _DOES = {
     DroneStatus.BUSY: "flying",
@@ -35,7 +34,7 @@ _DOES = {
 
 
 class WaitReasons:
-    """What is said of those who wait; asked for at each look, and found out now and then."""
+    """The reasons of waiting missions, cached between updates."""
 
     def __init__(self, clock: Callable[[], float]) -> None:
         self._clock = clock
@@ -46,7 +45,7 @@ class WaitReasons:
         self._left = MISSIONS_A_LOOK
 
     def look(self, fleet: LiveFleet) -> None:
-        """Begin a look at all missions and drones."""
+        """Begin a sample of all missions and drones."""
         now, self._left = self._clock(), MISSIONS_A_LOOK
         if now - self._looked >= LOOK_EVERY:
             self._looked = now
@@ -57,7 +56,7 @@ class WaitReasons:
             }
 
     def why(self, fleet: LiveFleet, trip: Trip) -> str:
-        """Say why no drone flies a trip yet; empty: that is found out at one of the next looks."""
+        """Return why no drone flies a trip yet; empty: not known yet."""
         now = self._clock()
         since, said = self._known.get(id(trip), (-LOOK_EVERY, ""))
         request = self._requests.get(id(trip))
@@ -68,7 +67,7 @@ class WaitReasons:
         return said
 
     def why_low(self, fleet: LiveFleet, drone: Drone) -> str:
-        """Return why a free drone is not ready for all that; empty: it is."""
+        """Return why a free drone is not ready; empty: it is."""
         if drone.status is not DroneStatus.FREE:
             return ""
         if drone in self._low:
@@ -77,7 +76,7 @@ class WaitReasons:
 
 
 def why_no_drone(fleet: LiveFleet, request: Request) -> str:
-    """Say what keeps each drone of the fleet from flying what a mission waits for."""
+    """Return what keeps each drone of the fleet from flying a waiting trip."""
     queue, able = fleet.queue, 0
     low: list[tuple[float, float, float]] = []
     does: Counter[str] = Counter()
@@ -110,7 +109,7 @@ def why_no_drone(fleet: LiveFleet, request: Request) -> str:
 
 
 def _never(request: Request, drone: Drone, is_known: bool) -> str | None:
-    """Return why a drone can never fly it, as far as that is known or plain to see."""
+    """Return why a drone can never fly it, as far as known."""
     category, trip = drone.category, request.trip
     if is_known or not category.can(trip.action):
         return request.never(drone)

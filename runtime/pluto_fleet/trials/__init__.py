@@ -1,1 +1,1 @@
-"""What must hold of every run, and the runs in which everything goes wrong that can."""
+"""Trials of an app with all kinds of faults, and the invariants that every run must satisfy."""

@@ -20,7 +20,7 @@ def run(name: str, words: list[str]) -> int:
     from .command import test
 
     def by_itself(words: list[str]) -> int:
-        """Run the same with other words, in a new process; return the exit code."""
+        """Run this program with other arguments in a new process; return the exit code."""
         command = [sys.executable, "-P", "-m", "pluto_fleet.trials", name, *words]
         return subprocess.run(command, capture_output=True, check=False).returncode
 
@@ -28,7 +28,7 @@ def run(name: str, words: list[str]) -> int:
     guard_hooks()
     ending = ExitCode(name)
     with ending:
-        # a hook may raise a KeyboardInterrupt, or end the process, and is found then
+        # a hook may raise KeyboardInterrupt or end the process, which is found then
         with interrupted_by_a_person(), refused():
             app = loaded(lambda: import_module(f"{name}.flow").APP)
             ending.code = test(app, words, by_itself)
@@ -37,7 +37,7 @@ def run(name: str, words: list[str]) -> int:
 
 
 def main(name: str, words: list[str]) -> int:
-    """Meet the app's brain first: what is imported after that is the app's own."""
+    """Bind the app's brain first, so that later imports use it."""
     brain = f"{name}._runtime"
     seam = import_module(f"{brain}.command").SEAM
     return run(name, words) if meet(name, brain, seam) else 2

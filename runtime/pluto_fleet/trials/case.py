@@ -1,4 +1,4 @@
-"""One run to be tried: what is flown, what goes wrong by itself, and what strikes it when."""
+"""A case: the missions of a run, its random faults, and its strikes, faults at given times."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ if TYPE_CHECKING:
 
 
 class StrikeKind(Enum):
-    """What can strike. The words are those of the command line."""
+    """The kinds of strikes, with their names on the command line."""
 
-    CRASH = "crash"  # the brain dies once the row is durable and what waited for it was told
+    CRASH = "crash"  # the brain dies after the row is durable and its waiting calls were made
     KEPT = (
-        "crash-kept"  # the brain dies: the row is durable, and nothing that waited for it was told
+        "crash-kept"  # the brain dies after the row is durable, before its waiting calls are made
     )
     LOST = "crash-lost"  # the brain dies before the row is durable
-    FREEZE = "freeze"  # the brain stands still, another is started, and then the first goes on
+    FREEZE = "freeze"  # the brain hangs, another is started, and then the first continues
     RTL = "rtl"  # everything is stopped, and all drones fly home
     LAND = "land"  # everything is stopped, and all drones land where they are
     GATEWAY = "gateway"  # the gateway dies
     CUT = "cut"  # brain and gateway lose one another
-    REPORT = "report"  # the next report is not heard, and the line is broken with it
-    REBOOT = "reboot"  # a drone is switched off and on again; in the air it sinks
+    REPORT = "report"  # the next report is lost, and the connection with it
+    REBOOT = "reboot"  # a drone restarts; in the air it sinks
     FALL = "fall"  # a drone falls down
     PAUSE = "pause"
     SKIP = "skip"
     CANCEL = "cancel"
-    DISK = "disk"  # from this row on nothing can be written
+    DISK = "disk"  # no row can be written from this one on
 
     __hash__ = object.__hash__
 
@@ -48,13 +48,13 @@ BY_HAND = (StrikeKind.PAUSE, StrikeKind.SKIP, StrikeKind.CANCEL)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Strike:
-    """One of them."""
+    """A fault at a given row."""
 
     kind: StrikeKind
     row: int
-    """At which row of the journal, counted from 1 over all lives of the app."""
+    """The row of the journal, counted from 1 over all runs of the app."""
     after: float = 0.0
-    """So many seconds later."""
+    """Seconds after that row."""
 
     def __str__(self) -> str:
         later = f"+{number(self.after)}" if self.after else ""
@@ -62,7 +62,7 @@ class Strike:
 
 
 def strike_of(text: str) -> Strike:
-    """Read what `str` writes: `crash@12`, `rtl@3+1.5`; raise `ValueError` where it is no strike."""
+    """Parse `crash@12` or `rtl@3+1.5`; raise `ValueError` if it is invalid."""
     match = _BLOW.fullmatch(text)
     if match is None:
         raise ValueError(f"{text} is not written like crash@12 or rtl@3+1.5")
@@ -74,14 +74,14 @@ def strike_of(text: str) -> Strike:
 
 
 def strikes_of(text: str) -> tuple[Strike, ...]:
-    """Read several, with commas or spaces between them; `-` is none."""
+    """Parse several, separated by commas or spaces; `-` is none."""
     if text.strip() == "-":
         return ()
     return tuple(strike_of(part) for part in re.split(r"[,\s]+", text.strip()) if part)
 
 
 def strikes_text(strikes: Sequence[Strike]) -> str:
-    """Write several as one word of a command line."""
+    """Format several as one word of a command line."""
     return ",".join(map(str, strikes))
 
 
@@ -90,22 +90,22 @@ _BLOW = re.compile(r"([a-z-]+)@([1-9]\d{0,8})(?:\+(\d{1,6}(?:\.\d{1,6})?))?")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Weather:
-    """What goes wrong by itself: shares from 0 to 1, or seconds. The names are the command line's."""
+    """Random faults: probabilities from 0 to 1, or seconds, with their names on the command line."""
 
     crash: float = 0.0
-    """Flights that crash."""
+    """The share of flights that crash."""
     link: float = 0.0
-    """Flights that lose their link."""
+    """The share of flights that lose their link."""
     action: float = 0.0
-    """Flights whose action fails."""
+    """The share of flights whose action fails."""
     battery: float = 0.0
-    """Flights whose battery is empty all at once."""
+    """The share of flights whose battery is suddenly empty."""
     hook: float = 0.0
-    """Calls of hooks that raise an unexpected error."""
+    """The share of hook calls that raise an unexpected error."""
     block: float = 0.0
-    """Calls of hooks that take half a minute."""
+    """The share of hook calls that take half a minute."""
     late: float = 0.0
-    """Wake-ups that come late."""
+    """The share of wake-ups that come late."""
     slow: float = 0.0
     """Seconds that a message takes between app and gateway, each way."""
     radio: float = 0.0
@@ -113,25 +113,25 @@ class Weather:
     disk: float = 0.0
     """Seconds until a row of the journal is durable."""
     jump: float = 0.0
-    """Seconds by which the clock of the machine is set on while the app is down; less than 0: back."""
+    """Seconds by which the machine's clock is changed while the app is down."""
     down: float = 1.0
-    """Seconds until a crashed app is started again."""
+    """Seconds until a crashed app is restarted."""
     snapshot: float = 0.0
-    """Lives that begin with a snapshot and not with the first row of the journal."""
+    """The share of runs that resume from a snapshot and not from the first row."""
 
 
 FAIR = Weather()
 
 _SHARES = ("crash", "link", "action", "battery", "hook", "block", "late", "snapshot")
 _MOST = 3_600.0
-"""Seconds, of all others but `jump`: an app that is kept waiting for longer need not be at fault."""
+"""The largest seconds of all but `jump`: with longer delays an app may rightly fail."""
 _LONGEST_JUMP = 1e10
 """Seconds: a clock may well begin in 1970."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
-    """All that a run depends on besides the app. The missions are never flown themselves."""
+    """Everything that a run depends on besides the app. The missions are copied for each run."""
 
     seed: int
     missions: tuple[Mission[Any], ...]
@@ -141,14 +141,14 @@ class Case:
 
 
 def fresh(mission: Mission[Any]) -> Mission[Any]:
-    """Return a mission to fly: what changes in flight is a copy."""
+    """Return a copy of a mission to fly."""
     flown = copy(mission)
     flown.trips, flown.completed_trips = [copy(trip) for trip in mission.trips], []
     return flown
 
 
 def weather_of(text: str) -> Weather:
-    """Read `crash=0.1,slow=0.4`; raise `ValueError` where it says nothing."""
+    """Parse `crash=0.1,slow=0.4`; raise `ValueError` if it is invalid."""
     given: dict[str, float] = {}
     known = [field.name for field in fields(Weather)]
     for part in text.split(","):
@@ -172,7 +172,7 @@ def _bounds(name: str) -> tuple[float, float]:
 
 
 def weather_text(weather: Weather) -> str:
-    """Write what is not fair of it as one word of a command line."""
+    """Format the faults as one word of a command line."""
     return ",".join(
         f"{field.name}={number(value)}"
         for field in fields(Weather)
@@ -221,7 +221,7 @@ WORDS: Mapping[str, str] = {
     "flight: battery": "a drone ran out of battery",
     "flight: action": "an action failed",
 }
-"""Everything of which it is counted how often it has struck."""
+"""All faults whose occurrences are counted."""
 WRITTEN: Mapping[str, str] = {
     **{kind.value: f"--strike {kind.value}" for kind in StrikeKind},
     "slow line": "--weather slow",

@@ -37,19 +37,19 @@ if TYPE_CHECKING:
 FOUND, BAD_INPUT = 1, 2
 
 STRUCK_EVERYWHERE = 3
-"""Of so many seeds, what can strike does so at every row of the journal."""
+"""The number of seeds for which every strike is tried at every row."""
 MOST_FINDINGS = 5
-"""After so many findings the search ends."""
+"""The number of findings after which the search ends."""
 
 _WRONG = attrgetter("wrong")
 
 
 ByItself = Callable[[list[str]], int]
-"""Tries in a new process what its words ask for, and returns the exit code."""
+"""Runs the program with these arguments in a new process, and returns the exit code."""
 
 
 def test(app: App, argv: Sequence[str], by_itself: ByItself | None = None) -> int:
-    """Try the app, say what was found, and return the exit code."""
+    """Try the app, report the findings, and return the exit code."""
     try:
         options = parse(argv)
     except SystemExit as end:
@@ -89,7 +89,7 @@ def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
     except KeyboardInterrupt:
         if not tally.runs:
             raise
-        interrupted = True  # what was tried and found is told all the same
+        interrupted = True  # what was found so far is reported
     finally:
         progress.clear()
     if not tally.runs:
@@ -105,7 +105,7 @@ def _tried(app: App, options: Options, by_itself: ByItself | None) -> int:
 
 
 def _simulated(fleet: FleetFile) -> FleetFile:
-    """Return the fleet without what is for real drones: with fewer drones it might not fit them."""
+    """Return the fleet without its settings for real drones."""
     plain = FleetFile(airspace=fleet.airspace, drones=())
     return replace(
         fleet,
@@ -122,12 +122,12 @@ def _simulated(fleet: FleetFile) -> FleetFile:
 
 @dataclass(slots=True)
 class _Extent:
-    """How far the work is, and how much there is of it."""
+    """The progress of the work."""
 
     seeds: int = 0
-    """Of which anything was tried."""
+    """The number of seeds begun."""
     runs: float = inf
-    """How many there will have been, as far as that is known."""
+    """The expected number of runs, as far as known."""
 
 
 def _cases(
@@ -151,7 +151,7 @@ def _so_far(tally: Tally, way: _Extent, options: Options) -> str:
 
 
 def _smallest(app: App, first: Finding, fails: Callable[[Case], bool]) -> Finding | None:
-    """Make a finding small; it still shows the same mistake. None: not even its own case does so."""
+    """Shrink a finding to a small case with the same violation; None: its own case does not reproduce it."""
     if not fails(first.case):
         return None
     small = shrunk(first.case, fails)
@@ -159,7 +159,7 @@ def _smallest(app: App, first: Finding, fails: Callable[[Case], bool]) -> Findin
 
 
 def _shows(app: App, small: Finding, by_itself: ByItself) -> bool:
-    """Say whether a case shows it where no earlier run has left anything behind, as in hooks.py."""
+    """Return whether a case shows it in a new process, without state left by earlier runs."""
     with TemporaryDirectory() as folder:
         missions, fleet = Path(folder) / "missions.toml", Path(folder) / "fleet.toml"
         missions.write_text(missions_text(app, small.case.missions), encoding="utf-8")
@@ -190,7 +190,7 @@ def _once_more(
 
 
 def _missions(app: App, fleet: FleetFile, options: Options) -> list[Mission[Any]]:
-    """Return the missions of the file, if there is one; what repeats for ever repeats once."""
+    """Return the missions of the file, if any; endless repetitions are limited to one."""
     if options.missions is None:
         return []
     missions = load_missions(options.missions, app, fleet.airspace)

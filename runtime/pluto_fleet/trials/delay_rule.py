@@ -1,4 +1,4 @@
-"""What must be true of delays: each is waited for once, whole, and what is left of it is kept."""
+"""The invariant of delays: each is waited for once, in full, also over interruptions."""
 
 from __future__ import annotations
 
@@ -13,23 +13,22 @@ DelayPlace = tuple[object, object, object, object, int]
 """Mission, block, trip, round, attempt."""
 
 _ROUNDED = 0.002
-"""Seconds. Events say their times with so few decimals."""
+"""Seconds of tolerance: the events' times are rounded."""
 
 
 class DelaysAreWaited:
-    """No trip gets a drone before its delay is over, nor waits for it twice.
+    """No trip is allocated a drone before its delay is over, or waits for it twice.
 
-    While everything is stopped, or the mission is paused, no time of it runs; after a crash time has gone
-    on.
+    A delay stands still while everything is stopped or the mission is paused, but not during a crash.
     """
 
     def __init__(self, say: Say) -> None:
         self._say = say
         self._delay: dict[object, _Delay] = {}
-        """By mission, what it waits for."""
+        """By mission, its present delay."""
         self._waited: set[DelayPlace] = set()
         self._tries: dict[tuple[object, object], int] = {}
-        """By mission and trip, which attempt it is; 1 if it is not here."""
+        """By mission and trip, the attempt; 1 if missing."""
         self._round: dict[object, object] = {}
         self._stopped = False
         self.hears = {
@@ -136,24 +135,24 @@ class DelaysAreWaited:
 
 
 class _Delay:
-    """One that is not over."""
+    """A pending delay."""
 
     __slots__ = ("begins", "over", "paused", "place", "rest", "until")
 
     def __init__(self, place: DelayPlace, over: float, until: float) -> None:
         self.place, self.over, self.until = place, over, until
         self.begins = until if until > over else 0.0
-        """A time of day, for which a Stop changes nothing."""
+        """A time of day, which a Stop does not change."""
         self.rest: float | None = None
-        """What is left of it, while no time of it runs."""
+        """The remaining seconds while it stands still."""
         self.paused = False
 
     def stand(self, event: Event) -> None:
-        """From now on no time of it runs."""
+        """Suspend it."""
         if self.rest is None:
             self.rest = self.over - float(str(event["t"]))
 
     def run(self, event: Event) -> None:
-        """From now on it is waited for."""
+        """Continue it."""
         if self.rest is not None:
             self.over, self.rest = float(str(event["t"])) + self.rest, None

@@ -1,4 +1,4 @@
-"""What must be true of drones, and of what they carry."""
+"""The invariants of drones and items."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 UNWELL = ("drone.recovering", "drone.lost", "drone.charging", "drone.offline")
 
 _GROUND = 0.05
-"""Metres: a drone that stands is no higher."""
+"""The largest height of a drone on the ground, in metres."""
 
 
 class ServesOneMission:
-    """A drone gets a second trip only after its first ended and it was free again.
+    """A drone gets another trip only after its last one ended and it was free again.
 
-    A mission may be given again the drone that it holds: it was not launched yet, or has its item.
-    When an app goes on, no drone is free before all were asked.
+    A mission may be allocated the drone that it holds: one not launched yet, or with its item. When an
+    app resumes, no drone is free before all were queried.
     """
 
     def __init__(self, say: Say) -> None:
@@ -28,7 +28,7 @@ class ServesOneMission:
         self._holder: dict[object, object] = {}
         self._away: dict[object, None] = {}
         self._free_since: dict[object, None] | None = None
-        """The drones that have been free in this life of an app that keeps a journal."""
+        """The drones that have been free in this run of an app with a journal."""
         self.hears = {
             "brain.began": self._begin,
             "drone.free": self._free,
@@ -70,9 +70,9 @@ class ServesOneMission:
 
 
 class StaysDown:
-    """No drone that recovers, charges or is lost is given to a mission; a lost one stays lost.
+    """No drone that recovers, charges or is lost is allocated; a lost one stays lost.
 
-    A free drone stands on the ground.
+    A free drone is on the ground.
     """
 
     def __init__(self, say: Say) -> None:
@@ -91,7 +91,7 @@ class StaysDown:
             self._say(f"{at(event)}: {event['event']} with {event['drone']} after {state}")
 
     def _begin(self, _: Event) -> None:
-        self._state.clear()  # a person may have mended it; it is asked
+        self._state.clear()  # it may have been repaired, and is queried
 
     def _become(self, event: Event) -> None:
         drone = event["drone"]
@@ -105,13 +105,13 @@ class StaysDown:
 
 
 class ItemsStayAboard:
-    """From pick to release a mission's item stays with one drone, and that drone with it."""
+    """From pick to release a mission's item stays with one drone, and that drone with the mission."""
 
     def __init__(self, items: Mapping[str, Mapping[str, str]], say: Say) -> None:
         self._say = say
         self._items = items
         self._carrier: dict[object, tuple[object, str]] = {}
-        """By mission: which drone has its item aboard, and which trip releases it."""
+        """By mission: the drone with its item, and the trip that releases it."""
         self.hears: Mapping[str, Hears] = {
             "trip.allocated": self._serve,
             "trip.launched": self._serve,

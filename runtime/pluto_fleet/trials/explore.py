@@ -1,4 +1,4 @@
-"""Which cases are tried: everything that can strike, at every row of a journal, or drawn by a seed."""
+"""Choosing cases: every strike at every row of a journal, or random ones."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from .record import TrialResult
 
 TRIES = 50
-"""So often is a mission drawn until the fleet can fly it."""
+"""How often a mission is drawn until the fleet can fly it."""
 
 _TIMES = (0.0, 2.0, 5.0, 12.0, 30.0)
 _VALUES: dict[Type, Plain] = {
@@ -39,7 +39,7 @@ _VALUES: dict[Type, Plain] = {
     Type.PERCENT: 0.5,
     Type.TEMPERATURE: 293.15,
 }
-"""What is given where an action has no default; any other number is 1."""
+"""Values of parameters without a default; other numbers are 1."""
 
 
 def random_missions(app: App, fleet: FleetFile, seed: int) -> list[Mission[Any]]:
@@ -125,13 +125,13 @@ class _Generator:
 
 
 FORGOTTEN = 100
-"""After so many trials the memory that they took is given back."""
+"""The number of trials between two garbage collections."""
 
 _MOMENTS = (0.0, 0.0, 0.4, 1.1, 2.2, 7.0)
-"""Seconds after a row at which something strikes: also while an action is under way."""
+"""Seconds after a row for strikes, also during an action."""
 _MOST_ROWS = 100
 _MIDST = 0.6
-"""Seconds before an action is done."""
+"""Seconds before the end of an action, for a strike in its midst."""
 _IN_THE_MIDST = (
     (StrikeKind.CRASH,),
     (StrikeKind.GATEWAY,),
@@ -143,12 +143,12 @@ _IN_THE_MIDST = (
     (StrikeKind.CRASH, StrikeKind.GATEWAY),
 )
 _BEYOND = 14
-"""Rows among which the next strike of a drawn case falls."""
+"""The range of rows for the next strike of a random case."""
 
 
 @dataclass(slots=True, kw_only=True)
 class Finding:
-    """A case in which something was that may not be."""
+    """A case with a violation."""
 
     case: Case
     sentences: tuple[str, ...]
@@ -156,13 +156,13 @@ class Finding:
 
 @dataclass(slots=True, kw_only=True)
 class Tally:
-    """What came of many cases."""
+    """The outcome of many cases."""
 
     runs: int = 0
     rows: int = 0
     lives: int = 0
     missions: Counter[str] = field(default_factory=Counter)
-    """How many ended with which status."""
+    """The number of missions by their final status."""
     fired: Counter[str] = field(default_factory=Counter)
     findings: list[Finding] = field(default_factory=list)
 
@@ -174,7 +174,7 @@ def explored(
     enough: Callable[[Tally], bool],
     wrong: Callable[[TrialResult], tuple[str, ...]] = lambda trial: trial.wrong,
 ) -> None:
-    """Try one case after the other, until all are tried or it is enough; `wrong` says what to find."""
+    """Try cases until all are tried or enough is found; `wrong` returns the violations of a run."""
     for case in cases:
         if enough(tally):
             return
@@ -194,10 +194,10 @@ def explored(
 
 
 def everywhere(app: App, case: Case) -> Iterator[Case]:
-    """Yield the case with each death and each Stop at every row of its journal, and with both.
+    """Yield the case with each crash and each Stop at every row of its journal, and with both.
 
-    Of a long journal it is every second row, or third, and so on. In the midst of every action
-    there die brain and gateway, and drones forget.
+    Of a long journal only every n-th row is used. In the midst of every action, brain and gateway
+    crash, and drones restart.
     """
     if not case.missions:
         return
@@ -223,7 +223,7 @@ def everywhere(app: App, case: Case) -> Iterator[Case]:
 def small_case(
     app: App, fleet: FleetFile, seed: int, missions: Sequence[Mission[Any]] = ()
 ) -> Case:
-    """Return a case to strike everywhere: small missions, and weather that is fair every other time."""
+    """Return a small case for `everywhere`; every other one has no random faults."""
     weather = FAIR if seed % 2 == 0 else random_weather(Random(f"{seed}/weather"))
     flown = missions or random_missions(app, fleet, seed)
     return Case(seed=seed, missions=tuple(flown), fleet=fleet, weather=weather)
@@ -232,7 +232,7 @@ def small_case(
 def random_case(
     app: App, fleet: FleetFile, seed: int, missions: Sequence[Mission[Any]] = ()
 ) -> Case:
-    """Return a case in which anything may strike, by a seed."""
+    """Return a random case with any strikes."""
     rng = Random(f"{seed}/case")
     strikes = []
     row = 0
@@ -242,7 +242,7 @@ def random_case(
             Strike(kind=rng.choice(tuple(StrikeKind)), row=row, after=rng.choice(_MOMENTS))
         )
         if rng.random() < 0.5:
-            row = max(0, row - _BEYOND // 2)  # something else soon after, or during recovery
+            row = max(0, row - _BEYOND // 2)  # another strike soon after, or during recovery
     return Case(
         seed=seed,
         missions=tuple(missions or random_missions(app, fleet, seed)),
@@ -253,7 +253,7 @@ def random_case(
 
 
 def random_weather(rng: Random) -> Weather:
-    """Return some weather."""
+    """Return random faults."""
     share = (0.0, 0.0, 0.1, 0.3)
     return Weather(
         crash=rng.choice(share),

@@ -1,8 +1,8 @@
-"""What must be true of every run of every app with any faults: read off its events.
+"""The invariants of every run of every app with any faults, checked on its events.
 
-The rules know nothing of how the runtime works inside. They are told one event after the other (see
-`trace.py`), so a run may be as long as it likes, and they cost little beside it. A run may have
-several lives: an app that was stopped or that crashed goes on, and its events with it.
+The rules are independent of the runtime's implementation. They process one event after the other (see
+`trace.py`), so a run may be of any length, and they cost little. A journal may hold several runs of an app
+that was stopped or crashed and resumed.
 """
 
 from __future__ import annotations
@@ -51,11 +51,11 @@ RULES: tuple[Callable[[Say], Rule], ...] = (
     ServesOneMission,
     StaysDown,
 )
-"""Those that need the events alone."""
+"""The rules that need only the events."""
 
 
 class Invariants:
-    """The rules of one run. Tell `take` every event, and `over` at the end."""
+    """Checks all rules: call `take` with every event, and `over` at the end."""
 
     def __init__(self, items: Items, rules: Sequence[Callable[[Say], Rule]] | None = None) -> None:
         self.found: list[str] = []
@@ -66,7 +66,7 @@ class Invariants:
         self._now = 0.0
 
     def take(self, event: Event) -> None:
-        """Something happened."""
+        """Process an event."""
         now: Any = event["t"]
         if now < self._now:
             self.found.append(f"{at(event)}: {event['event']} comes after {self._now:g} s")
@@ -75,14 +75,14 @@ class Invariants:
             hear(event)
 
     def over(self) -> list[str]:
-        """Return what is wrong with the whole run, with what should have happened and has not."""
+        """Return all violations of the run, also by what should have happened."""
         for hear in self._hears[OVER]:
             hear({"t": self._now, "event": OVER})
         return self.found
 
 
 class _Hears(dict[object, tuple[Hears, ...]]):
-    """Who hears of each kind of event: by its name, else by what stands before the dot."""
+    """The rules for each kind of event, by its full name or its family."""
 
     def __init__(self, rules: Sequence[Rule]) -> None:
         super().__init__()
@@ -96,7 +96,7 @@ class _Hears(dict[object, tuple[Hears, ...]]):
 
 
 def violations(trace: Iterable[Event], items: Items) -> list[str]:
-    """Return what is wrong with a whole run, from the first mission's creation to the last's end."""
+    """Return all violations of a complete run."""
     invariants = Invariants(items)
     for event in trace:
         invariants.take(event)
@@ -104,7 +104,7 @@ def violations(trace: Iterable[Event], items: Items) -> list[str]:
 
 
 def items_of(missions: Iterable[Mission[Any]]) -> Items:
-    """Return which trips of a plan pick items, and which release them."""
+    """Return the trips of a plan that pick items, with the trips that release them."""
     items: dict[str, dict[str, str]] = {}
     for mission in missions:
         picked = ""

@@ -1,4 +1,4 @@
-"""One life of an app in a trial: what it writes down, what strikes it, and how it ends."""
+"""The runs of an app in a trial: their journals, their faults, and their ends."""
 
 from __future__ import annotations
 
@@ -29,25 +29,25 @@ if TYPE_CHECKING:
     from .case import Case
 
 HEARTBEAT_WITHIN = 3.0
-"""Seconds without a brain after which the gateway lands everything."""
+"""Seconds without a heartbeat after which the gateway lands everything."""
 UNAWARE_FOR = 20
-"""Seconds for which a brain goes on after another has taken over."""
+"""Seconds for which a stale brain goes on after another has taken over."""
 MOST_LIVES = 40
 LONGEST_TRIAL = 7 * 86_400.0
-"""Seconds, delays apart. A mission that has not ended by then never will."""
+"""Seconds, without delays, after which a mission counts as endless."""
 PERSON_LOOKS_AFTER = 20.0
-"""Seconds after which a person looks, and decides."""
+"""Seconds after which the simulated user answers questions."""
 STOPPED_FOR = 45.0
-"""Seconds for which an app that was stopped stays so."""
+"""Seconds after which a stopped app is resumed."""
 
 _read = json.JSONDecoder().raw_decode
-"""A row begins and ends with its list: there is nothing around it to look for."""
+"""Parses a row, which is exactly one JSON list."""
 
 _NONE: frozenset[StrikeKind] = frozenset()
 
 
 class TrialLife:
-    """One life, in the run."""
+    """One run of the app within a trial."""
 
     def __init__(self, run: TrialRun, records: Records) -> None:
         self.run, case = run, run.case
@@ -61,7 +61,7 @@ class TrialLife:
         self.added = self.committed = 0
         self.unwritten: deque[tuple[int, str, list[Event]]] = deque()
         self.unknown: dict[str, None] = {}
-        """The missions of which something is not on record."""
+        """The missions with events that are not durable."""
         self.full = False
         planned = () if records.missions else tuple(map(fresh, case.missions))
         self.before: dict[str, MissionMemory] = {} if planned else dict(run.record.known)
@@ -80,7 +80,7 @@ class TrialLife:
         run.later(PERSON_LOOKS_AFTER, self.person)
 
     def take_turn(self) -> None:
-        """Let it do what is due."""
+        """Process what is due."""
         kernel, run = self.kernel, self.run
         kernel.drain()
         if kernel.settled is not None:
@@ -98,33 +98,33 @@ class TrialLife:
             return
         if error is not None:
             run.blame(error)
-        elif self.committed == self.added:  # else what happened last is not durable yet
+        elif self.committed == self.added:  # else the last events are not durable yet
             run.ended(self)
 
     def hook_returned(self, hook: Callable[..., object], args: tuple[object, ...]) -> None:
-        """What an action of the app's own does is done to the world, if its drone is still there."""
+        """Apply an action of the app's own to the world, if its drone is still there."""
         if self.run.brain is self:
             self.run.record.hook_did(hook, args, self.run.world.now)
 
     def go_on_unaware(self) -> None:
-        """Go on although another brain has taken over."""
+        """Continue as a stale brain after another has taken over."""
         self.kernel.now = max(self.kernel.now, self.run.world.now + self.skew)
         self.kernel.drain()
         if self.kernel.settled is not None:
             self.kernel.settled()
 
     def sent(self, job: str) -> None:
-        """A drone is sent on its way."""
+        """Called when a job is given to a drone."""
         if self.run.brain is self and not self.run.record.once.knows(job):
             self.run.found.append(f"{self.kernel.now:g} s: {job} set out before that was on record")
 
     # The journal
 
     def add(self, row: str) -> int:
-        """Take the row of an instant."""
+        """Add the row of an instant."""
         run = self.run
         self.added += 1
-        if run.brain is not self:  # another life has the journal by now
+        if run.brain is not self:  # another run has the journal by now
             return self.added
         run.record.times.append(run.world.now)
         events: list[Event] = _read(row)[0]
@@ -152,7 +152,7 @@ class TrialLife:
         return self.added
 
     def commit(self, number: int, told: bool) -> None:
-        """All rows up to this one are durable, if the disk was as fast as the brain's death."""
+        """Make all rows up to this one durable, unless the brain dies first."""
         if self.run.brain is not self or self.full or number <= self.committed:
             return
         while self.unwritten and self.unwritten[0][0] <= number:
@@ -162,11 +162,11 @@ class TrialLife:
             self.life.recorder.durable(number)
 
     def forget(self, events: list[Event]) -> None:
-        """What is not on record need not be known again."""
+        """Exclude what is not durable from the comparison with the next run."""
         self.unknown.update((str(event["mission"]), None) for event in events if "mission" in event)
 
     def remember(self) -> None:
-        """This life is over: what is on record of it must be known in the next."""
+        """Note at the end of this run what the next one must restore."""
         for _, _, events in self.unwritten:
             self.forget(events)
         for name, mission in self.life.recorder.missions.items():
@@ -176,7 +176,7 @@ class TrialLife:
                 self.run.record.known[name] = memory_of(self.run.app, mission)
 
     def look_back(self, events: list[Event]) -> None:
-        """See, once it is known again, what has been forgotten since the last life."""
+        """Report what this run has not restored of the last one."""
         now = {mission.name: mission for mission in self.life.missions}
         if not now:
             return
@@ -205,12 +205,12 @@ class TrialLife:
             self.strike(strike, events)
 
     def strike(self, strike: Strike, events: list[Event]) -> None:
-        """Something strikes: the brain that wrote the row, or the one that lives by now."""
+        """Apply a strike to the brain that wrote the row, or to the present one."""
         if self.struck(strike.kind, events):
             self.run.fired[strike.kind.value] += 1
 
     def struck(self, kind: StrikeKind, events: list[Event]) -> bool:
-        """Let this happen; False: there was nothing that it could happen to."""
+        """Apply a strike; return False if it was not applicable."""
         run, brain = self.run, self.run.brain
         if kind is StrikeKind.GATEWAY:
             run.gateway.crash()
@@ -241,7 +241,7 @@ class TrialLife:
         return True
 
     def by_hand(self, kind: StrikeKind, events: list[Event]) -> bool:
-        """A person commands something; say whether the app could hear it."""
+        """Give a user's command; return whether the app could receive it."""
         named = [str(event["mission"]) for event in events if event.get("mission")]
         mission = (named or [mission.name for mission in self.run.case.missions])[-1]
         control = self.life.control
@@ -256,8 +256,8 @@ class TrialLife:
         return told
 
     def told(self, command: Callable[[], object]) -> bool:
-        """Tell the app something; say whether it could."""
-        if self.task.is_set:  # it is about to end, and hears nothing any more
+        """Send a command to the app; return whether it could receive it."""
+        if self.task.is_set:  # it is about to end, and receives nothing any more
             return False
         try:
             command()
@@ -266,7 +266,7 @@ class TrialLife:
         return True
 
     def person(self) -> None:
-        """A person looks, lets go on what is paused, and decides what waits."""
+        """Resume paused missions and answer questions, as a user would."""
         run = self.run
         if run.brain is not self:
             return
@@ -285,12 +285,12 @@ class TrialLife:
             run.later(PERSON_LOOKS_AFTER, self.person)
 
     def lost(self, down: float = 0.5) -> None:
-        """It has lost the gateway, or can write nothing: a brain begins anew from its journal."""
+        """Restart the brain from its journal: it has lost the gateway, or cannot write."""
         if self.run.brain is self:
             self.run.lose_brain(down)
 
     def stopped(self, _: object) -> None:
-        """Everything is down: it goes on later."""
+        """Called when a Stop is complete: it is resumed later."""
         self.due.append(self.rest)
 
     def rest(self) -> None:
@@ -303,7 +303,7 @@ class TrialLife:
             self.run.later(STOPPED_FOR, self.run.start_life)
 
     def die(self) -> None:
-        """Nothing of it goes on."""
+        """End this run at once."""
         if self.kernel.dead:
             return
         self.kernel.over = self.kernel.dead = True
@@ -311,20 +311,20 @@ class TrialLife:
 
 
 class TrialRun(TrialWorld):
-    """A trial: brains come and go in its world.
+    """A trial: a world, and the app's runs in it.
 
-    World and brain have a virtual clock each, and take turns: what is due first is taken first, and at
-    one instant the world goes first. So a brain can die at any moment, and the drones fly on.
+    World and brain have a virtual clock each; what is due first is processed first, and at one instant
+    the world goes first. So a brain can die at any moment, and the drones fly on.
     """
 
     def __init__(self, app: App, case: Case) -> None:
         super().__init__(app, case)
         self.brain: TrialLife | None = None
         self.brains: list[TrialLife] = []
-        """All there ever were: some go on that do not know yet that they are dead."""
+        """All brains, also stale ones that go on."""
 
     def run(self) -> TrialResult:
-        """Go on until everything has ended, or never will."""
+        """Run until everything has ended, or counts as endless."""
         try:
             self.run_lives()
             return self.record.closed(self.lives)
@@ -334,18 +334,18 @@ class TrialRun(TrialWorld):
             self.world.close()
 
     def run_lives(self) -> None:
-        """Let lives come and go; an error that is not caught is a finding."""
+        """Run the app again and again; an uncaught error is a finding."""
         try:
             self.start_life()
             while not self.over and self.turn():
                 pass
-        except ANY_ERROR as error:  # in what no task has called, such as the end of a flight
+        except ANY_ERROR as error:  # in a callback outside of any task, such as the end of a flight
             if by_a_person(error):
                 raise
             self.blame(error)
 
     def turn(self) -> bool:
-        """Take what is due next; False: nothing ever will be."""
+        """Process what is due next; return False if nothing ever will be."""
         world, brain = self.world, self.brain
         at = world.next_time()
         if brain is not None:
@@ -379,13 +379,13 @@ class TrialRun(TrialWorld):
         return True
 
     def waiting(self) -> str:
-        """Name who waits, for a sentence."""
+        """Return the waiting tasks, for a message."""
         brain = self.brain
         tasks = [] if brain is None else [task.name for task in brain.kernel.tasks]
         return ", ".join(sorted(tasks)) or "nothing"
 
     def start_life(self) -> None:
-        """A brain begins, or goes on."""
+        """Start a run, or resume one."""
         if self.brain is not None or self.over:
             return
         self.lives += 1
@@ -401,7 +401,7 @@ class TrialRun(TrialWorld):
         self.brains.append(self.brain)
 
     def lose_brain(self, down: float) -> None:
-        """The brain is dead; the gateway notices at once, or when the heartbeat is missing."""
+        """Handle a dead brain: the gateway notices at once, or by the missing heartbeat."""
         brain, self.brain = self.brain, None
         if brain is None:
             return
@@ -415,7 +415,7 @@ class TrialRun(TrialWorld):
         self.be_missed(down)
 
     def be_missed(self, down: float) -> None:
-        """No heartbeat comes: after a while the gateway lands everything, unless a brain comes."""
+        """Make the gateway land everything after a while, unless a brain connects."""
         gateway = self.gateway
 
         def land() -> None:
@@ -428,7 +428,7 @@ class TrialRun(TrialWorld):
         self.later(down, self.start_life)
 
     def freeze(self) -> None:
-        """The brain stands still; another takes over; then the first goes on, none the wiser."""
+        """Make the brain hang, start another, and then continue the stale one."""
         brain, self.brain = self.brain, None
         if brain is not None:
             brain.remember()
@@ -438,7 +438,7 @@ class TrialRun(TrialWorld):
             self.later(self.case.weather.down + 1.0 + UNAWARE_FOR, brain.die)
 
     def ended(self, brain: TrialLife) -> None:
-        """A life came to its end by itself: everything has ended, or waits for a person."""
+        """Called when a run has ended by itself: everything has ended, or waits for the user."""
         self.brain = None
         brain.remember()
         brain.wire.alive = False
@@ -454,9 +454,9 @@ class TrialRun(TrialWorld):
 
 
 def tried(app: App, case: Case) -> TrialResult:
-    """Fly a case to its end, and say what no run may do and this one did."""
+    """Fly a case to its end, and return its violations and statistics."""
     collects = gc.isenabled()
-    gc.disable()  # it would look again and again at what lives until the end
+    gc.disable()  # most objects live until the end
     try:
         return TrialRun(app, case).run()
     finally:

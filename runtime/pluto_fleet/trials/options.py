@@ -1,4 +1,4 @@
-"""What `plutoc test` hands on to the app that it has compiled."""
+"""The options of `plutoc test`, passed to the compiled app."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ SEEDS = 100
 
 @dataclass
 class Options:
-    """What was asked for. No slots: argparse keeps what it does not know here, too."""
+    """The parsed options. No slots: argparse sets further attributes."""
 
     file: Path = field(default_factory=Path)
-    """The app, as it was named."""
+    """The app's file, as given."""
     missions: Path | None = None
     fleet: Path | None = None
     seeds: int = SEEDS
@@ -31,7 +31,7 @@ class Options:
 
     @property
     def single(self) -> bool:
-        """Whether one case is to be seen again."""
+        """Whether a single case is to be repeated."""
         return self.strike is not None or self.weather is not None
 
 
@@ -39,7 +39,7 @@ _USAGE = """plutoc test [-h] [--seeds N] [--seed N] [--missions M.toml]
                    [--fleet F.toml] [--strike WHAT@ROW,…]
                    [--weather WHAT=HOW,…] [--json]
                    FILE"""
-"""As `plutoc test` itself has it: that is what the reader has typed."""
+"""The usage of `plutoc test`, which is what the user has typed."""
 
 
 def parse(argv: Sequence[str]) -> Options:

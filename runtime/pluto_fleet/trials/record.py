@@ -1,4 +1,4 @@
-"""What is known of a trial: what is on record, what the world has seen, and what of it may not be."""
+"""The record of a trial: the durable events, the world's actions, and the violations."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Act:
-    """One action, done."""
+    """One action that was done."""
 
     job: str
     """`mission/trip/round/attempt`."""
@@ -39,34 +39,34 @@ class Act:
 
 
 class ExactlyOnce:
-    """Nothing that may be done only once is done twice, and the journal says what was done.
+    """No action that may be done only once is done twice, and the journal agrees with the world.
 
-    It is told the journal's events, and at the end what the world saw.
+    It processes the journal's events, and at the end the world's actions.
     """
 
     def __init__(self, repeat: Mapping[str, str]) -> None:
         self._repeat = repeat
         """By action: `safe`, `once` or `ask`."""
         self._launched: dict[str, TripPlace] = {}
-        """By job, which trip it flies."""
+        """By job, its trip."""
         self._recorded: dict[str, None] = {}
         self._wanted: Counter[TripPlace] = Counter()
-        """How often an evaluator wanted a trip again."""
+        """How often an evaluator asked to repeat a trip."""
         self._round: dict[object, object] = {}
         self._completed: dict[object, None] = {}
-        """The missions that were."""
+        """The completed missions."""
 
     @property
     def done(self) -> int:
-        """How many actions were done, as far as that is on record."""
+        """Return how many actions were done according to the journal."""
         return len(self._recorded)
 
     def knows(self, job: str) -> bool:
-        """Whether it is on record that a drone was sent to do this."""
+        """Return whether the journal has the launch of this."""
         return job in self._launched
 
     def take(self, event: Event) -> None:
-        """Something is on record."""
+        """Process a durable event."""
         match event["event"]:
             case "trip.launched":
                 place = (event["mission"], event["trip"], event["round"])
@@ -84,7 +84,7 @@ class ExactlyOnce:
                 self._completed[event["mission"]] = None
 
     def violations(self, acts: list[Act]) -> list[str]:
-        """Return what was done too often, and what is not on record as it was."""
+        """Return what was done too often, and where journal and world differ."""
         found = []
         jobs: Counter[str] = Counter()
         places: Counter[TripPlace] = Counter()
@@ -118,18 +118,18 @@ TripPlace = tuple[object, object, object]
 
 @dataclass(frozen=True, slots=True)
 class MissionMemory:
-    """What was on record of one mission."""
+    """The durable state of one mission."""
 
     round: int
     attempts: int
     completed: tuple[str, ...]
     fields: tuple[object, ...]
     trips: dict[str, tuple[object, ...]]
-    """By name: the attempt, and the fields that the graph gives a trip."""
+    """By name: the attempt, and the trip's fields."""
 
 
 def memory_of(app: App, mission: Mission[Any]) -> MissionMemory:
-    """Return what there is to know of a mission."""
+    """Return the state of a mission."""
     return MissionMemory(
         mission.round,
         mission.attempts,
@@ -145,7 +145,7 @@ def memory_of(app: App, mission: Mission[Any]) -> MissionMemory:
 def forgotten(
     name: str, before: MissionMemory, after: MissionMemory, since: Sequence[Event]
 ) -> Iterable[str]:
-    """Yield what an app has forgotten of a mission, but for what has happened to it since."""
+    """Yield what an app has not restored of a mission, apart from changes since."""
     launched = sum(event["event"] == "trip.launched" for event in since)
     if any(event["event"] in _CHANGES for event in since):
         return
@@ -183,61 +183,61 @@ _IN_A_HOOK = re.compile(
     r"(hook|policy|evaluator|modifier) \w+ "
     r"(raised|must|changed|asks|adds|declares|returned|made|took|left)\b"
 )
-"""How the reason begins for which a mission fails when the app's own code is at fault."""
+"""The beginnings of reasons for which a mission fails by the app's own code."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialResult:
-    """What came of a case."""
+    """The outcome of a case."""
 
     violations: tuple[str, ...]
-    """What no run may do, with any hooks."""
+    """Violations that no run may have, with any hooks."""
     faults: tuple[str, ...]
-    """What the app's own code did wrong without being made to."""
+    """Faults of the app's own code that were not injected."""
     fired: Counter[str]
-    """How often each thing really struck."""
+    """How often each fault really occurred."""
     lives: int
     ends: dict[str, str]
-    """By mission, how it ended."""
+    """By mission, its final status."""
     events: tuple[Event, ...]
-    """All that is on record."""
+    """All durable events."""
     times: tuple[float, ...]
     """When each row was written, durable or not, by the world's clock."""
     acts: tuple[Act, ...]
-    """What the world has seen."""
+    """The actions in the world."""
 
     @property
     def rows(self) -> int:
-        """How many rows the journal had, over all lives, those that were lost included."""
+        """How many rows the journal had over all runs, with lost ones."""
         return len(self.times)
 
     @property
     def wrong(self) -> tuple[str, ...]:
-        """All that should not be."""
+        """All violations and faults."""
         return (*self.violations, *self.faults)
 
 
 class TrialRecord:
-    """Everything that outlives a brain, and is no part of the world."""
+    """What outlives a brain and is not part of the world."""
 
     def __init__(self, app: App, case: Case) -> None:
         self._app, self._missions = app, case.missions
         self.rows: list[str] = []
-        """What is durable."""
+        """The durable rows."""
         self.times: list[float] = []
         """When each row was written, durable or not."""
         self.acts: list[Act] = []
         self.events: list[Event] = []
         self.ends: dict[str, str] = {}
-        """By mission, how it has ended."""
+        """By mission, its final status."""
         self.known: dict[str, MissionMemory] = {}
-        """By mission, what the next life must know."""
+        """By mission, what the next run must restore."""
         self.delays = 0.0
-        """Seconds that trips were to wait."""
+        """The total seconds of delays."""
         self.once = ExactlyOnce({name: action.repeat for name, action in app.actions.items()})
         self.fired: Counter[str] = Counter()
         self.endless = ""
-        """The mission that sets out again and again, if one does."""
+        """A mission that flies again and again without end, if any."""
         self._bound = Bound(case.missions)
         self.found: list[str] = []
         self.faults: list[str] = []
@@ -249,7 +249,7 @@ class TrialRecord:
         return [m.name for m in self._missions if self.ends.get(m.name) not in ENDS]
 
     def commit(self, row: str, events: list[Event]) -> None:
-        """A row is durable."""
+        """Add a durable row."""
         self.rows.append(row)
         for event in events:
             self.events.append(event)
@@ -269,18 +269,18 @@ class TrialRecord:
             self.faults.append(f"{at(event)}: {mission} failed: {reason}")
 
     def did(self, job: str, action: str, now: float) -> None:
-        """The world has seen that an action was done."""
+        """Add an action of the world."""
         self.acts.append(Act(job=job, action=action, time=now))
 
     def hook_did(self, hook: Callable[..., object], args: tuple[object, ...], now: float) -> None:
-        """A hook has returned: if it is an action of the app's own, that was done."""
+        """Add the action of a hook that has returned, if it is one."""
         if any(action.hook is hook for action in self._app.actions.values()):
             context: Any = args[2]
             flight = context._latest()
             self.did(flight.id, flight.trip.action, now)
 
     def answer(self, name: str, records: Records) -> str:
-        """Say what is true about a mission that asks, as a person would who looks whether it was done."""
+        """Return the true answer to a mission's question, as a user would who checks it."""
         record = records.missions[name]
         if record["held"]:
             return "cancel"
@@ -289,7 +289,7 @@ class TrialRecord:
         return "done" if any(act.job == job for act in self.acts) else "not-done"
 
     def decide(self, records: Records) -> bool:
-        """Decide what waits, on the journal of an app that does not run; say whether any did."""
+        """Answer open questions in the journal of an app that does not run; return whether there were any."""
         asking = [
             name
             for name, record in records.missions.items()
@@ -308,7 +308,7 @@ class TrialRecord:
         return bool(asking)
 
     def records(self, snapshot: float, chance: Random) -> Records:
-        """Read the journal; perhaps from a snapshot of a part of it."""
+        """Read the journal, possibly from a snapshot."""
         records, rows = Records(), iter(self.rows)
         if self.rows and chance.random() < snapshot:
             for _ in range(chance.randrange(len(self.rows)) + 1):
@@ -322,7 +322,7 @@ class TrialRecord:
         return records
 
     def closed(self, lives: int) -> TrialResult:
-        """Return what came of it all."""
+        """Return the outcome."""
         whole = not (self.waits and self.found)
         found = self._invariants.over() if whole else self._invariants.found
         return TrialResult(

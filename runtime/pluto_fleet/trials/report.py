@@ -1,4 +1,4 @@
-"""What `plutoc test` says: what struck, what was found, and the smallest case that shows it."""
+"""The report of `plutoc test`: the faults, the findings, and the smallest case for one."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def report(
         right=(1,),
     )
     never = [words for what, words in WORDS.items() if not tally.fired[what]]
-    if never and not tally.findings and not interrupted:  # else it was over too soon for most
+    if never and not tally.findings and not interrupted:  # else it ended too soon for most
         few = " or of more seeds" if options.seeds < SEEDS else ""
         yield f"Never happened, for want of an occasion{few}: {'; '.join(never)}."
     yield ""
@@ -134,7 +134,7 @@ def _said(finding: Finding) -> Iterator[str]:
 
 
 def _others(findings: Sequence[Finding]) -> Iterator[str]:
-    """Yield what else was found, once each: a mistake that shows once shows often."""
+    """Yield the other findings, each once."""
     alike = MistakeKinds(findings[0].case)
     known = {alike.kind(sentence) for sentence in findings[0].sentences}
     new: list[str] = []
@@ -151,7 +151,7 @@ def _others(findings: Sequence[Finding]) -> Iterator[str]:
 
 
 def smallest_case(app: App, options: Options, finding: Finding) -> Iterator[str]:
-    """Yield what is wrong, the files that show it, and the command that shows it again."""
+    """Yield the violation, the case's files, and the command that repeats it."""
     case = finding.case
     yield from _said(finding)
     yield ""
@@ -167,13 +167,13 @@ def smallest_case(app: App, options: Options, finding: Finding) -> Iterator[str]
 
 
 def _again(options: Options, finding: Finding) -> str:
-    """Return the command that flies a case again, with the files that it was drawn for."""
+    """Return the command that repeats a case, with its files."""
     words = repeated(finding.case, options.missions, options.fleet)
     return " ".join(map(in_shell, ["plutoc", "test", options.file, *words]))
 
 
 def repeated(case: Case, missions: Path | None, fleet: Path | None) -> list[str]:
-    """Return the words of a command line that fly a case again."""
+    """Return the arguments that repeat a case."""
     words: list[str] = []
     for flag, path in (("--missions", missions), ("--fleet", fleet)):
         words += [] if path is None else [flag, str(path)]
@@ -187,7 +187,7 @@ def repeated(case: Case, missions: Path | None, fleet: Path | None) -> list[str]
 
 
 def shown_again(trial: TrialResult) -> Iterator[str]:
-    """Yield what happened in one case, and what of it may not be."""
+    """Yield the events of a case, and its violations."""
     lines = [line for event in trial.events if (line := line_of(event)) is not None]
     yield from lines[-_MOST_EVENTS:]
     yield ""

@@ -1,4 +1,4 @@
-"""What must be true of missions and trips: a rule hears of some kinds of events, and says what is wrong."""
+"""The invariants of missions and trips, each a rule that processes some kinds of events."""
 
 from __future__ import annotations
 
@@ -11,30 +11,30 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.trace import Event
 
 Say = Callable[[str], object]
-"""Takes the sentence of a violation."""
+"""Called with the sentence of a violation."""
 
 Hears = Callable[["Event"], None]
 
 OVER = "over"
-"""The kind of the last thing that a rule hears: what should have happened by now and has not?"""
+"""The kind of the final event, at which a rule checks what should have happened by then."""
 
 
 class Rule(Protocol):
-    """One thing that must be true of every run."""
+    """An invariant of every run."""
 
     @property
     def hears(self) -> Mapping[str, Hears]:
-        """What to call, by the kind of event, such as `trip.launched`, or by its family, `trip`."""
+        """Return the handlers by the kind of event, such as `trip.launched`, or by its family, `trip`."""
         ...
 
 
 def at(event: Event) -> str:
-    """Return when it happened, for the beginning of a sentence."""
+    """Return an event's time, as the beginning of a sentence."""
     return f"{float(str(event['t'])):g} s"
 
 
 def flight(event: Event) -> tuple[object, object, object, object]:
-    """Return which flight an event is about."""
+    """Return the flight of an event."""
     return event["trip"], event["drone"], event["round"], event["attempt"]
 
 
@@ -55,15 +55,15 @@ ENDS = ("COMPLETED", "FAILED", "CANCELLED")
 
 
 class EndsOnce:
-    """Every mission ends, once, or waits for a person, and says why if it was not completed."""
+    """Every mission ends once, or waits for the user, with a reason if it was not completed."""
 
     def __init__(self, say: Say) -> None:
         self._say = say
         self._ended: Counter[object] = Counter()
         self._set_out_by_now: dict[object, None] = {}
-        """Those that were on their way to a drone: they may not begin anew, also after a skip."""
+        """Missions that had begun: they may not begin again, also after a skip."""
         self._waits: dict[object, object] = {}
-        """Those that wait for a person, and why."""
+        """Missions that wait for the user, and why."""
         self.hears = {
             "mission.created": self._create,
             "trip.delayed": self._set_out,
@@ -111,7 +111,7 @@ class EndsOnce:
 
 
 class NothingAfterTheEnd:
-    """A mission that has ended does nothing any more."""
+    """Nothing happens to a mission after its end."""
 
     def __init__(self, say: Say) -> None:
         self._say = say
@@ -128,7 +128,7 @@ class NothingAfterTheEnd:
 
 
 class CompletedDidEverything:
-    """A mission that ends COMPLETED has completed every trip of its last round, added ones included."""
+    """A mission that ends COMPLETED has completed every trip of its last round, with added ones."""
 
     def __init__(self, say: Say) -> None:
         self._say = say
@@ -164,7 +164,7 @@ class CompletedDidEverything:
         self._to_do[event["mission"]][event["trip"]] -= 1
 
     def _skip(self, event: Event) -> None:
-        self._complete(event)  # in further rounds it is left out, too
+        self._complete(event)  # it is skipped in further rounds, too
         if event["trip"] in self._own[event["mission"]]:
             self._own[event["mission"]].remove(str(event["trip"]))
 
@@ -177,7 +177,7 @@ class CompletedDidEverything:
 
 
 class TripsDoNotOverlap:
-    """A mission has one trip in flight at a time, and what ends is what was launched."""
+    """A mission has one trip in flight at a time, and the trip that ends is the one launched."""
 
     def __init__(self, say: Say) -> None:
         self._say = say
@@ -224,16 +224,16 @@ class TripsDoNotOverlap:
 
 
 class AttemptsCountUp:
-    """The flights of one trip in one round are numbered 1, 2, 3; one that was interrupted is none."""
+    """The flights of one trip in one round are numbered 1, 2, 3; interrupted ones do not count."""
 
     def __init__(self, say: Say) -> None:
         self._say = say
         self._last: dict[tuple[object, object, object], int] = {}
         self._newest: dict[object, tuple[object, object, object]] = {}
-        """By mission, what it flew last."""
+        """By mission, its latest flight."""
         self._round: dict[object, object] = {}
         self._shared: set[tuple[object, object]] = set()
-        """Names that a hook has given to several trips of a mission: which of them flies cannot be told."""
+        """Names that a hook has given to several trips of a mission, which are then indistinguishable."""
         self.hears = {
             "trip.launched": self._launch,
             "trip.interrupted": self._interrupt,
@@ -248,7 +248,7 @@ class AttemptsCountUp:
         todo, done, mission = listed(event, "todo"), listed(event, "done"), event["mission"]
         names = Counter(trip["name"] for trip in (*todo, *done))
         self._shared.update((mission, name) for name, trips in names.items() if trips > 1)
-        for trip in todo:  # one that waits has its next attempt before it
+        for trip in todo:  # a waiting trip has its next attempt's number
             flown = trip.get("attempt", 1) - ("status" not in trip)
             self._last[mission, trip["name"], self._round.get(mission, 0)] = flown
 
@@ -269,7 +269,7 @@ class AttemptsCountUp:
 
 
 class LimitsAreKept:
-    """A trip that fails for its safe time has flown so long: a limit is that of one trip and of no other."""
+    """A trip that fails by its safe time has flown that long."""
 
     def __init__(self, say: Say) -> None:
         self._say = say

@@ -1,4 +1,4 @@
-"""Makes a case smaller for as long as it still shows the same mistake."""
+"""Shrinking a case as long as it shows the same violation."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 _SOME = "·"
 _NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?\w*")
-"""With its unit; or the address of an object."""
+"""A number with its unit, or the address of an object."""
 _SEVERAL = re.compile(rf"{_SOME}(?:, {_SOME})+")
 
 
 class MistakeKinds:
-    """Tells the kinds of mistakes of one case apart, and of those that are made from it."""
+    """Classifies the violations of a case, and of cases shrunk from it."""
 
     def __init__(self, case: Case) -> None:
         names = sorted(set(_names(case)), key=len, reverse=True)
@@ -38,7 +38,7 @@ class MistakeKinds:
         )
 
     def kind(self, sentence: str) -> str:
-        """Return the sentence with nothing of who, when and how much: the rule that is broken, and how."""
+        """Return a violation's sentence without names, times and numbers."""
         return _SEVERAL.sub(_SOME, _NUMBER.sub(_SOME, self._names.sub(_SOME, sentence)))
 
 
@@ -55,9 +55,9 @@ def _names(case: Case) -> Iterator[str]:
 def shows_the_same(
     app: App, finding: Finding, wrong: Callable[[TrialResult], tuple[str, ...]]
 ) -> Callable[[Case], bool]:
-    """Return what says of a smaller case whether it shows the finding's first mistake, and no other.
+    """Return a function that tells whether a smaller case shows the finding's first violation, and no other.
 
-    A case that the fleet cannot fly shows nothing: it is refused before anything can go wrong.
+    A case that the fleet cannot fly shows nothing.
     """
     alike = MistakeKinds(finding.case)
     kinds = [alike.kind(sentence) for sentence in finding.sentences]
@@ -72,7 +72,7 @@ def shows_the_same(
 
 
 def first_the_same(finding: Finding, sentences: tuple[str, ...]) -> tuple[str, ...]:
-    """Return what is said of a smaller case, what the finding says first in front."""
+    """Return a smaller case's violations, with the finding's first one in front."""
     alike = MistakeKinds(finding.case)
     kind = alike.kind(finding.sentences[0])
     return tuple(sorted(sentences, key=lambda sentence: alike.kind(sentence) != kind))
@@ -84,7 +84,7 @@ T = TypeVar("T")
 
 
 def shrunk(case: Case, fails: Callable[[Case], bool], tries: int = TRIES) -> Case:
-    """Return a smaller case that fails all the same, after so many tries at most."""
+    """Return a smaller case that still fails, within a number of tries."""
     again = True
     while again:
         again = False
@@ -99,7 +99,7 @@ def shrunk(case: Case, fails: Callable[[Case], bool], tries: int = TRIES) -> Cas
 
 
 def _smaller(case: Case) -> Iterator[Case]:
-    """Yield simpler cases, those first that leave out most."""
+    """Yield simpler cases, the simplest first."""
     for place in range(len(case.strikes)):
         yield replace(case, strikes=_without(case.strikes, place))
     yield from (
@@ -125,7 +125,7 @@ def _smaller(case: Case) -> Iterator[Case]:
 
 
 def _fairer(weather: Weather) -> Iterator[Weather]:
-    """Yield the weather without one of what goes wrong."""
+    """Yield the faults without one of them."""
     yield FAIR
     yield replace(weather, crash=0.0, link=0.0, action=0.0, battery=0.0)
     for field in fields(weather):
@@ -147,7 +147,7 @@ def _fewer(missions: tuple[Mission[Any], ...]) -> Iterator[tuple[Mission[Any], .
 
 
 def _chains(mission: Mission[Any]) -> Iterator[list[int]]:
-    """Yield which trips to keep: all but one, or but those from a pick to its release."""
+    """Yield the trips to keep: all but one, or all but those from a pick to its release."""
     numbers = list(range(len(mission.trips)))
     for number, trip in enumerate(mission.trips):
         if trip.action == PICK:
@@ -159,7 +159,7 @@ def _chains(mission: Mission[Any]) -> Iterator[list[int]]:
 
 
 def _moved(case: Case) -> Iterator[Case]:
-    """With fewer missions the journal has fewer rows: what strikes must strike earlier."""
+    """Move strikes to earlier rows, as fewer missions write fewer rows."""
     if len(case.strikes) == 1:
         for row in range(1, case.strikes[0].row):
             yield replace(case, strikes=(replace(case.strikes[0], row=row),))

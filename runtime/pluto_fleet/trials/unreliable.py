@@ -1,4 +1,4 @@
-"""What a brain has in a trial: a clock that wakes it late, and a link whose messages take their time."""
+"""A trial's unreliable clock, which wakes up late, and link, whose messages are delayed."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 _HOOK_BLOCKS_FOR = 30.0
-"""Seconds that a hook takes that blocks."""
+"""Seconds for which a hook blocks."""
 
 
 class BrokenHook(RuntimeError):
-    """What a hook raises unexpectedly."""
+    """An unexpected error of a hook."""
 
 
 class UnreliableTime(VirtualTime):
-    """Virtual time for one brain: it wakes up late, and its hooks fail, as the weather has it."""
+    """Virtual time for one brain, with late wake-ups and failing hooks."""
 
     def __init__(
         self,
@@ -51,14 +51,14 @@ class UnreliableTime(VirtualTime):
         self._weather, self._chance, self._fired, self._done = weather, chance, fired, done
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
-        """Set a coroutine on its way; in a dead brain none sets out."""
+        """Start a coroutine; not in a dead brain."""
         task = super().spawn(coroutine, key, name)
         if self.dead:
             task.drop()
         return task
 
     def at(self, when: float, kind: EventKind, key: Key, call: Callable[[], object]) -> Timer:
-        """Call this at a time, or a little later."""
+        """Schedule a call, possibly a little late."""
         late = self._weather.late
         if late and when > self.now and self._chance.random() < late:
             self._fired["late wake-up"] += 1
@@ -68,7 +68,7 @@ class UnreliableTime(VirtualTime):
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
-        """Run a hook, or let it fail."""
+        """Call a hook, or make it fail."""
         if self._weather.hook and self._chance.random() < self._weather.hook:
             self._fired["hook raising"] += 1
             raise BrokenHook("by chance")
@@ -81,7 +81,7 @@ class UnreliableTime(VirtualTime):
 
 
 class UnreliableLink(Link):
-    """A link whose messages travel for a while, each way, and in order."""
+    """A link with delayed messages in both directions, in order."""
 
     def __init__(
         self,
@@ -107,11 +107,11 @@ class UnreliableLink(Link):
         self._send(partial(self._real.break_off, drone))
 
     def attach(self, id: str, report: Report) -> None:
-        """Hear of a job that was given before."""
+        """Register for the report of an earlier job."""
         self._send(partial(self._real.attach, id, partial(self._told, report)))
 
     def forget(self, id: str) -> None:
-        """A job will not be asked for any more."""
+        """Forget a job."""
         self._send(partial(self._real.forget, id))
 
     def hold(self, drone: str) -> Coroutine[Any, Any, None]:
@@ -119,19 +119,19 @@ class UnreliableLink(Link):
         return self._far(partial(self._real.hold, drone))
 
     def read(self, drone: str, name: str) -> Coroutine[Any, Any, float]:
-        """Return what a drone measures."""
+        """Return a sensor or variable of a drone."""
         return self._far(partial(self._real.read, drone, name))
 
     def write(self, drone: str, name: str, value: float) -> Coroutine[Any, Any, None]:
-        """Set what a drone has."""
+        """Set a parameter of a drone."""
         return self._far(partial(self._real.write, drone, name, value))
 
     def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone."""
+        """Called when a lost drone has been repaired."""
         self._send(partial(self._real.mended, drone))
 
     def takeoff(self, drone: str, height: float) -> Coroutine[Any, Any, None]:
-        """Rise to a height."""
+        """Take off to a height."""
         return self._far(partial(self._real.takeoff, drone, height))
 
     def go_to(self, drone: str, target: Point) -> Coroutine[Any, Any, None]:
@@ -151,7 +151,7 @@ class UnreliableLink(Link):
         return self._far(partial(self._real.drone_report, drone))
 
     def fleet_report(self) -> Coroutine[Any, Any, FleetReport]:
-        """Ask all drones and the ledger how everything stands."""
+        """Query all drones and the ledger."""
         return self._far(partial(self._real.fleet_report))
 
     def bring_down(self, how: Down) -> Coroutine[Any, Any, None]:
@@ -159,9 +159,9 @@ class UnreliableLink(Link):
         return self._far(partial(self._real.bring_down, how))
 
     async def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
-        """Let the gateway do something, in the world and not in a brain that may die, and hear of it.
+        """Run a command in the world, independently of the brain, and await its result.
 
-        Messages travel; a task that is cancelled here is cancelled there.
+        Messages are delayed; a task that is cancelled here is cancelled there.
         """
         over: Future[T] = Future()
         under_way: list[Task[T]] = []
@@ -208,7 +208,7 @@ class UnreliableLink(Link):
 
 
 def _settle(over: Future[T], task: Task[T]) -> None:
-    """Tell what came of a command; one that was called off is not waited for."""
+    """Deliver a command's result; a cancelled one is not awaited."""
     if task.error is None:
         over.set(task.result())
     elif not isinstance(task.error, Cancelled):

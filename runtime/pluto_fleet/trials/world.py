@@ -1,4 +1,4 @@
-"""The world of a trial: its drones, their gateway and its clock, which outlive every brain."""
+"""The world of a trial: drones, gateway and clock, which outlive every brain."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class TrialWorld:
-    """All of a trial but its brains."""
+    """Everything of a trial except its brains."""
 
     def __init__(self, app: App, case: Case) -> None:
         self.app, self.case = app, case
@@ -56,41 +56,41 @@ class TrialWorld:
         )
         self.ledger = Ledger()
         self.loses_report = False
-        """Whether the next report is lost, and the line with it."""
+        """Whether the next report is lost, and the connection with it."""
         self.gateway = self.new_gateway()
         self.lives = 0
         self.skew = 0.0
-        """How far the brain's clock is ahead of the world's."""
+        """How many seconds the brain's clock is ahead of the world's."""
         self.strikes: dict[int, list[Strike]] = {}
-        """By row, what strikes there."""
+        """The strikes by row."""
         for strike in case.strikes:
             self.strikes.setdefault(strike.row, []).append(strike)
         self.over = False
 
     def blame(self, error: BaseException) -> None:
-        """Make a finding of an error that was not caught."""
+        """Report an uncaught error as a finding."""
         where = "".join(f", {note}" for note in getattr(error, "__notes__", ()))
         what = f"the app ended with an internal error: {type(error).__name__}: {error}{where}"
         self.found.append(f"{self.world.now:g} s: {what}")
         self.over = True
 
     def raise_from(self, kernel: VirtualTime) -> None:
-        """An error that was not caught is a mistake of ours: the trial ends with it."""
+        """End the trial with an uncaught error, which is a bug of Pluto."""
         if kernel.crashed is not None:
             error, kernel.crashed = kernel.crashed, None
             self.blame(error)
 
     def later(self, seconds: float, call: Callable[[], object]) -> None:
-        """Let this happen after so many seconds of the world's."""
+        """Schedule a call after seconds of the world's time."""
         self.world.schedule(self.world.now + seconds, When.FLIGHT, FLEET, call)
 
     def seen(self, done: WorldAction) -> None:
-        """A drone has done something to the world."""
+        """Called with an action of a drone on the world."""
         if done.job is not None:
             self.record.did(done.job, done.action, self.world.now)
 
     def new_gateway(self) -> Gateway:
-        """Return a gateway over the drones and the ledger that are there."""
+        """Return a new gateway over the same drones and ledger."""
         fleet, radio = self.case.fleet, self.case.weather.radio
         controls: Controls = self.navigation
         if radio:
@@ -109,11 +109,11 @@ class TrialWorld:
         return gateway
 
     def radio_delay(self, _: str) -> float:
-        """Say how long a message to or from a drone takes."""
+        """Return the delay of a message to or from a drone."""
         self.fired["slow radio"] += 1
         return self.case.weather.radio
 
     def report_delay(self) -> float:
-        """Say whether a report is heard."""
+        """Return the delay of a report, or that it is lost."""
         lost, self.loses_report = self.loses_report, False
         return LOST if lost else 0.0

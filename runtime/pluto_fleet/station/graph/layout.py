@@ -1,7 +1,7 @@
-"""Where boxes stand and ways run: layer by layer from top to bottom, ways only between them.
+"""Layered graph layout from top to bottom: the positions of boxes and the routes of edges.
 
-A way to the next layer runs in the channel between the two. One that skips layers runs beside all
-boxes, on the left; one that leads back, on the right. So no way can run through a box.
+An edge to the next layer runs in the channel between the two. One that skips layers runs beside all boxes, on
+the left; one that leads back, on the right. So no edge crosses a box.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ Point = tuple[float, float]
 Area = tuple[float, float, float, float]
 """Left, top, right, bottom."""
 Ways = Sequence[tuple[int, int]]
-"""From which box to which, by their numbers."""
+"""Edges, as pairs of box numbers."""
 
 
 _SWEEPS = 6
@@ -40,20 +40,20 @@ _FAR = 1e5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Layout:
-    """A picture, in the order of what was given."""
+    """A layout, in the order of the given boxes and edges."""
 
     width: float
     height: float
     boxes: tuple[Area, ...]
     ways: tuple[tuple[Point, ...], ...]
     words: tuple[Point | None, ...]
-    """The middle of the foot of each arrow's words."""
+    """The bottom centre of each edge's label."""
 
 
 def drawn(sizes: Sequence[tuple[float, float]], ways: Ways, widths: Sequence[float]) -> Layout:
-    """Return the picture of boxes of these sizes, the first of which is where all begins.
+    """Return the layout of boxes of these sizes, of which the first is the start.
 
-    `widths` says how wide the words of each way are; 0 where it has none.
+    `widths` are those of the edges' labels; 0 for none.
     """
     found = layers(len(sizes), ways)
     level = {box: number for number, layer in enumerate(found) for box in layer}
@@ -99,16 +99,16 @@ def drawn(sizes: Sequence[tuple[float, float]], ways: Ways, widths: Sequence[flo
 
 
 def layers(count: int, ways: Ways) -> list[list[int]]:
-    """Return the boxes layer by layer, each layer in an order in which few ways cross.
+    """Return the layers of boxes, each in an order with few crossings.
 
-    A way that leads back to a box before it does not count; all others lead to a later layer.
+    Back edges are ignored; all others lead to a later layer.
     """
     leaving, before, after = ([list[int]() for _ in range(count)] for _ in range(3))
     for source, target in ways:
         leaving[source].append(target)
     met: set[int] = set()
     left: dict[int, int] = {}
-    """How many steps there are to each box from which all ways were gone, the last one first."""
+    """Boxes in depth-first postorder."""
 
     def walk(box: int) -> None:
         met.add(box)
@@ -134,7 +134,7 @@ def layers(count: int, ways: Ways) -> list[list[int]]:
 def _untangled(
     found: list[list[int]], before: list[list[int]], after: list[list[int]]
 ) -> list[list[int]]:
-    """Return the layers with each box near the barycentre of those that it is joined with."""
+    """Return the layers sorted by the barycentre of each box's neighbours."""
     at = {box: place for layer in found for box, place in _spread(layer)}
     for joined, order in ((before, found), (after, found[::-1])) * (_SWEEPS // 2):
         for layer in order:
@@ -153,7 +153,7 @@ def _spread(layer: list[int]) -> list[tuple[int, float]]:
 def _middles(
     layer: Sequence[int], sizes: Sequence[tuple[float, float]]
 ) -> Iterator[tuple[int, float]]:
-    """Yield the middle of each box of a layer; 0 is the middle of the picture."""
+    """Yield the centre of each box of a layer; 0 is the centre of the picture."""
     x = -(sum(sizes[box][0] for box in layer) + _BETWEEN * (len(layer) - 1)) / 2
     for box in layer:
         yield box, x + sizes[box][0] / 2
@@ -166,10 +166,10 @@ def _ends(
     level: dict[int, int],
     middle: dict[int, float],
 ) -> list[tuple[float, float]]:
-    """Return where each way leaves the foot of its box, and where it enters at the head of another."""
+    """Return where each edge leaves the bottom of its box, and enters the top of another."""
 
     def side(number: int) -> float:
-        """How far to the right a way goes on: beside the boxes, or to the next layer."""
+        """Return the horizontal destination of an edge: beside the boxes, or in the next layer."""
         source, target = ways[number]
         step = level[target] - level[source]
         return middle[target] - middle[source] if step == 1 else inf if step < 1 else -inf
@@ -190,7 +190,7 @@ def _ends(
         there = list(busy[level[target]])
         room = sizes[target][0] / 2 - _CORNER
         if level[target] - level[source] == 1:
-            there.remove(start[number])  # straight down is the best way
+            there.remove(start[number])  # straight down is best
             wanted = start[number] - middle[target]
         else:
             wanted = -room if side(number) < 0 else room
@@ -202,7 +202,7 @@ def _ends(
 def _free(
     middle: float, wanted: float, room: float, busy: Iterable[float], clear: float = 0.0
 ) -> float:
-    """Return the place nearest to the wanted one, from the middle, that is apart from all others."""
+    """Return the place nearest to the wanted one that keeps its distance from all others."""
     busy = list(busy)
     steps = int(room / _STEP)
     places = [_STEP * step for step in range(-steps, steps + 1)]
@@ -215,7 +215,7 @@ def _free(
 
 
 def _lanes(ways: Ways, level: dict[int, int], reach: float) -> dict[int, float]:
-    """Return where ways run beside all boxes: the short ones next to them."""
+    """Return the lanes of edges beside the boxes: short ones nearest to them."""
     found: dict[int, float] = {}
     taken: list[tuple[int, int, int, int]] = []
     spans = {
@@ -240,7 +240,7 @@ def _runs(
     ends: Sequence[tuple[float, float]],
     lane: dict[int, float],
 ) -> dict[int, dict[int, tuple[float, float]]]:
-    """Return what runs along each channel, by its number: the first is above the first layer."""
+    """Return the horizontal segments in each channel, by number: the first is above the first layer."""
     found: defaultdict[int, dict[int, tuple[float, float]]] = defaultdict(dict)
     for channel in range(max(level.values()) + 2):
         found[channel] = {}
@@ -255,7 +255,7 @@ def _runs(
 
 
 def _tracks(runs: dict[int, tuple[float, float]]) -> dict[int, int]:
-    """Return on which track, from 0, each way runs, so that none lie together and few cross."""
+    """Return the track of each edge, from 0, without overlaps and with few crossings."""
     order = sorted(
         runs, key=lambda one: -runs[one][0] if runs[one][0] < runs[one][1] else runs[one][0]
     )
@@ -275,7 +275,7 @@ def _heights(
     level: dict[int, int],
     track: dict[int, dict[int, int]],
 ) -> tuple[list[float], list[float]]:
-    """Return where each layer begins, and where the first track of each channel is."""
+    """Return the top of each layer, and the first track of each channel."""
     said = [0] * (len(found) + 1)
     for (source, _), width in zip(ways, widths, strict=True):
         said[level[source] + 1] += width > 0
@@ -297,9 +297,9 @@ def labels(
     boxes: Sequence[Area],
     whole: Point,
 ) -> list[Point | None]:
-    """Return the middle of the foot of each arrow's words; None for one without any.
+    """Return the bottom centre of each edge's label; None for one without.
 
-    `whole` is how large the picture is.
+    `whole` is the size of the picture.
     """
     paying = [(_ON_BOX, box) for box in (*boxes, *_outside(*whole))]
     for left, _, right, bottom in boxes:
@@ -325,7 +325,7 @@ def labels(
 
 
 def _outside(width: float, height: float) -> list[Area]:
-    """Return what is around the picture."""
+    """Return the areas around the picture."""
     return [
         (-_FAR, -_FAR, _FAR, 0.0),
         (-_FAR, -_FAR, 0.0, _FAR),
@@ -335,7 +335,7 @@ def _outside(width: float, height: float) -> list[Area]:
 
 
 def _places(way: Sequence[Point]) -> Iterator[tuple[float, Point]]:
-    """Yield where words can stand along a way, and what is paid for it."""
+    """Yield candidate positions of a label along an edge, with their costs."""
     far = 0.0
     for (x, y), (to_x, to_y) in pairwise(way):
         length = abs(to_x - x) + abs(to_y - y)

@@ -1,4 +1,4 @@
-"""The app's own graph, read from the picture that its README has, and what a page needs to draw it."""
+"""The app's own graph, read from the picture in its README, and its drawing for a page."""
 
 from __future__ import annotations
 
@@ -28,28 +28,28 @@ _BREAK = "<br/>"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Box:
-    """A block, or where missions start or end."""
+    """A block, or the start or end."""
 
     name: str
     kind: str
     """Empty for `start` and `end`."""
     doc: str
-    """What blocks of its kind do, in a sentence."""
+    """A sentence on what blocks of its kind do."""
     shape: str
     """`start`, `end`, `gate` or `block`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrow:
-    """A way from box to box, and the statuses with which a mission takes it."""
+    """An edge between boxes, with its statuses."""
 
     source: str
     target: str
     statuses: tuple[str, ...]
     fork: bool
-    """It is a branch of a fork."""
+    """Whether it is a branch of a fork."""
     dotted: bool
-    """The source does not draw this end, or no status takes this way."""
+    """Whether the edge is implicit, or taken by no status."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,7 +61,7 @@ class Graph:
 
 
 def app_graph(app: App) -> Graph | None:
-    """Return the graph of an app; None where its README is not at hand, or is another app's."""
+    """Return the graph of an app; None if its README is not available, or another app's."""
     for text in _readmes(app):
         if _OURS.search(text) and f"\n# {app.name}\n" in text:
             found = graph_in(text)
@@ -71,7 +71,7 @@ def app_graph(app: App) -> Graph | None:
 
 
 def graph_in(readme: str) -> Graph | None:
-    """Return the graph that a generated README shows; None where it shows none."""
+    """Return the graph in a generated README, or None."""
     picture = _PICTURE.search(readme)
     if picture is None:
         return None
@@ -102,7 +102,7 @@ def _box(bracket: str, name: str, kind: str, docs: dict[str, str]) -> Box:
 
 
 def _docs(readme: str) -> dict[str, str]:
-    """Return what blocks of each kind do, as the README's table says it."""
+    """Return the sentence on each kind of block from the README's table."""
     table = _KINDS.search(readme)
     rows = _KIND_ROW.findall(table[1]) if table else ()
     return {_plain(kind): _plain(doc) for kind, doc in rows}
@@ -113,11 +113,11 @@ def _plain(markdown: str) -> str:
 
 
 def _readmes(app: App) -> Iterable[str]:
-    """Yield the texts that may be the README: of the app's source, or of what is installed.
+    """Yield the texts that may be the README: of the app's source, or of the installed package.
 
-    The latter stands in what pip keeps of every package, so it is not carried twice.
+    The latter is in the metadata of every installed package.
     """
-    source = Path(app.flow.__code__.co_filename).parents[1]  # above its package
+    source = Path(app.flow.__code__.co_filename).parents[1]  # its package's parent folder
     if source.name == "src":
         with suppress(OSError, ValueError):
             yield (source.parent / "README.md").read_text(encoding="utf-8")
@@ -130,15 +130,15 @@ def _readmes(app: App) -> Iterable[str]:
 
 
 _NAME, _KIND, _LABEL = 8.2, 6.0, 6.2
-"""How wide a letter is, on average: of a name, of a kind, of the statuses beside an arrow."""
+"""The average width of a letter of a name, of a kind, and of an edge's label."""
 _BORDER, _NARROW, _WIDE, _HIGH = 20.0, 72.0, 210.0, 44.0
 _PILL = (62.0, 44.0)
 _MOST = 400
-"""Of more boxes nothing could be seen."""
+"""The most boxes of a readable picture."""
 
 
 def laid_out(graph: Graph) -> dict[str, object] | None:
-    """Return the picture as plain data; None where it would be too large to be of use."""
+    """Return the drawing as plain data; None if it would be too large."""
     if len(graph.boxes) > _MOST:
         return None
     number = {box.name: place for place, box in enumerate(graph.boxes)}
@@ -179,7 +179,7 @@ def _size(box: Box) -> tuple[float, float]:
 
 
 def _widths(graph: Graph) -> list[float]:
-    """Return how wide the statuses beside each arrow are: none where there is nothing to choose."""
+    """Return the widths of the edges' labels; 0 for a box's only edge."""
     leaving: dict[str, set[tuple[str, ...]]] = {}
     for arrow in graph.arrows:
         leaving.setdefault(arrow.source, set()).add(arrow.statuses)

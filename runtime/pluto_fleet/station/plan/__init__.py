@@ -1,1 +1,1 @@
-"""The plan that people draw: checked where it is wrong, kept with every change."""
+"""The plan that users draw: validated, and stored with every change."""

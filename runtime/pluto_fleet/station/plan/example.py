@@ -1,4 +1,4 @@
-"""A small plan to begin with: this very app and fleet can fly it on this very map."""
+"""An example plan that this app and fleet can fly on this map."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ PLAUSIBLE: dict[Type, object] = {
     Type.SPEED: "0.5 m/s",
     Type.TEMPERATURE: "20 C",
 }
-"""What is given for a parameter without a default."""
+"""Values of parameters without a default."""
 
 HEAVIEST = 0.005
-"""Kilograms of the item, at most; drones that carry less get half of what they carry."""
+"""The mass of the item in kilograms; at most half of a drone's payload."""
 
 CLEAR = 0.3
-"""Metres around each place that are free, too."""
+"""Metres around each place that are free."""
 
 _MISSIONS, _TRIPS = 3, 3
 _COLUMNS = 7
 _EDGE = 0.1
-"""The share of the map along each of its edges where no place is."""
+"""The margin of the map without places, as a share."""
 
 _WINDOWS = (2.0, 0.5, 0.2, 0.1, 0.05, 0.02)
 """Shares of the map, around the drones' homes, in which places are looked for: the first that
@@ -55,7 +55,7 @@ _TRIES = 20
 
 
 def example_missions(app: App, fleet: FleetFile, taken: Sequence[str]) -> list[Shape]:
-    """Return two or three missions, without keys, named unlike these; or raise `BadInput`."""
+    """Return two or three missions without keys, with new names; raise `BadInput` if that fails."""
     wanted = _wanted(app, fleet)
     best: list[Shape] = []
     for share in _WINDOWS:
@@ -76,7 +76,7 @@ def example_missions(app: App, fleet: FleetFile, taken: Sequence[str]) -> list[S
 
 
 def _wanted(app: App, fleet: FleetFile) -> list[list[Shape]]:
-    """Return what each mission does: one carries something, the others do all else in turn."""
+    """Return the actions of each mission: one carries an item, the others do all other actions in turn."""
     flying = {drone.category for drone in fleet.drones}
     categories = [category for category in app.categories if category.name in flying]
     carrying = [one.payload for one in categories if one.can(PICK) and one.can(RELEASE)]
@@ -104,7 +104,7 @@ def _trip(action: Action) -> Shape:
 def _mission(
     app: App, fleet: FleetFile, wanted: Sequence[Shape], row: Sequence[Corner]
 ) -> Shape | None:
-    """Return a mission that does this at places of the row, if it can be flown at any."""
+    """Return a mission with these actions at places of a row, if one can be flown."""
     for places in islice(_choices(row, len(wanted)), _TRIES):
         trips: list[Shape] = [
             {"key": str(i), **trip, "target": list(place)}
@@ -120,7 +120,7 @@ def _mission(
 
 
 def _choices(row: Sequence[Corner], count: int) -> Iterator[tuple[Corner, ...]]:
-    """Yield so many places of the row, those far from each other first."""
+    """Yield selections of places of a row, those far apart first."""
     last = len(row) - 1
     if last < count - 1:
         return
@@ -130,7 +130,7 @@ def _choices(row: Sequence[Corner], count: int) -> Iterator[tuple[Corner, ...]]:
 
 
 def _rows(fleet: FleetFile, share: float) -> Iterator[list[Corner]]:
-    """Yield rows of places where there is room, in a window of so large a share of the map."""
+    """Yield rows of free places in a window of the map."""
     homes = [drone.home for drone in fleet.drones]
     spans = []
     for axis, size in enumerate(fleet.airspace.size):

@@ -1,4 +1,4 @@
-"""The plan on the disk: written beside and renamed, and never thrown away for being unreadable."""
+"""The plan's file: replaced atomically, and never deleted for being unreadable."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
 LARGEST = 1 << 25
-"""Bytes; a plan with every text as long as it may be is smaller."""
+"""The largest file in bytes; the largest possible plan is smaller."""
 
 VERSION = 1
 
@@ -29,20 +29,20 @@ _NOT_JSON = "it is damaged, or is something else"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KeptPlan:
-    """What an earlier life has left."""
+    """A stored plan."""
 
     missions: Sequence[Shape] = ()
     revision: int = 0
     said: str = ""
-    """What people must hear of it."""
+    """A message about it for users."""
 
 
 class _Unreadable(Exception):
-    """The file is no plan of this app."""
+    """The file is not a plan of this app."""
 
 
 def write(path: Path, app: App, revision: int, missions: Sequence[Shape]) -> None:
-    """Keep a plan: after a crash there is this one, or the one before; raise `OSError` if not."""
+    """Store a plan atomically; raise `OSError` if that fails."""
     data = {"version": VERSION, "app": app.name, "revision": revision, "missions": missions}
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
     part = path.with_name(f"{path.name}.part")
@@ -60,7 +60,7 @@ def write(path: Path, app: App, revision: int, missions: Sequence[Shape]) -> Non
 
 
 def read(path: Path, app: App) -> KeptPlan:
-    """Return the plan that was kept; one that cannot be read is put aside, and that is said."""
+    """Return the stored plan; an unreadable one is renamed, with a message."""
     if not os.path.lexists(path):
         return KeptPlan()
     try:
@@ -126,7 +126,7 @@ def _kept(path: Path, data: Mapping[str, object], app: App) -> KeptPlan:
 
 
 def _without_gone(given: object, app: App) -> tuple[list[Shape], list[str]]:
-    """Leave out what an earlier graph of the app has brought in, and this one does not."""
+    """Remove fields that only an earlier graph of the app had."""
     gone: dict[str, None] = {}
 
     def known(one: object, keys: Sequence[str]) -> Shape:
@@ -160,7 +160,7 @@ def _in_the_way(path: Path, why: str, error: OSError) -> BadInput:
 
 
 def _aside(path: Path) -> Path:
-    """Return a name beside the plan's that nothing has yet."""
+    """Return an unused name beside the plan's."""
     aside, number = path.with_name(f"{path.name}.bad"), 1
     while os.path.lexists(aside):
         number += 1
@@ -169,7 +169,7 @@ def _aside(path: Path) -> Path:
 
 
 def _settle(folder: Path) -> None:
-    """Make sure that the new name is on the disk, too."""
+    """Sync the folder, so that the new name is durable."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(descriptor)

@@ -1,4 +1,4 @@
-"""The plan that people draw: one for all who look at it, checked, and kept with every change."""
+"""The plan that users draw: shared by all pages, validated, and stored with every change."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ if TYPE_CHECKING:
     from ...files.fleet import FleetFile
 
 MOST_SHOWN = 1_000
-"""Problems that pages get at most."""
+"""The most problems that pages get."""
 
 MOST_SAID = 10
-"""Problems that the answer to Start names; pages show all where they are."""
+"""The most problems in the answer to Start."""
 
 
 class Stale(PlutoError):
-    """The plan has changed since: what was drawn was drawn on an old one."""
+    """The plan has changed since: the edit was made on an old revision."""
 
 
 class MissionPlan:
-    """Missions as they are drawn; those that were launched stay as they are while anything flies.
+    """The drawn missions; launched ones cannot be changed while anything flies.
 
-    Every change has a number, the plan's revision, and says on which one it was drawn.
+    Every change creates a new revision, and names the one that it was made on.
     """
 
     def __init__(
@@ -48,15 +48,15 @@ class MissionPlan:
         self._app, self._fleet, self._keep = app, fleet, keep
         kept = on_disk.read(keep, app) if keep else on_disk.KeptPlan()
         self.trouble = kept.said
-        """What went wrong with keeping it, as pages show it; empty: nothing."""
-        # From the clock: no number may ever mean two plans, though one could not be kept.
+        """Why the plan could not be stored, for pages; empty: it was."""
+        # From the clock: a revision must be unique, even if a plan could not be stored.
         self.revision = max(kept.revision + 1, round(now() * 1000))
         self._missions = list(kept.missions)
         self._unread = read(app, fleet.airspace, self._missions)[1]
         self._flyability = FlyabilityCache(app, fleet)
 
     def data(self) -> Shape:
-        """Return the plan as pages get it."""
+        """Return the plan for pages."""
         return {
             "revision": self.revision,
             "missions": self._missions,
@@ -66,35 +66,35 @@ class MissionPlan:
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing was drawn yet."""
+        """Whether it has no missions."""
         return not self._missions
 
     async def examined(self) -> None:
-        """Wait until it is known of every mission whether the fleet can fly it.
+        """Wait until all missions have been checked against the fleet.
 
-        It is found out beside the loop. Before that `data` tells only what else is wrong.
+        The check runs in a thread. Before, `data` has only the other problems.
         """
-        while not self._flyability.knows(self._readable()):  # it may change meanwhile
+        while not self._flyability.knows(self._readable()):  # the plan may change meanwhile
             await self._flyability.ask(self._readable())
 
-    # What pages do
+    # Changes by pages
 
     def replace(self, revision: object, missions: object) -> None:
-        """Take the plan that a page has drawn; raise `Stale` if it was drawn on an old one."""
+        """Replace the plan by a page's; raise `Stale` if that was made on an old revision."""
         given = missions_from(missions, self._app)
         drawn = self._with_launched(given)
         if drawn != self._missions or self._overrules(given):
             self._check_current(revision)
-        if drawn != self._missions:  # to say once more what is there already is no conflict
+        if drawn != self._missions:  # an identical plan is no conflict
             self._change(drawn)
 
     def import_toml(self, text: str, revision: object, file: str = NAME) -> None:
-        """Take the missions of a file, instead of those that were not launched."""
+        """Replace the missions that were not launched by those of a file."""
         self._check_current(revision)
         self._take(shapes_of(text, self._app, self._fleet.airspace, file), revision)
 
     async def import_file(self, text: str, revision: object, file: str = NAME) -> None:
-        """Do the same while others go on: reading a large file takes seconds."""
+        """Do the same in a thread, as reading a large file takes seconds."""
         self._check_current(revision)
         given = await to_thread(shapes_of, text, self._app, self._fleet.airspace, file)
         self._take(given, revision)
@@ -102,27 +102,27 @@ class MissionPlan:
     def _take(self, read: Sequence[Shape], revision: object) -> None:
         self._check_current(revision)
         given = self._shaped(read)
-        # a plan that was handed out while it flew holds those missions, too
+        # a plan that was exported during the flight has those missions, too
         flying = [as_in_a_file(one) for one in self._missions if one["launched"]]
         new = [mission for mission in given if as_in_a_file(mission) not in flying]
         self._change(self._with_launched(new))
 
     def example(self, revision: object) -> None:
-        """Add missions that this app and this fleet can fly."""
+        """Add example missions that this app and fleet can fly."""
         self._check_current(revision)
         names = [str(mission["name"]) for mission in self._missions]
         added = example_missions(self._app, self._fleet, names)
         self._change([*self._missions, *self._shaped(added)])
 
-    # What flies
+    # Flights
 
     def launchable(
         self, chosen: Collection[str] | None = None
     ) -> tuple[list[Mission[Any]], list[str]]:
-        """Return the missions that Start starts, with their keys; raise `BadInput` if it cannot.
+        """Return the missions for Start, with their keys; raise `BadInput` if it cannot start.
 
         These are the chosen ones, by their keys. Without a choice: all that have not been completed; if
-        all were, all anew, but not while any of them flies. They are new ones each time: a
+        all were, all again, but not while any of them flies. They are new objects each time, as a
         flight changes them.
         """
         self._flyability.ask_at_once(self._readable())
@@ -157,15 +157,15 @@ class MissionPlan:
         return [mission for mission in waiting if mission["key"] in chosen]
 
     def launched(self, keys: Collection[str]) -> None:
-        """These missions fly: they may not be changed now."""
+        """Lock these missions, which fly now."""
         self._mark(lambda mission: bool(mission["launched"]) or mission["key"] in keys)
 
     def adopt(self, names: Collection[str]) -> None:
-        """Missions of these names fly, and no others: so says a journal that was found."""
+        """Lock the missions of these names, which fly according to a journal, and no others."""
         self._mark(lambda mission: mission["name"] in names)
 
     def settle(self, ends: Mapping[str, str]) -> None:
-        """A flight is over: keep how each of its missions has ended, by their names."""
+        """Record the final statuses of a flight's missions, by name."""
 
         def settled(mission: Shape) -> Shape:
             if not mission["launched"]:
@@ -177,7 +177,7 @@ class MissionPlan:
             self._change(missions)
 
     def unlock(self) -> None:
-        """Nothing flies any more: every mission may be changed, and launched again."""
+        """Unlock all missions: nothing flies any more."""
         self._mark(lambda _: False)
 
     def export_toml(self, keys: Collection[str] | None = None) -> str:
@@ -207,12 +207,12 @@ class MissionPlan:
             )
 
     def _overrules(self, given: Sequence[Shape]) -> bool:
-        """Say whether a mission is drawn otherwise that has been launched meanwhile."""
+        """Return whether an edit changes a mission that has been launched meanwhile."""
         fixed = {one["key"]: as_in_a_file(one) for one in self._missions if one["launched"]}
         return any(one["key"] in fixed and as_in_a_file(one) != fixed[one["key"]] for one in given)
 
     def _with_launched(self, drawn: Sequence[Shape]) -> list[Shape]:
-        """Put those that were launched back as they are; those that are missing come first."""
+        """Restore launched missions in an edit; missing ones come first."""
         fixed = {one["key"]: one for one in self._missions if one["launched"]}
         known = {one["key"]: one for one in self._missions}
         merged = [
@@ -224,7 +224,7 @@ class MissionPlan:
         return missions
 
     def _shaped(self, missions: Sequence[Shape]) -> list[Shape]:
-        """Give keys to missions and trips that come from elsewhere than a page."""
+        """Add keys to missions and trips that do not come from a page."""
         taken = {one["key"] for mission in self._missions for one in (mission, *trips_of(mission))}
         count = 0
 
@@ -257,7 +257,7 @@ class MissionPlan:
 
 
 def _as_it_ended(drawn: Shape, before: Shape | None) -> Shape:
-    """Keep how a mission has ended, unless it is another one now; its name does not make it one."""
+    """Keep a mission's final status, unless more than its name has changed."""
     if before is None or not before["ended"]:
         return drawn
     same = as_in_a_file({**drawn, "name": ""}) == as_in_a_file({**before, "name": ""})

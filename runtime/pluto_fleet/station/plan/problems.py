@@ -1,4 +1,4 @@
-"""What is wrong with a plan, and where: the checks of a missions file, in the words of a screen."""
+"""The problems of a plan: the checks of a missions file, worded for pages."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _MISSING = {
 
 
 def on_a_screen(app: App) -> Wording:
-    """Return the words for screens, which have labels where files have keys."""
+    """Return the wording for pages, which have labels where files have keys."""
     called = {**_CALLED, **{field.name: field.label for field in app.fields}}
     return Wording(
         called=lambda key: called.get(key, key),
@@ -49,18 +49,18 @@ def on_a_screen(app: App) -> Wording:
 
 
 def own_names(app: App) -> frozenset[str]:
-    """Return the names of the app's that a sentence may begin with."""
+    """Return the app's own names with which a sentence may begin."""
     parameters = (one.name for action in app.actions.values() for one in action.parameters)
     return frozenset((*app.actions, *parameters))
 
 
 def sentence(text: str, names: Container[str]) -> str:
-    """Begin a sentence with a capital, unless one of these names begins it."""
+    """Capitalize a sentence, unless it begins with one of these names."""
     return text if text.partition(" ")[0] in names else text[:1].upper() + text[1:]
 
 
 def in_one_go(trips: Sequence[Trip], reason: str) -> str:
-    """Say why no drone can fly these trips, beside the first of them."""
+    """Return why no drone can fly these trips, worded for the first of them."""
     if len(trips) == 1:
         return reason
     return f"from here to trip {trips[-1].name} one drone must fly all: {reason}"
@@ -68,23 +68,23 @@ def in_one_go(trips: Sequence[Trip], reason: str) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanProblem:
-    """Something that keeps a plan from being flown."""
+    """A problem that keeps a plan from being flown."""
 
     mission: str | None
-    """The key of the mission that it is about, if it is about one."""
+    """The key of its mission, if any."""
     trip: str | None
     field: str | None
     """Such as `safe_time`, `target`, `item.mass` or `parameters.dose`."""
     text: str
-    """As it stands beside that field."""
+    """Its message beside that field."""
     alone: str
-    """As it stands where nothing else shows what it is about."""
+    """Its message elsewhere, with its subject."""
 
 
 def read(
     app: App, airspace: Airspace, missions: Sequence[Shape]
 ) -> tuple[list[Mission[Any]], list[PlanProblem]]:
-    """Return the missions to fly, as far as they can be read, and what is wrong with them."""
+    """Return the missions to fly, as far as valid, and their problems."""
     document, names = _document(app, missions), own_names(app)
     found = read_missions(document, app, airspace) if missions else []
     problems = [
@@ -97,7 +97,7 @@ def read(
 def unflyable_trips(
     app: App, fleet: FleetFile, airspace: Airspace, mission: Shape
 ) -> list[PlanProblem]:
-    """Return what no drone of the fleet could ever do of a mission that can be read."""
+    """Return the trips of a mission that no drone of the fleet can fly."""
     missions, found = read(app, airspace, [mission])
     if found:
         return []
@@ -111,7 +111,7 @@ def unflyable_trips(
 
 
 def as_json(problem: PlanProblem) -> Shape:
-    """Return a problem as pages get it."""
+    """Return a problem for pages."""
     return {
         "mission": problem.mission,
         "trip": problem.trip,
@@ -121,7 +121,7 @@ def as_json(problem: PlanProblem) -> Shape:
 
 
 def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
-    """Return a mission as a missions file would have it: no keys, and nothing that is not given."""
+    """Return a mission as in a missions file, without keys and empty values."""
     trips = [_bare(trip) for trip in trips_of(mission)]
     return {**_bare(mission), "trip": trips}
 
@@ -129,7 +129,7 @@ def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
 def _of_its_height(
     problem: PlanProblem, missions: Sequence[Shape], airspace: Airspace
 ) -> PlanProblem:
-    """Tell it of the field of the height, where a place is wrong for that alone."""
+    """Assign a problem to the field of the height, if only that is wrong."""
     if problem.field != "target":
         return problem
     trips = [one for mission in missions for one in trips_of(mission) if one["key"] == problem.trip]
@@ -156,7 +156,7 @@ def _document(app: App, missions: Sequence[Shape]) -> Document:
 
 
 def _problem(missions: Sequence[Shape], place: TomlPath, text: str, alone: str) -> PlanProblem:
-    """Find the keys of what is at this place of a file."""
+    """Convert a problem of a file, with the keys of its mission and trip."""
     mission = trip = None
     inside: Sequence[str | int] = ()
     match place:
@@ -174,26 +174,26 @@ def _problem(missions: Sequence[Shape], place: TomlPath, text: str, alone: str) 
 
 
 class FlyabilityCache:
-    """What is known of each mission, by its key: it is asked about again when it has changed."""
+    """Caches which missions the fleet can fly, by their keys."""
 
     def __init__(self, app: App, fleet: FleetFile) -> None:
         self._app, self._fleet = app, fleet
         self._known: dict[object, tuple[Shape, Sequence[PlanProblem]]] = {}
-        self._beside = replace(fleet.airspace)  # routes are remembered: by one thread each
+        self._beside = replace(fleet.airspace)  # its cache of routes must not be shared by threads
         self._one_at_a_time = asyncio.Lock()
 
     def known(self, missions: Collection[Shape]) -> Iterator[PlanProblem]:
-        """Yield what keeps these missions from being flown, as far as it has been asked."""
+        """Yield the known problems of these missions."""
         for mission in missions:
             if self._is_known(mission):
                 yield from self._known[mission["key"]][1]
 
     def knows(self, missions: Collection[Shape]) -> bool:
-        """Say whether everything has been asked about these missions."""
+        """Return whether all these missions have been checked."""
         return not self._unknown(missions)
 
     async def ask(self, missions: Collection[Shape]) -> None:
-        """Find out what is not known of these missions, in a thread."""
+        """Check the missions that are not cached, in a thread."""
         async with self._one_at_a_time:
             for mission in self._unknown(missions):
                 found = await asyncio.to_thread(self._found, mission, self._beside)
@@ -201,7 +201,7 @@ class FlyabilityCache:
             self._forget_all_but(missions)
 
     def ask_at_once(self, missions: Collection[Shape]) -> None:
-        """Find it out before anything else happens."""
+        """Check them at once."""
         for mission in self._unknown(missions):
             self._known[mission["key"]] = mission, self._found(mission, self._fleet.airspace)
         self._forget_all_but(missions)

@@ -1,7 +1,7 @@
-"""The shape of a plan as pages send it: what has this shape is kept, finished or not.
+"""The schema of a plan as pages send it: a plan that fits is stored, complete or not.
 
-What it means is another question, which `problems` asks: a plan is drawn bit by bit, and a
-name is typed letter by letter.
+Whether it can be flown is checked in `problems`: a plan is drawn step by step, and a name typed letter by
+letter.
 """
 
 from __future__ import annotations
@@ -21,27 +21,27 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
 Shape = dict[str, object]
-"""A mission or a trip, as JSON has it."""
+"""A mission or a trip as JSON."""
 
 MOST_MISSIONS, MOST_TRIPS = 1_000, 10_000
 MOST_PARAMETERS = 64
 LONGEST_TEXT = 1_000
 LARGEST = 1e15
-"""Every whole number up to here is the same in a browser."""
+"""The largest integer that is exact in a browser."""
 
 MISSION_KEYS = ("key", "name", "launched", "ended", "trips")
 TRIP_KEYS = ("key", "name", "action", "target", "source", "parameters", "item")
-"""What every app's plan has; its graph brings in more."""
+"""The keys of every app's trips; the graph adds more."""
 
 COMPLETED, BROKEN_OFF = "COMPLETED", "BROKEN_OFF"
 ENDS = (COMPLETED, "FAILED", "CANCELLED", BROKEN_OFF)
-"""How a mission has ended the last time that it flew, if it is still as it was then."""
+"""The final statuses of a mission's last flight, if it has not changed since."""
 
 KEY = re.compile(r"[A-Za-z0-9_-]{8,32}")
 
 
 def missions_from(given: object, app: App) -> list[Shape]:
-    """Return missions in one and the same shape; raise `BadInput` if they have no such shape."""
+    """Return missions in a normal form; raise `BadInput` if they do not fit the schema."""
     elements = _list(given, "missions")
     if len(elements) > MOST_MISSIONS:
         raise _too_many("missions", MOST_MISSIONS)
@@ -51,7 +51,7 @@ def missions_from(given: object, app: App) -> list[Shape]:
 
 
 def check_together(missions: Sequence[Shape]) -> None:
-    """Raise `BadInput` where they are too many, or two of them are called alike."""
+    """Raise `BadInput` if there are too many, or two have the same key."""
     if len(missions) > MOST_MISSIONS:
         raise _too_many("missions", MOST_MISSIONS)
     keys = [str(one["key"]) for mission in missions for one in (mission, *trips_of(mission))]
@@ -71,7 +71,7 @@ def trips_of(mission: Mapping[str, object]) -> Sequence[Shape]:
 
 
 def fields_of(app: App, entity: Entity) -> list[str]:
-    """Return the names of the fields that the graph brings in."""
+    """Return the names of the fields that the graph adds."""
     return [field.name for field in app.fields if field.on is entity]
 
 
@@ -86,7 +86,7 @@ def _mission(given: object, who: str, app: App) -> Shape:
     return {
         "key": _key(data, who),
         "name": _text(_given(data, "name", who), f"{who}: name"),
-        "launched": False,  # neither is for pages to say
+        "launched": False,  # neither can be set by pages
         "ended": None,
         **_scalars(data, fields, who),
         "trips": [_trip(one, f"{who}, trip {i}", app) for i, one in enumerate(trips, 1)],
@@ -136,7 +136,7 @@ def _place(given: object, who: str) -> list[object] | None:
 
 
 def _scalars(data: Mapping[str, object], keys: Sequence[str], who: str) -> Shape:
-    """Return what is given under these keys: a number, a text, yes or no."""
+    """Return the scalars under these keys: numbers, texts, booleans."""
     found: Shape = {}
     for key in keys:
         value = data.get(key)

@@ -1,4 +1,4 @@
-"""A plan as a missions file, and a missions file as a plan."""
+"""Converting a plan to a missions file, and back."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
 NAME = "missions.toml"
-"""What a file is called in messages, where its sender does not say."""
+"""The name of a file in messages, if its sender gives none."""
 
 _BASIC = ("name", "action", "item", "parameters", "source", "target")
 
 
 def text_of(app: App, missions: Sequence[Shape]) -> str:
-    """Return the missions file of these missions, finished or not."""
+    """Return the missions file of these missions, complete or not."""
     return "\n".join(line for mission in missions for line in _mission(app, mission))
 
 
 def shapes_of(text: str, app: App, airspace: Airspace, file: str = NAME) -> list[Shape]:
-    """Return the missions of a file, without keys; raise `BadInput` as `check` would say it."""
+    """Return the missions of a file, without keys; raise `BadInput` as `check` does."""
     document = parsed(file, text)
     missions_of(document, app, airspace)
-    given: Any = document.data["mission"]  # that it is a list of tables has just been seen
+    given: Any = document.data["mission"]  # it has just been checked to be a list of tables
     return [_shape(mission, str(i), app) for i, mission in enumerate(given, 1)]
 
 
@@ -77,12 +77,12 @@ def _fields(given: Mapping[str, Any], app: App, entity: Entity) -> Shape:
 
 
 def _plain(given: object) -> object:
-    """Return a value as JSON has it: TOML has times of day of its own, 08:00:00."""
+    """Return a value as JSON, with TOML's times of day as text."""
     return given.isoformat("auto") if isinstance(given, time) else given
 
 
 def _metres(place: Sequence[object]) -> list[object]:
-    """Return a place in plain numbers, as pages draw it: files may say "80 cm"."""
+    """Return a point in metres: files may have "80 cm"."""
     read = numbers(place, (2, 3))
     return [
         metres if isinstance(given, str) else given

@@ -1,1 +1,1 @@
-"""From a request to an answer, safely; the web server is known here and nowhere else."""
+"""The station's web server: requests, access control, and updates of pages."""

@@ -1,4 +1,4 @@
-"""Everything that may be asked of a station: who may, how often, and what each address answers."""
+"""The HTTP interface of a station: access, rate limits, and the handler of each address."""
 
 from __future__ import annotations
 
@@ -42,33 +42,33 @@ _JSON, _TOML = "application/json", "application/toml"
 
 
 class ServedPlan(Protocol):
-    """The plan; each change names the revision that it was made on, and another is `Stale`."""
+    """The plan; each change names the revision that it was made on, and raises `Stale` if that is old."""
 
     def data(self) -> Mapping[str, object]:
-        """Return all of it, and what is known to be wrong with it."""
+        """Return the plan with its known problems."""
 
     async def examined(self) -> None:
-        """Wait until all is known that is wrong with it."""
+        """Wait until all its problems are known."""
 
     def replace(self, revision: int, missions: object) -> None:
-        """Put missions in its place."""
+        """Replace its missions."""
 
     async def import_file(self, text: str, revision: int, file: str) -> None:
-        """Put those of a missions file in its place; what is wrong with it says its name."""
+        """Replace its missions by those of a file, whose name is used in messages."""
 
     def example(self, revision: int) -> None:
-        """Put an example in its place."""
+        """Add an example."""
 
     def export_toml(self) -> str:
         """Return it as a missions file."""
 
 
 class ServedStation(UpdateSource, Protocol):
-    """What flies, what pages show, and what may be commanded."""
+    """The station that is served."""
 
     @property
     def plan(self) -> ServedPlan:
-        """The plan that people draw."""
+        """The plan."""
 
     @property
     def image(self) -> Path | None:
@@ -76,20 +76,20 @@ class ServedStation(UpdateSource, Protocol):
 
     @property
     def described(self) -> Mapping[str, object]:
-        """What never changes while the server lives."""
+        """Return the constant data of app and fleet."""
 
     async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
-        """Do it, unless it was done by this id before; `BadInput` says why not."""
+        """Carry out a command, unless it was carried out with this id before; raise `BadInput` if it cannot."""
 
     def console(self) -> str:
-        """Return all that was said."""
+        """Return the console."""
 
     def results(self) -> list[object]:
-        """Return all that came of actions."""
+        """Return the results."""
 
 
 async def read(station: ServedStation, path: str) -> Reply:
-    """Answer a request that changes nothing."""
+    """Handle a request that changes nothing."""
     match path:
         case "/api/app":
             return json_reply(200, station.described)
@@ -110,7 +110,7 @@ async def read(station: ServedStation, path: str) -> Reply:
 
 
 async def change(station: ServedStation, audit: Audit, request: Request) -> Reply:
-    """Do what is commanded, and note it with what came of it."""
+    """Carry out a command, and log it with its outcome."""
     wanted = _TOML if request.path == "/api/plan/import" else _JSON
     if request.headers.get("content-type", "").partition(";")[0].strip().lower() != wanted:
         raise Refused(refusals.wrong_type(wanted))
@@ -159,7 +159,7 @@ async def _at_once(edit: Callable[[], None]) -> None:
 async def _edited(
     plan: ServedPlan, audit: Audit, request: Request, edit: Coroutine[None, None, None]
 ) -> Reply:
-    """Change the plan; a page that has seen an older one is given the newest."""
+    """Change the plan; a page with an old revision gets the newest one."""
     try:
         await edit
         status = 200
@@ -183,7 +183,7 @@ def _whole(given: dict[str, object], name: str) -> int:
 
 
 def _file(query: Mapping[str, str]) -> str:
-    """Return the name of a file as it can be told: a stranger may have chosen it."""
+    """Return an untrusted file name, sanitized for messages."""
     return cut_off(printable(query.get("file", "").strip()), _LONGEST_NAME) or _NAME
 
 
@@ -200,22 +200,22 @@ def _nothing_else(given: Mapping[str, object]) -> None:
 
 
 ALWAYS = ("/api/stop", "/api/cut-motors")
-"""They bring drones down: no limit of rates or load holds for them."""
+"""The commands that bring drones down, which are exempt from all limits."""
 
 _COMMANDS_A_SECOND, _EDITS_A_SECOND, _READS_A_SECOND = 20.0, 20.0, 100.0
-"""A second, for each client; edits of the plan use up no commands."""
+"""Rates per second for each client; edits of the plan do not count as commands."""
 _MOST_UNDER_WAY = 64
-"""Requests that are under way, Stops not counted."""
+"""The most concurrent requests, without Stops."""
 _WRONG_TOKEN_WAITS = 0.5
 """Seconds after which a wrong token is refused."""
 _MOST_WAITING = 32
-"""So many wait; more are told at once."""
+"""The most delayed refusals; more are sent at once."""
 
 Pause = Callable[[float], Awaitable[object]]
 
 
 class Api:
-    """All that can be asked of one station."""
+    """The HTTP interface of one station."""
 
     def __init__(
         self,
@@ -236,7 +236,7 @@ class Api:
         self._under_way = self._waiting = 0
 
     async def answer(self, request: Request) -> Reply:
-        """Answer any request: none breaks anything, and none is told how we are made."""
+        """Handle any request; errors reveal no internals."""
         if request.method == "HEAD":  # like GET; the server leaves the body out
             request = replace(request, method="GET")
         try:
@@ -251,11 +251,11 @@ class Api:
         return with_safe_headers(request, reply)
 
     async def live(self, page: PageSocket, request: Request) -> None:
-        """Keep a page up to date for as long as it asks."""
+        """Serve a page's WebSocket."""
         await self._live.talk(page, request)
 
     def end(self) -> None:
-        """Hang up on all pages."""
+        """Close the connections of all pages."""
         self._live.end()
 
     def _refused(self, request: Request, why: Refusal) -> Reply:
@@ -279,7 +279,7 @@ class Api:
         return await self._within_limits(request)
 
     async def _within_limits(self, request: Request) -> Reply:
-        """Answer, unless too much is asked; what brings drones down never is."""
+        """Handle a request within the limits, from which commands that bring drones down are exempt."""
         if request.path in ALWAYS:
             return await change(self._station, self._audit, request)
         if not self._rate(request).allows(request.client):
@@ -300,7 +300,7 @@ class Api:
         return self._edits if request.path.startswith("/api/plan") else self._commands
 
     async def _slow_down(self) -> None:
-        """Let only those wait that guess."""
+        """Delay the refusal of a wrong token, against guessing."""
         if self._waiting >= _MOST_WAITING:
             return
         self._waiting += 1
@@ -318,7 +318,7 @@ def _asking(request: Request) -> Access:
 
 
 def _route(request: Request) -> None:
-    """Refuse what leads nowhere."""
+    """Return the route of a request; raise `Refused` if there is none."""
     allowed = ADDRESSES.get(request.path)
     if allowed is None:
         raise Refused(refusals.NO_SUCH_PAGE)

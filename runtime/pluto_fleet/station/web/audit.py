@@ -1,6 +1,6 @@
-"""A line for each command that anybody gave, the refused ones too: who, when, what came of it.
+"""The audit log: a line for each command, also refused ones: who, when, with what outcome.
 
-It is a note for people, not what the station goes by. So a full disk loses lines, and stops nothing.
+It is informational only: a full disk loses lines, and stops nothing.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from .guard import Rate
 from .http import Request
 
 _LARGEST_FILE = 4 * 1024 * 1024
-"""Bytes of a file; then it becomes `audit.log.1`, and what was there before is gone."""
+"""Bytes of a file, after which it replaces `audit.log.1`."""
 _LONGEST_TEXT = 200
 _MOST_ENTRIES = 20
-"""Characters of a text, and entries of a list, that are written down."""
+"""The most characters of a text, and entries of a list, in the log."""
 _REFUSALS_A_SECOND, _REFUSALS_AT_ONCE = 1.0, 20.0
-"""Lines a second about what was refused, and at once: refusals must not push out what was done."""
+"""The rate and burst of lines about refusals, which must not displace those about commands."""
 
 
 class Audit:
@@ -40,12 +40,12 @@ class Audit:
         self._left_out = 0
 
     def done(self, request: Request, given: Mapping[str, object], status: int, said: str) -> None:
-        """Note a command that was heard, and what was said to it."""
+        """Log a command and its answer."""
         entry = {"client": request.client, "do": request.path, "given": short(given)}
         self._write({**entry, "status": status, "said": said})
 
     def refused(self, request: Request, status: int, said: str) -> None:
-        """Note a request that may not be made, or makes no sense."""
+        """Log a refused request."""
         if not self._refusals.allows(""):
             self._left_out += 1
             return
@@ -57,7 +57,7 @@ class Audit:
         self._write({**asked, **bears, "status": status, "said": said})
 
     def trouble(self, request: Request, error: BaseException) -> None:
-        """Note a mistake of the station's own, with all that helps to find it."""
+        """Log a bug of the station, with its traceback."""
         where = "".join(format_exception(error))[-20 * _LONGEST_TEXT :]
         self._write({"client": request.client, "trouble": request.path}, where)
 
@@ -76,7 +76,7 @@ class Audit:
                 file.write(line.encode("ascii"))
 
     def _turn(self, more: int) -> None:
-        """Put a file that is full aside."""
+        """Rotate a full file."""
         assert self._file is not None
         with suppress(FileNotFoundError):
             if self._file.stat().st_size + more > _LARGEST_FILE:
@@ -84,11 +84,11 @@ class Audit:
 
 
 _TELLING = ("host", "origin", "sec-fetch-site")
-"""Headers that say where a request comes from."""
+"""Headers that tell where a request comes from."""
 
 
 def short(value: object, depth: int = 3) -> object:
-    """Return a value with what is long in it cut."""
+    """Return a value with long parts truncated."""
     if isinstance(value, str):
         return value if len(value) <= _LONGEST_TEXT else value[:_LONGEST_TEXT] + "…"
     if isinstance(value, Mapping):

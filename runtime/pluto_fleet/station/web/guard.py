@@ -1,4 +1,4 @@
-"""Who may ask what, and how often; and what a browser must not do with the answer."""
+"""Access control: allowed hosts, origins and tokens, rate limits, and security headers."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from .http import Reply, Request
 from .refusals import Refusal
 
 _CLIENTS_KEPT = 1024
-"""Clients that are remembered; one that is forgotten begins anew."""
+"""The most clients that are remembered; a forgotten one starts afresh."""
 
 
 class Rate:
-    """What each client has left."""
+    """A rate limit for each client (token bucket)."""
 
     def __init__(
         self, a_second: float, clock: Callable[[], float], at_once: float | None = None
@@ -31,7 +31,7 @@ class Rate:
         self._left: dict[str, tuple[float, float]] = {}
 
     def allows(self, client: str) -> bool:
-        """Whether this client may ask once more; if so, it has."""
+        """Return whether this client may make another request, and count it."""
         now = self._clock()
         left, since = self._left.pop(client, (self._at_once, now))
         left = min(self._at_once, left + (now - since) * self._a_second)
@@ -46,22 +46,22 @@ _HOST = re.compile(r"(\[[0-9a-f:.]+\]|[a-z0-9_.-]+)(?::([0-9]{1,5}))?")
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 _PLAIN_PORT, _PORTS = 80, 65536
 _USUAL = re.compile(r":(80|443)$")
-"""The ports that browsers leave out."""
+"""The ports that browsers omit."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Guard:
-    """Where the station can be reached, and what one must know."""
+    """The access rules of a station."""
 
     host: str  # where it listens
     port: int
     names: tuple[str, ...] = ()
-    """How else it is called: "station.example" or "station.example:8443"."""
+    """Its other names: "station.example" or "station.example:8443"."""
     token: str | None = field(default=None, repr=False)
 
 
 def proper_name(text: str) -> str:
-    """Return a name that the station is to go by, as a browser says it."""
+    """Return a name of the station in the form that a browser sends."""
     name = _USUAL.sub("", text.lower())
     found = _HOST.fullmatch(name)
     if found is None or not int(found.group(2) or _PLAIN_PORT) < _PORTS:
@@ -73,29 +73,29 @@ def proper_name(text: str) -> str:
 
 
 class Access(Enum):
-    """What a request is, as far as it matters who may ask it."""
+    """The kinds of requests, for access control."""
 
-    PAGE = "a page"  # the same for all, and says nothing of what flies
+    PAGE = "a page"  # static, without data of the flight
     READ = "reading"
     COMMAND = "a command"
     LIVE = "staying connected"
 
 
 def is_loopback(host: str) -> bool:
-    """Whether only this machine can reach an address."""
+    """Whether an address can be reached from this machine only."""
     address = _address(host)
     return host == "localhost" if address is None else address.is_loopback
 
 
 def needs_token(host: str, names: tuple[str, ...]) -> bool:
-    """Whether others than the users of this machine can reach the station."""
+    """Whether the station can be reached from other machines, so that a token is needed."""
     return bool(names) or not is_loopback(host)
 
 
 def refusal(guard: Guard, request: Request, access: Access) -> Refusal | None:
-    """Return why this may not be asked; None: it may.
+    """Return why a request is refused; None: it is allowed.
 
-    On a WebSocket the token is not looked for here: it comes with the first message.
+    On a WebSocket the token is not checked here, as it comes with the first message.
     """
     headers = request.headers
     host = headers.get("host", "").lower()
@@ -115,7 +115,7 @@ def refusal(guard: Guard, request: Request, access: Access) -> Refusal | None:
 
 
 def knows(guard: Guard, token: str) -> bool:
-    """Whether this is the token, or none is needed; how long it takes to say so tells nothing."""
+    """Whether this is the token, or none is needed; compared in constant time."""
     if guard.token is None:
         return True
     return compare_digest(token.encode("utf-8", "replace"), guard.token.encode())
@@ -127,10 +127,10 @@ def _bearer(headers: Mapping[str, str]) -> str:
 
 
 def _is_same_site(headers: Mapping[str, str], host: str, access: Access) -> bool:
-    """Whether a page of ours asks, or no page at all."""
+    """Whether the request comes from one of our pages, or not from a page."""
     site = headers.get("sec-fetch-site", "same-origin")
     match access:
-        case Access.LIVE:  # browsers differ in how near a ws: address is to its page's
+        case Access.LIVE:  # browsers differ in the site of a ws: address
             near = site != "cross-site"
         case Access.READ:  # "none": the address was typed
             near = site in ("same-origin", "none")
@@ -141,7 +141,7 @@ def _is_same_site(headers: Mapping[str, str], host: str, access: Access) -> bool
 
 
 def _is_ours(guard: Guard, host: str, local: str) -> bool:
-    """Whether a `Host` is a name of this station, to the port."""
+    """Whether a `Host` is a name of this station, including the port."""
     found = _HOST.fullmatch(host)
     if found is None:
         return False
@@ -153,7 +153,7 @@ def _is_ours(guard: Guard, host: str, local: str) -> bool:
 
 
 def _is_own(bound: str, name: str, local: str) -> bool:
-    """Whether a name needs no --name: the addresses of this machine, as far as it listens there."""
+    """Whether a name needs no --name: an address of this machine at which it listens."""
     if is_loopback(bound) and name in _LOOPBACK:
         return True
     here, meant = _address(local), _address(name)
@@ -183,7 +183,7 @@ _PICTURE = (
 _DATA = "default-src 'none'; frame-ancestors 'none'; sandbox"
 
 _ALONE = (("Cross-Origin-Opener-Policy", "same-origin"),)
-"""Browsers heed it only on this machine or over TLS, and else log that they do not."""
+"""A header that browsers respect only on this machine or over TLS, and else complain about."""
 
 _ALWAYS = (
     ("X-Content-Type-Options", "nosniff"),
@@ -195,7 +195,7 @@ _ALWAYS = (
 
 
 def with_safe_headers(request: Request, reply: Reply) -> Reply:
-    """Return an answer with all the headers that keep it safe."""
+    """Return an answer with all security headers."""
     own = {name.lower() for name, _ in reply.headers}
     kept = () if "cache-control" in own else (("Cache-Control", "no-store"),)
     policy = (("Content-Security-Policy", _policy(request, reply)),)

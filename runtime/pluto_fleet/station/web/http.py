@@ -1,6 +1,6 @@
-"""What a browser asks, what it is answered, and the line on which it stays connected.
+"""Requests, answers and WebSockets, independent of the web server.
 
-Nothing here knows of a web server, so that all that decides can be tried without one.
+So everything that makes decisions can be tested without one.
 """
 
 from __future__ import annotations
@@ -12,30 +12,30 @@ from math import isfinite
 from typing import Protocol
 
 Read = Callable[[], Awaitable[bytes]]
-"""Reads a body to its end, within limits: raises `Refused`."""
+"""Reads a body to its end; raises `Refused` beyond its limit."""
 
 
 async def nothing() -> bytes:
-    """Read a body that is not there."""
+    """Read an empty body."""
     return b""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Request:
-    """A request; its body is read only once it is known that it may be made."""
+    """A request; its body is read only after the access check."""
 
     method: str
     path: str
     query: Mapping[str, str] = field(default_factory=dict)
     headers: Mapping[str, str] = field(default_factory=dict)  # lower-case names
     read: Read = nothing
-    client: str = ""  # the address that connected; what a proxy says of another is not believed
+    client: str = ""  # the address of the connection; headers of proxies are ignored
     local: str = ""  # the address that it connected to
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reply:
-    """What is answered."""
+    """An answer."""
 
     status: int
     body: bytes = b""
@@ -44,7 +44,7 @@ class Reply:
 
 
 MISTAKES: tuple[type[Exception], ...] = (Exception,)
-"""What is caught of the station's own mistakes: one request fails, and no other."""
+"""The exceptions that are caught for bugs of the station: only one request fails."""
 
 
 class Closed(Exception):
@@ -52,40 +52,40 @@ class Closed(Exception):
 
 
 class PageSocket(Protocol):
-    """A WebSocket: first opened or refused, then talked on. All but `close` may raise `Closed`."""
+    """A WebSocket: first accepted or refused, then used. All methods but `close` may raise `Closed`."""
 
     async def open(self) -> None:
-        """Take the connection."""
+        """Accept the connection."""
 
     async def refuse(self) -> None:
-        """Take it not."""
+        """Refuse the connection."""
 
     async def receive(self) -> str:
-        """Return what is said next."""
+        """Return the next message."""
 
     async def send(self, text: str) -> None:
-        """Send this, and wait while it is not read."""
+        """Send a message, and wait until it is read."""
 
     async def close(self, code: int, why: str) -> None:
-        """Hang up."""
+        """Close the connection."""
 
 
 def json_reply(status: int, data: object) -> Reply:
-    """Answer with data as JSON, also where a hook has put a number into it that JSON lacks."""
+    """Answer with data as JSON; numbers that JSON lacks become null."""
     try:
         text = json.dumps(data, separators=(",", ":"), allow_nan=False)
-    except ValueError:  # a hook measured what is not a number
+    except ValueError:  # a hook returned NaN or infinity
         text = json.dumps(_finite(data), separators=(",", ":"), allow_nan=False)
     return Reply(status=status, body=text.encode("ascii"))
 
 
 def said(status: int, text: str) -> Reply:
-    """Answer with a sentence."""
+    """Answer with a message."""
     return json_reply(status, {"said": text})
 
 
 def text_reply(text: str, name: str, kind: str = "text/plain") -> Reply:
-    """Answer with a text to be kept under a name of ours."""
+    """Answer with a text to be downloaded under this name."""
     return Reply(
         status=200,
         body=text.encode("utf-8", "replace"),

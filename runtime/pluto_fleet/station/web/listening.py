@@ -1,4 +1,4 @@
-"""The socket on which the station is asked, and the address that people open."""
+"""The listening socket of the station, and the address to open."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .guard import Guard
 _BACKLOG = 128
 _PORTS = 65536
 _ELSEWHERE = ("192.0.2.1", 9)
-"""An address that no machine has: asked for the way there, the system tells which of ours it takes."""
+"""An unassigned address: the route to it reveals our own address."""
 
 
 def listening(host: str, port: int) -> socket.socket:
-    """Return a socket that listens; port 0 is any that is free."""
+    """Return a listening socket; port 0 is any free one."""
     if not 0 <= port < _PORTS:
         raise BadInput(f"--port {port}: a port is a number from 0 to {_PORTS - 1}")
     try:
@@ -27,7 +27,7 @@ def listening(host: str, port: int) -> socket.socket:
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
         listener = socket.socket(family, kind, protocol)
-    except (OSError, ValueError):  # ValueError: a host that is no name at all
+    except (OSError, ValueError):  # ValueError: an invalid host name
         raise BadInput(f"--host {quoted(host)}: there is no such address") from None
     try:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -41,12 +41,12 @@ def listening(host: str, port: int) -> socket.socket:
 
 
 def port_of(listener: socket.socket) -> int:
-    """Return the port that a socket has got."""
+    """Return the port of a socket."""
     return int(listener.getsockname()[1])
 
 
 def address(guard: Guard) -> str:
-    """Return what a person opens to see the station; it holds the token, where there is one."""
+    """Return the address to open, with the token if there is one."""
     secret = f"#token={guard.token}" if guard.token is not None else ""
     return f"http://{_name(guard)}/{secret}"
 
@@ -64,7 +64,7 @@ def _is_every(host: str) -> bool:
 
 
 def _own() -> str:
-    """Return the address of this machine that others see; nothing is sent to find out."""
+    """Return this machine's address in the network; nothing is sent for that."""
     with closing(socket.socket(socket.AF_INET, socket.SOCK_DGRAM)) as way:
         try:
             way.connect(_ELSEWHERE)

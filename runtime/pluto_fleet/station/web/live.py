@@ -1,6 +1,6 @@
-"""Keeps pages up to date: each says what it has seen, and is told once what is newer.
+"""Keeping pages up to date: each sends the version that it has, and gets what is newer.
 
-So a page that stops reading costs nothing, and is told the newest when it comes back.
+So a page that stops reading costs nothing, and gets the newest state when it comes back.
 """
 
 from __future__ import annotations
@@ -19,31 +19,31 @@ from .refusals import Refused
 from .strict_json import asked_number, parsed_object
 
 LIVE = "/api/live"
-"""Where pages connect."""
+"""The address for WebSockets."""
 
 _MOST_PAGES = 32
-"""Pages that are kept up to date."""
+"""The most connected pages."""
 _MOST_WAITING = 32
-"""Pages that have connected and sent nothing yet."""
+"""The most connections that have not sent anything yet."""
 _MESSAGES_A_SECOND = 20.0
-"""A second."""
+"""The most messages per second from a page."""
 _FIRST_WITHIN, _NEXT_WITHIN = 10.0, 120.0
-"""Seconds in which something must be said."""
+"""Time-outs of the first message and of the next ones, in seconds."""
 _LONGEST_FLIGHT = 100
 
 NO_TOKEN, MALFORMED, TOO_MANY, TROUBLE, SILENT, OVER = 4401, 4400, 4429, 1011, 4408, 1012
-"""Why a page is closed. From 4400 on they are HTTP's, and 4000 more."""
+"""Close codes; from 4400 on HTTP's status plus 4000."""
 
 
 class UpdateSource(Protocol):
-    """What pages are kept up to date with."""
+    """The source of updates."""
 
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
-        """Return what is newer than what was seen, as JSON; wait for it, but not for long."""
+        """Return what is newer than a version, as JSON; wait briefly for it."""
 
 
 class LiveUpdates:
-    """All pages that are kept up to date."""
+    """The connections of all pages."""
 
     def __init__(
         self, station: UpdateSource, guard: Guard, audit: Audit, clock: Callable[[], float]
@@ -54,7 +54,7 @@ class LiveUpdates:
         self._over = False
 
     async def poll(self, request: Request) -> Reply:
-        """Tell a page that cannot stay connected."""
+        """Answer a page that polls, without a WebSocket."""
         query = request.query
         counts = [asked_number(query, name) for name in ("seen", "log", "results")]
         if self._on >= _MOST_PAGES:
@@ -67,7 +67,7 @@ class LiveUpdates:
         return Reply(status=200, body=text.encode("utf-8", "replace"))
 
     async def talk(self, page: PageSocket, request: Request) -> None:
-        """Tell a page for as long as it asks."""
+        """Serve a page's WebSocket until it closes."""
         task = asyncio.current_task()
         assert task is not None
         self._talks.add(task)
@@ -86,13 +86,13 @@ class LiveUpdates:
             self._talks.discard(task)
 
     def end(self) -> None:
-        """Hang up on all pages at once."""
+        """Close the connections of all pages."""
         self._over = True
         for task in self._talks:
             task.cancel()
 
     async def _admit(self, page: PageSocket, request: Request) -> None:
-        """Let a page in that may be, and hang up with a reason on one that sends nonsense."""
+        """Accept a page after its first message, or close its connection with a reason."""
         why = refusal(self._guard, request, Access.LIVE)
         if why is None and request.path != LIVE:
             why = refusals.NO_SUCH_PAGE
@@ -136,7 +136,7 @@ class LiveUpdates:
 
 
 class _Improper(Exception):
-    """Why a page is hung up on."""
+    """Raised to close a page's connection, with the reason."""
 
     def __init__(self, code: int, why: str) -> None:
         super().__init__(why)
@@ -144,7 +144,7 @@ class _Improper(Exception):
 
 
 async def _heard(page: PageSocket, within: float) -> dict[str, object]:
-    """Return what is said next, if it comes in time and makes sense."""
+    """Return the next message, if it comes in time and is valid."""
     try:
         async with asyncio.timeout(within):
             text = await page.receive()
@@ -157,7 +157,7 @@ async def _heard(page: PageSocket, within: float) -> dict[str, object]:
 
 
 def _seen(asked: dict[str, object]) -> tuple[str, int, int, int]:
-    """Return what a page says it has seen."""
+    """Return the version that a page has."""
     match asked:
         case {"flight": str(flight), "seen": int(seen), "log": int(log), "results": int(results)}:
             return flight[:_LONGEST_FLIGHT], seen, log, results

@@ -1,4 +1,4 @@
-"""Why a request is refused, in sentences for a person; each says what to do about it."""
+"""The refusals of requests; each message says what to do."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .http import Reply, said
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """What is answered to a request that may not be, or not so."""
+    """The answer to a refused request."""
 
     status: int
     said: str
@@ -23,7 +23,7 @@ class Refusal:
 
 
 class Refused(Exception):
-    """Raised while a request is read: it goes no further."""
+    """Raised to refuse a request."""
 
     def __init__(self, refusal: Refusal) -> None:
         super().__init__(refusal.said)
@@ -31,7 +31,7 @@ class Refused(Exception):
 
 
 HANG_UP = (("Connection", "close"),)
-"""For a request that is refused before all of it has been read."""
+"""The header for a request that is refused before all of it has been read."""
 _SOON = (("Retry-After", "1"),)
 
 UNKNOWN_HOST = Refusal(
@@ -39,10 +39,10 @@ UNKNOWN_HOST = Refusal(
     "this station does not go by that name: open the address that it has printed,"
     " or name the others that it has with --name",
 )
-"""The request was meant for another address: a name elsewhere may have been pointed at this one."""
+"""The request's host is unknown, as after DNS rebinding."""
 ANOTHER_SITE = Refusal(403, "only the station's own pages may ask this")
 NO_MARK = Refusal(403, "a command needs the header X-Pluto: 1")
-"""A header that no page elsewhere can send unasked."""
+"""A header is missing that pages of other sites cannot send."""
 NO_TOKEN = Refusal(
     401,
     "this needs the token: it stands in the address that the station printed when it began,"
@@ -55,32 +55,32 @@ CUT_OFF = Refusal(400, "the connection ended before the request did: nothing was
 TOO_MANY = Refusal(
     429, "that is too much at once: nothing was changed; try again in a second", _SOON
 )
-"""From one client."""
+"""Too many requests from one client."""
 TOO_BUSY = Refusal(
     503,
-    "too many are access at once: nothing was changed; try again in a second."
+    "too many requests at once: nothing was changed; try again in a second."
     " A Stop is always taken",
     _SOON,
 )
-"""From all of them."""
+"""Too many requests from all clients."""
 OURS = Refusal(500, "something went wrong inside the station; what exactly stands in its audit.log")
 
 
 def wrong_type(wanted: str) -> Refusal:
-    """A body of another kind."""
+    """The body has another content type."""
     return Refusal(415, f"the content must be of the type {wanted}")
 
 
 def wrong_method(allowed: str) -> Refusal:
-    """Something is there, but not for this method."""
+    """The address does not allow this method."""
     return Refusal(405, f"this address takes {allowed} only", (("Allow", allowed),))
 
 
 def too_long(limit: int) -> Refusal:
-    """A body longer than anything that is asked for."""
+    """The body is too long."""
     return Refusal(413, f"that is more than {limit:,} bytes: nothing was changed", HANG_UP)
 
 
 def malformed(what: str) -> Refusal:
-    """What was sent is not what is asked for."""
+    """The request is malformed."""
     return Refusal(400, f"{what}: nothing was changed")

@@ -1,7 +1,7 @@
-"""Serves an `Api` by uvicorn, in the station's own loop. Nothing is decided here but which connections end.
+"""Serving an `Api` with uvicorn in the station's own loop, and limiting its connections.
 
-A connection on which nothing happens makes room for others: else a stranger who opens many and says
-nothing could keep out the one who wants to press Stop.
+An idle connection makes room for others: else a client that opens many and sends nothing could lock out the one
+that sends a Stop.
 """
 
 from __future__ import annotations
@@ -35,24 +35,24 @@ if TYPE_CHECKING:
 _LARGEST_BODY = 1024 * 1024
 _LARGEST_MESSAGE = 64 * 1024
 _LARGEST_HEAD = 16 * 1024
-"""Bytes of a request's body, of a message on a WebSocket, and of a request without its body."""
+"""The largest body, WebSocket message and head of a request, in bytes."""
 _BODY_WITHIN = 10.0
 _FIELDS = 16
 _LONGEST_REASON = 120
-"""Bytes: what fits into the frame that closes a connection."""
+"""The longest reason in a close frame, in bytes."""
 _CONNECTIONS = 256
-"""Those that wait for a request or an answer; WebSockets have limits of their own."""
+"""The most HTTP connections; WebSockets have limits of their own."""
 _LOOK_EVERY = 10.0
-"""Seconds between two looks at a connection, and so how long the head of a request may take."""
+"""The interval of checks of a connection, and so the time-out of a request's head, in seconds."""
 _LOOKS = 6
-"""After so many looks at one and the same request it is given up: the answer is not read."""
+"""The number of checks after which a request is given up whose answer is not read."""
 
 _GONE = (ClientDisconnect, WebSocketDisconnect, RuntimeError, OSError)
-"""What is raised where the other side is no longer there."""
+"""The exceptions of a closed connection."""
 
 
 async def serve(api: Api, listener: socket.socket, ready: Callable[[], object]) -> None:
-    """Serve on a socket that listens until cancelled; be told when pages can be asked for."""
+    """Serve on a listening socket until cancelled; `ready` is called when it serves."""
 
     async def application(scope: Scope, receive: Receive, send: Send) -> None:
         request = _request(scope, receive)
@@ -61,7 +61,7 @@ async def serve(api: Api, listener: socket.socket, ready: Callable[[], object]) 
             return
         reply = await api.answer(request)
         headers = {"Content-Type": reply.type, **dict(reply.headers)}
-        with suppress(*_GONE):  # the answer is not waited for any more
+        with suppress(*_GONE):  # the client has disconnected
             await Response(reply.body, reply.status, headers)(scope, receive, send)
 
     server = _server(application)
@@ -79,7 +79,7 @@ async def serve(api: Api, listener: socket.socket, ready: Callable[[], object]) 
 
 
 def _server(application: ASGIApp) -> uvicorn.Server:
-    """Return a server that leaves signals, logs and proxies alone."""
+    """Return a server without handlers of signals, logs and proxies."""
     config = uvicorn.Config(
         application,
         http=LimitedConnection,
@@ -97,15 +97,15 @@ def _server(application: ASGIApp) -> uvicorn.Server:
         timeout_graceful_shutdown=1,
     )
     server = uvicorn.Server(config)
-    vars(server)["capture_signals"] = nullcontext  # Ctrl-C is for those who fly
+    vars(server)["capture_signals"] = nullcontext  # Ctrl-C is handled by the flight
     return server
 
 
 class LimitedConnection(H11Protocol):
-    """An HTTP connection that is let go if nothing happens on it, or if others need its place."""
+    """An HTTP connection that is closed when idle for too long, or when others need its place."""
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Begin, and make room."""
+        """Register the connection, and make room for it."""
         self._began = asyncio.get_running_loop().time()
         others = [each for each in self.connections if isinstance(each, LimitedConnection)]
         super().connection_made(transport)
@@ -117,12 +117,12 @@ class LimitedConnection(H11Protocol):
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing is being answered."""
+        """Whether no request is being handled."""
         cycle: RequestResponseCycle | None = self.cycle
         return cycle is None or cycle.response_complete
 
     def let_go(self) -> None:
-        """End it at once."""
+        """Close it at once."""
         self.connections.discard(self)
         self.transport.abort()
 
@@ -131,8 +131,8 @@ class LimitedConnection(H11Protocol):
         loop.call_later(_LOOK_EVERY, self._look, cycle, idle, looks)
 
     def _look(self, cycle: object, idle: bool, looks: int) -> None:
-        """See whether anything has happened since the last look."""
-        if self not in self.connections:  # it is closed, or a WebSocket by now
+        """Close it if nothing has happened since the last check."""
+        if self not in self.connections:  # closed, or upgraded to a WebSocket
             return
         unchanged = self.cycle is cycle and self.is_idle is idle
         looks = looks + 1 if unchanged else 0
@@ -155,7 +155,7 @@ def _closed_where_gone() -> Iterator[None]:
 
 
 class StarletteSocket:
-    """A page that stays connected by a WebSocket."""
+    """A page's WebSocket."""
 
     def __init__(self, socket: WebSocket) -> None:
         self._socket = socket
@@ -166,11 +166,11 @@ class StarletteSocket:
             await self._socket.accept()
 
     async def refuse(self) -> None:
-        """Take it not: the server says 403, and a browser tells its page no more than that."""
+        """Refuse the connection: the server answers 403, which is all that a browser tells its page."""
         await self.close(1008, "")
 
     async def receive(self) -> str:
-        """Return what is said next; what is no text is as good as nothing."""
+        """Return the next message; empty for one that is not text."""
         with _closed_where_gone():
             message = await self._socket.receive()
         if message["type"] == "websocket.disconnect":
@@ -191,7 +191,7 @@ class StarletteSocket:
 
 
 def _request(scope: Scope, receive: Receive) -> Request:
-    """Return what is asked, with a body that is yet to be read."""
+    """Return the request, whose body is not read yet."""
     headers = _headers(scope)
     return Request(
         method=scope.get("method", "GET"),
@@ -205,7 +205,7 @@ def _request(scope: Scope, receive: Receive) -> Request:
 
 
 def _headers(scope: Scope) -> dict[str, str]:
-    """Return the headers; one that comes twice says both, and so nothing that is wanted."""
+    """Return the headers; repeated ones are joined, which makes them invalid."""
     found: dict[str, str] = {}
     for name, value in scope["headers"]:
         key, text = name.decode("latin-1").lower(), value.decode("latin-1")
@@ -226,7 +226,7 @@ def _host(end: object) -> str:
 
 
 async def _body(headers: Mapping[str, str], scope: Scope, receive: Receive) -> bytes:
-    """Read a body to its end, or as far as a request may be long."""
+    """Read a body to its end; raise `Refused` if it is too long."""
     length = headers.get("content-length", "0")
     if not length.isdecimal() or len(length) > 12 or int(length) > _LARGEST_BODY:
         raise Refused(refusals.too_long(_LARGEST_BODY))

@@ -1,6 +1,6 @@
-"""The pages, and the floor plan: bytes that were read once, each by the one name that it has.
+"""The pages and the floor plan: a fixed table of files, which are read once.
 
-No path is ever made of a request. What is not in the table is not there.
+No path is ever made of a request.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _LARGEST = 20 * 1024 * 1024
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StaticFile:
-    """What is handed out, and its mark, by which a browser knows whether it has it already."""
+    """A static file, with its ETag."""
 
     type: str
     plain: bytes
@@ -51,7 +51,7 @@ class StaticFile:
 
 @cache
 def pages(folder: Path = FOLDER) -> Mapping[str, StaticFile]:
-    """Return what there is at which address; it is read once."""
+    """Return the files by their addresses."""
     table = {}
     for file in sorted(folder.iterdir()):
         kind = _KINDS.get(file.suffix)
@@ -63,7 +63,7 @@ def pages(folder: Path = FOLDER) -> Mapping[str, StaticFile]:
 
 
 def floor_plan(folder: Path, name: str) -> Path:
-    """Return the picture that a fleet file names, if it is one and lies beside that file."""
+    """Return the picture that a fleet file names, if it is valid and beside that file."""
     place = folder / name
     if place.suffix.lower() not in _PICTURES:
         kinds = ", ".join(_PICTURES)
@@ -83,7 +83,7 @@ def floor_plan(folder: Path, name: str) -> Path:
 
 
 def picture(place: Path) -> StaticFile | None:
-    """Return the floor plan; None: it cannot be read any more."""
+    """Return the floor plan; None if it cannot be read any more."""
     kind = _PICTURES.get(place.suffix.lower())
     try:
         return None if kind is None else _held(kind, place.read_bytes(), packs=False)
@@ -92,7 +92,7 @@ def picture(place: Path) -> StaticFile | None:
 
 
 def file_reply(held: StaticFile, request: Request) -> Reply:
-    """Hand it out, unless the browser has it already."""
+    """Answer with a file, or 304 if the browser has it already."""
     headers = (("ETag", held.mark), ("Cache-Control", "no-cache"), ("Vary", "Accept-Encoding"))
     if held.mark in request.headers.get("if-none-match", ""):
         return Reply(status=304, type=held.type, headers=headers)

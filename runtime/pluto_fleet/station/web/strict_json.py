@@ -1,4 +1,4 @@
-"""JSON and numbers from strangers: not too deep, no name twice, only numbers that are numbers."""
+"""Parsing untrusted JSON and numbers: bounded depth, no duplicate keys, finite numbers."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from ..commands import Malformed
 
 DEEPEST = 32
 _LARGEST = 2**53
-"""Beyond it a browser's numbers are no longer whole."""
+"""The largest integer that is exact in a browser."""
 
 _DIGITS = 15
-"""Of a number in an address."""
+"""The most digits of a number in an address."""
 
 _TOKEN = re.compile(r'"(?:[^"\\]+|\\.)*+"?|[\[{]|[\]}]', re.DOTALL)
-"""A text, or a bracket outside of any. A text that does not end is one, too: it is passed over once."""
+"""A string, also an unterminated one, or a bracket outside of strings."""
 _HALF = re.compile(r"\\u[dD][89a-fA-F]")
-"""How one half of a character, or both, may be written."""
+"""Escapes of surrogates."""
 
 
 def parsed(body: bytes | str) -> object:
-    """Return what a body says; `Malformed` says what is wrong with it."""
+    """Parse a body; raise `Malformed` with what is wrong."""
     try:
         text = body if isinstance(body, str) else body.decode("utf-8")
     except UnicodeDecodeError:
@@ -48,7 +48,7 @@ def parsed(body: bytes | str) -> object:
 
 
 def parsed_object(body: bytes | str) -> dict[str, object]:
-    """Return what a body says where an object is wanted."""
+    """Parse a body that must be an object."""
     data = parsed(body)
     if not isinstance(data, dict):
         raise Malformed("what was sent is not an object in braces")
@@ -56,7 +56,7 @@ def parsed_object(body: bytes | str) -> dict[str, object]:
 
 
 def asked_number(query: Mapping[str, str], name: str) -> int:
-    """Return a whole number of an address: 0 where there is none."""
+    """Return a whole number from an address; 0 if there is none."""
     text = query.get(name, "0")
     if not (text.isascii() and text.isdecimal() and len(text) <= _DIGITS):
         raise Malformed(f"{name} must be a whole number")
@@ -64,7 +64,7 @@ def asked_number(query: Mapping[str, str], name: str) -> int:
 
 
 def _bound_depth(text: str) -> None:
-    """Look at the brackets before anything is read that could be too deep for the reader."""
+    """Check the depth of brackets before parsing, to protect the parser."""
     depth = 0
     for found in _TOKEN.finditer(text):
         bracket = found.group()
