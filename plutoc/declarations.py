@@ -1,4 +1,4 @@
-"""Is what a package declares as a block one, in every field of it?
+"""Validating the declaration of a block, field by field.
 
 A declaration may be another author's code: what is wrong with it is said here, with the package's name and
 the block's, and not met later as a mistake of the compiler.
@@ -59,12 +59,12 @@ def mistakes_in(block: Block) -> Iterator[str]:
 
 
 def is_name(text: object) -> bool:
-    """Say whether this can be a name in a source, and in Python."""
+    """Return whether this can be a name in a source, and in Python."""
     return type(text) is str and text.isascii() and text.isidentifier() and not iskeyword(text)
 
 
 def is_text(text: object) -> bool:
-    """Say whether this can be printed: nothing in it commands a terminal."""
+    """Return whether this can be printed, without control characters."""
     return type(text) is str and all(char.isprintable() or char in "\n\t" for char in text)
 
 

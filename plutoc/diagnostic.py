@@ -1,4 +1,4 @@
-"""What the compiler has to say about a source: one value, from which every output is made.
+"""A finding of the compiler about a source: one value, from which every output format is made.
 
 Codes: P0 syntax, P1 names, types and units, P2 graph, P3 hooks, P4 generated files, P9 internal. A
 code is never used twice, not even after its diagnostic is gone.

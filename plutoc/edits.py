@@ -1,4 +1,4 @@
-"""Changes that mend a source for certain. None of them takes a comment away."""
+"""Edits that certainly fix a source. None of them removes a comment."""
 
 from __future__ import annotations
 

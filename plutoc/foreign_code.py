@@ -1,4 +1,4 @@
-"""Loading code of other authors: its faults are its own, and it may not end the compiler."""
+"""Loading code of other authors, whose errors must not end the compiler."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import NoReturn
 
 
 class Terminated(BaseException):
-    """We were told to end, by a signal. No `Exception`: code that catches those must let it through."""
+    """A signal asks the compiler to end. Not an `Exception`, so that code which catches those lets it through."""
 
     def __init__(self, signal: int) -> None:
         super().__init__(signal)
@@ -19,12 +19,12 @@ class Terminated(BaseException):
 
 
 class Interrupted(KeyboardInterrupt):
-    """A person has pressed Ctrl-C: a type of its own, for any code may raise `KeyboardInterrupt`."""
+    """The user pressed Ctrl-C; a type of its own, as any code may raise `KeyboardInterrupt`."""
 
 
 @contextmanager
 def isolated() -> Iterator[None]:
-    """Have Ctrl-C raise `Interrupted`, and `os._exit` raise `SystemExit`, for as long as this lasts."""
+    """Make Ctrl-C raise `Interrupted`, and `os._exit` raise `SystemExit`, within this context."""
     leave, process = os._exit, os.getpid()
 
     def refuse(status: int) -> NoReturn:
@@ -45,8 +45,8 @@ def isolated() -> Iterator[None]:
 
 
 def by_a_person(error: BaseException) -> bool:
-    """Say whether this is a person's Ctrl-C, or, where that cannot be told, may be."""
-    kind = type(error)  # the error itself is asked nothing: it may be of any class
+    """Return whether this is the user's Ctrl-C, or may be."""
+    kind = type(error)  # not `isinstance`: the error's class may lie
     if not issubclass(kind, KeyboardInterrupt):
         return False
     handler = signal.getsignal(signal.SIGINT)

@@ -46,7 +46,7 @@ class Blocks:
 
 
 def blocks() -> Blocks:
-    """Return what is installed here. Nothing is loaded yet."""
+    """Return the installed packages. Nothing is loaded yet."""
     return Blocks(packages=installed_packages(), of=blocks_of)
 
 

@@ -1,4 +1,4 @@
-"""What becomes of each branch of each fork: the facts that the checks of forks share."""
+"""The branches of all forks, and the facts about them that the checks of forks share."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from plutoc.graph.model import END, Edge
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 Astray = tuple[Place, Status | None]
-"""A place, and the status that it is left with where no edge takes that."""
+"""A place, and the status with which it is left although no edge takes it."""
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -28,10 +28,10 @@ class Branch:
     astray: Astray | None = None
     """The nearest place where a clone ends, or is flown, before its gate."""
     circles: Place | None = None
-    """The nearest place from where a clone can go round for ever."""
+    """The nearest place from which a clone can loop for ever."""
     stuck: bool = False
     nodes: dict[str, None] = field(default_factory=dict)
-    """The blocks in it; those of the forks in it not counted."""
+    """The blocks in it, without those of inner forks."""
     inner: dict[Fork, None] = field(default_factory=dict)
     """The forks that begin in it."""
 
@@ -73,7 +73,7 @@ def branches(flow: Flow) -> Branches:
 
 
 def nesting(found: Branches) -> nx.DiGraph:
-    """Return which forks begin within the branches of which."""
+    """Return the nesting of forks: for each, those that begin within its branches."""
     inside = nx.DiGraph()
     inside.add_nodes_from(found)
     inside.add_edges_from(
@@ -83,7 +83,7 @@ def nesting(found: Branches) -> nx.DiGraph:
 
 
 def within(found: Branches, inside: nx.DiGraph, branch: Branch) -> tuple[Branch, ...]:
-    """Return the branch and all those of the forks in it, however deep, in no certain order."""
+    """Return the branch and all branches of forks in it, at any depth, in any order."""
     deeper = (one for fork in reachable(inside, branch.inner) for one in found[fork])
     return tuple({branch, *deeper})
 

@@ -1,4 +1,4 @@
-"""From everywhere a way must lead to an end: statuses that no edge takes, loops that nothing leaves."""
+"""Every mission must be able to end: statuses that no edge takes, loops without an exit."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ Left = tuple[Node, tuple[Status, ...], Place]
 
 
 def stuck(flow: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic]:
-    """Find where missions are left: one message a block, or for all that a fork leaves open.
+    """Find where missions get stuck: one message per block, or per fork.
 
-    What comes to an `idle` gate was meant to be in a fork: what is left behind it is not said.
+    Missions at an `idle` gate were meant to be in a fork: what is left behind it is not reported.
     """
     diagnostics = []
     walked = set(flow.edges)
-    # an arrow that must not be there has its own message, and was meant to take something
+    # a forbidden arrow has its own message, and was meant to take something
     wrong = {edge.source for edge in flow.graph.edges if edge not in walked}
     open_forks: dict[Fork, list[Left]] = {}
     for node in flow.graph.nodes:
@@ -75,7 +75,7 @@ def implicit_ends(flow: Flow) -> tuple[tuple[str, Status], ...]:
 
 
 def _left(flow: Flow, node: Node) -> dict[Status, Place]:
-    """Where missions are left at a block, by the status that no edge takes."""
+    """The places where missions get stuck at a block, by the status that no edge takes."""
     left: dict[Status, Place] = {}
     for place, status in flow.loose:
         if place.node == node.name and not is_final(status):
@@ -97,10 +97,10 @@ def _taker(flow: Flow, node: Node, status: Status) -> str | None:
 
 
 def endless(flow: Flow, astray: Collection[str]) -> list[Diagnostic]:
-    """Find loops that a mission can enter and never leave, or only if a hook fails it.
+    """Find loops that a mission can enter and never leave, or only by a hook's failure.
 
-    Those within a fork that nothing leaves are left out: there it is the fork that does not close. So
-    are those of finished missions through gates to which they go `astray`: that has been said.
+    Endless loops within a fork are skipped: there the error is that the fork does not close. So are
+    those of finished missions through gates in `astray`, which are reported already.
     """
     never = [part for part in flow.endless if not (_is_idle(part) and _meets(part, astray))]
     blocks = {*astray, *(place.node for part in never for place in part)}
@@ -125,9 +125,9 @@ def _within_branches(flow: Flow) -> tuple[Edge, ...]:
 
 
 def _idle(flow: Flow, edges: tuple[Edge, ...]) -> Flow | None:
-    """Follow missions that have nothing left to fly, as long as no hook fails them.
+    """Explore missions that have nothing left to fly, as long as no hook fails them.
 
-    Only on ways round where nothing is flown, and only where a hook could fail them.
+    Only on loops without flights, and only where a hook could fail them.
     """
     turns = unflown(flow.graph, arrows_of(flow.graph, edges))
     failing = {turns[name] for name in turns if _may_fail(flow.graph.node[name])}
@@ -141,7 +141,7 @@ def _idle(flow: Flow, edges: tuple[Edge, ...]) -> Flow | None:
 
 
 def _beginnings(flow: Flow, blocks: Collection[str], turns: Mapping[str, int]) -> dict[Place, None]:
-    """Return where missions are on a way round; a fork that is open all the way does not matter."""
+    """Return the places of a loop; a fork that stays open all the way does not matter."""
     not_open: dict[Split, set[int]] = {}
     for place in flow.places:
         if place.frame is not None:
@@ -159,7 +159,7 @@ def _beginnings(flow: Flow, blocks: Collection[str], turns: Mapping[str, int]) -
 
 
 def _arrives(flow: Flow, place: Place) -> bool:
-    """Is it a clone that comes to the gate of its fork?"""
+    """Whether it is a clone that arrives at the gate of its fork."""
     return flow.graph.node[place.node].block.gate is not None and not place.out
 
 
@@ -168,7 +168,7 @@ def _may_fail(node: Node) -> bool:
 
 
 def _is_idle(part: Loop) -> bool:
-    """Is it a loop that only missions with nothing left to fly cannot leave, for all is said already?"""
+    """Whether only missions with nothing left to fly cannot leave this loop, as their blocks repeat their answers."""
     return all(map(is_over, part)) and any(place.facts.said for place in part)
 
 

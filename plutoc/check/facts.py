@@ -1,4 +1,4 @@
-"""What a mission has behind it when it leaves a block, and what that leaves it to emit."""
+"""The abstract state of a mission, and the transitions by which it leaves a block."""
 
 from __future__ import annotations
 
@@ -11,34 +11,34 @@ from plutoc_runtime.domain.status import Status
 OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 """How a trip can end: well with more to fly, well as the last one, or not well."""
 Way = tuple[Status, Facts]
-"""A status with which a mission leaves a block, and what it has behind it then."""
+"""A status with which a mission leaves a block, and its facts then."""
 
 
 def bound_of(node: Node) -> int:
-    """Return how often a block lets a trip fly, the first time included; 0 is no bound."""
+    """Return how often a block lets a trip be flown in all; 0 is no bound."""
     bound = dict(node.values).get(node.block.bound) if node.block.bound else None
     return int(bound) if bound and node.block.retries else 0
 
 
 def puts_trips(node: Node) -> bool:
-    """Say whether a block's hook may put another trip first."""
+    """Return whether a block's hook may put another trip first."""
     return bool(node.hook and node.hook.emits)
 
 
 def says_the_same(node: Node) -> bool:
-    """Say whether a block that is asked again before anything is flown gives the same answer."""
+    """Return whether a block gives the same answer until something is flown."""
     return node.block.evaluates or node.block.repeats
 
 
 def is_over(place: Place) -> bool:
-    """Has a mission nothing left to fly here?"""
+    """Whether a mission has nothing left to fly here."""
     return place.status is Status.COMPLETED or place.facts.spent
 
 
 def leaving(node: Node, place: Place, number: int | None) -> Iterator[Way]:
-    """Give each status with which a mission can leave a block, and what it has behind it then.
+    """Yield each status with which a mission can leave a block, with its facts then.
 
-    A block that may be asked again before anything is flown has a number: it says the same.
+    A block that can be reached again without a flight has a number, for its remembered answer.
     """
     facts, bound = place.facts, bound_of(node)
     if facts.spent and (node.block.allocates or node.block.retries):
@@ -57,7 +57,7 @@ def leaving(node: Node, place: Place, number: int | None) -> Iterator[Way]:
 
 
 def unless_failed(ways: Sequence[Way]) -> Sequence[Way]:
-    """Return how a mission that has nothing left to fly leaves a block, if no hook fails it.
+    """Return the statuses with which a mission with nothing left to fly leaves a block, if no hook fails it.
 
     Without a trip in flight RUNNING is a fault, and so is UNEXECUTED once one has been flown. A hook
     that can say nothing else fails it all the same, or leaves it as FAILED as it was.
@@ -66,7 +66,7 @@ def unless_failed(ways: Sequence[Way]) -> Sequence[Way]:
 
 
 def elsewhere(facts: Facts) -> Facts:
-    """Forget what was said on a way round, where no way leads back before the next launch."""
+    """Drop remembered answers of blocks that are not reached again before the next launch."""
     return facts._replace(said=0) if facts.said else facts
 
 
@@ -93,8 +93,8 @@ def _behind(node: Node, facts: Facts, status: Status, bound: int) -> tuple[Facts
 
 
 def _remembered(node: Node, facts: Facts, status: Status, number: int) -> Facts:
-    """Add what a block has said, if it says the same until something is flown."""
-    # as long as a round is left, who repeats may find one round less the next time
+    """Remember a block's answer, if it is the same until something is flown."""
+    # as long as rounds are left, the next answer may differ
     if node.block.repeats and status is not Status.COMPLETED:
         return facts
     others = facts.said & ~(3 << 2 * number)

@@ -1,4 +1,4 @@
-"""What is flown: drones and launches, what becomes of failures, and who judges before repeating."""
+"""The checks of flights: allocation and launch, handling of failures, evaluation before repetition."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from plutoc.graph.model import Graph, Node
 from plutoc_runtime.domain.status import Status
 
 _MOST_LOOPS = 10
-"""So many are shown, each with its way round."""
+"""The most loops that are shown."""
 
 
 def undrawn(flow: Flow) -> list[Diagnostic]:
-    """Find launches with no allocation since the launch before."""
+    """Find launches without an allocation since the previous launch."""
     return _first(
         flow, lambda node, p: node.block.launches and not p.facts.allocated, errors.no_allocation
     )
 
 
 def unlaunched(flow: Flow) -> list[Diagnostic]:
-    """Find blocks that watch a flight on a way without a launch."""
+    """Find blocks that watch a flight without a launch before."""
     return _first(
         flow, lambda node, p: node.block.watches and not p.facts.launched, errors.no_launch
     )
 
 
 def held(flow: Flow) -> list[Diagnostic]:
-    """Warn of missions that rest with a drone allocated that no other can use."""
+    """Warn of missions that wait with an allocated drone that no other mission can use."""
     return _first(flow, lambda node, p: node.block.holds and p.facts.allocated, errors.drone_held)
 
 
@@ -43,7 +43,7 @@ def _first(
     wrong: Callable[[Node, Place], bool],
     error: Callable[[Graph, Node, Way], Diagnostic],
 ) -> list[Diagnostic]:
-    """Report each block for which it is wrong, with the shortest way that shows it."""
+    """Report each wrong block, with the shortest path that shows it."""
     found: dict[str, Diagnostic] = {}
     for place in flow.places:
         node = flow.graph.node.get(place.node)
@@ -54,7 +54,7 @@ def _first(
 
 
 def unmended(flow: Flow) -> list[Diagnostic]:
-    """Warn where a failed trip ends its mission, for want of a block that puts it back."""
+    """Warn if a failed trip ends its mission because no block retries it."""
     failing = [
         node
         for node in flow.graph.nodes
@@ -66,7 +66,7 @@ def unmended(flow: Flow) -> list[Diagnostic]:
 
 
 def unbounded(flow: Flow) -> list[Diagnostic]:
-    """Warn of loops that a trip which always fails would go round for ever."""
+    """Warn of loops in which a trip that always fails would be retried for ever."""
     after = nx.DiGraph()
     after.add_nodes_from(flow.places)
     steps = [(p, target) for p, target in flow.after.edges if _is_failure(flow, p, target)]
@@ -88,19 +88,19 @@ def unbounded(flow: Flow) -> list[Diagnostic]:
 
 
 def _is_mended(place: Place, targets: Iterable[Place]) -> bool:
-    """Does a failed mission leave this place in a better state?"""
+    """Whether a failed mission leaves this place in a better state."""
     return place.status is Status.FAILED and any(t.status is not Status.FAILED for t in targets)
 
 
 def _mends(flow: Flow, node: Node) -> bool:
-    """Does a failed mission come here, and may it leave in a better state?"""
+    """Whether a failed mission comes here, and may leave in a better state."""
     return Status.FAILED in flow.arrives[node.name] and bool(
         node.emitted(Status.FAILED) - {Status.FAILED}
     )
 
 
 def _is_failure(flow: Flow, place: Place, target: Place) -> bool:
-    """Can a mission take this step though no flight of its trip succeeds, as often as it likes?"""
+    """Whether a mission can take this step without limit although no flight of its trip succeeds."""
     node = flow.graph.node[place.node]
     if target.status is Status.FAILED:
         return True
@@ -110,7 +110,7 @@ def _is_failure(flow: Flow, place: Place, target: Place) -> bool:
 
 
 def repeated_unjudged(flow: Flow) -> list[Diagnostic]:
-    """Warn where a mission is repeated before it was judged."""
+    """Warn if a mission is repeated before it was evaluated."""
     graph = flow.graph
     # behind a launch it is another flight that is judged
     unlaunched = (e for e in flow.edges if flow.carries[e] and not _launches(flow, e.source))

@@ -1,9 +1,9 @@
-"""Where missions can be in a graph: what the walk over all statuses found, and the ways there.
+"""The result of the exploration: the places where missions can be, and the paths to them.
 
 A place inside a fork belongs to a branch, as a statement belongs to a function: the branch is
 entered where the mission forks, and left at the gate, towards wherever the fork was entered from.
 
-Places are looked up by the million, and so are tuples: to hash those is quicker than anything else.
+Places are tuples, as they are looked up by the million, and tuples are the fastest to hash.
 """
 
 from __future__ import annotations
@@ -23,25 +23,25 @@ Fork = tuple[str, Status]
 
 
 class Facts(NamedTuple):
-    """What a mission has behind it."""
+    """The facts about a mission's past that matter for its future."""
 
     allocated: bool = False
-    """It got a drone, and has not been launched since."""
+    """Whether it has a drone that was not launched yet."""
     launched: bool = False
-    """It was launched at least once."""
+    """Whether it was launched at least once."""
     outcome: Status | None = None
     """How the trip in flight will end. Every branch of a fork sees that same end, so it is chosen
     at the launch, once for all of them; None before the first launch and once the trip is over."""
     attempts: int = 0
-    """At least so often the next trip has been flown: a bound that gave up once gives up again."""
+    """The least number of flights of the next trip: a bound that was reached once stays so."""
     spent: bool = False
-    """It has FAILED though no trip was left to fly, so nothing can be put back."""
+    """Whether it has FAILED with no trip left to fly, so that nothing can be retried."""
     said: int = 0
-    """What blocks have said that say the same until something is flown: two bits each."""
+    """Remembered answers of blocks, two bits each."""
 
 
 class Split(NamedTuple):
-    """A fork, and what the missions that come to it have behind them."""
+    """A fork, with the facts of the missions that reach it."""
 
     node: str
     status: Status
@@ -69,7 +69,7 @@ class Place(NamedTuple):
     status: Status
     facts: Facts
     out: bool = False
-    """Here it has just left its branch: at the gate, or, by mistake, at a block that flies it."""
+    """Whether it has just left its branch: at the gate, or, by mistake, at a block that flies it."""
 
 
 Loop = tuple[Place, ...]
@@ -77,7 +77,7 @@ Loop = tuple[Place, ...]
 
 
 class Step(NamedTuple):
-    """How a place was first reached, by the shortest way."""
+    """How a place was first reached, on the shortest path."""
 
     before: Place
     leaving: Status | None
@@ -89,7 +89,7 @@ class Step(NamedTuple):
 
 
 class Hop(NamedTuple):
-    """One block on a way, and the status that the mission leaves it with."""
+    """One block on a path, and the status with which the mission leaves it."""
 
     node: str
     leaving: Status | None
@@ -100,7 +100,7 @@ Way = tuple[Hop, ...]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Flow:
-    """Everything that the walk found. Mappings are in the order of discovery."""
+    """The result of the exploration. Mappings are in the order of discovery."""
 
     graph: Graph
     edges: tuple[Edge, ...]
@@ -109,7 +109,7 @@ class Flow:
     """The same, from block to block by name."""
     places: Mapping[Place, Step | None]
     after: nx.DiGraph
-    """Where missions go next from each place."""
+    """The successors of each place."""
     loose: tuple[tuple[Place, Status], ...]
     """Places left with a status that no edge takes."""
     endless: tuple[Loop, ...]
@@ -128,20 +128,20 @@ class Flow:
         return tuple(e for e in self.graph.outgoing[node] if status in self.carries[e])
 
     def way_to(self, node: str, leaving: Status | None = None) -> Way:
-        """Return the shortest way to a block, and on with that status if one is given."""
+        """Return the shortest path to a block, and on with a status if one is given."""
         if leaving is None:
             return self.way(self.nearest[node])
         lost = (p for p, s in self.loose if p.node == node and s is leaving)
         return self.way(next(lost, self.nearest[node]), leaving)
 
     def way(self, place: Place, leaving: Status | None = None) -> Way:
-        """Return the shortest way to a place, from where missions are made."""
+        """Return the shortest path to a place, from the creation of missions."""
         hops = [Hop(node=place.node, leaving=leaving)]
         begun: list[Place] = []
         while (step := self.places[place]) is not None:
             if step.back_to is not None:
                 begun.append(step.back_to)
-            # a gate leads back to the fork that this very mission came from, not to any
+            # a gate leads back to the fork of this very mission
             before = begun.pop() if step.enters and begun else step.before
             if step.leaving is not None:
                 hops.append(Hop(node=before.node, leaving=step.leaving))
@@ -150,7 +150,7 @@ class Flow:
 
 
 def blocks_of(places: Iterable[Place]) -> tuple[str, ...]:
-    """Return the blocks of a way, each once: a gate is come to and left at one block."""
+    """Return the blocks of a path, each once: arrival and departure at a gate are one."""
     return tuple(name for name, _ in groupby(place.node for place in places))
 
 
@@ -161,5 +161,5 @@ def ordered(statuses: Iterable[Status]) -> tuple[Status, ...]:
 
 
 def is_final(status: Status) -> bool:
-    """Can a mission end with this status?"""
+    """Whether a mission can end with this status."""
     return status in (Status.COMPLETED, Status.FAILED)

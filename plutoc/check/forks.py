@@ -12,13 +12,13 @@ from plutoc.graph.digraph import loops
 
 Branched = tuple[Branch, ...]
 MOST_NESTED = 100
-"""So deep forks may lie in each other: a branch is written within the one around it."""
+"""The deepest nesting of forks, as branches become nested functions."""
 _MOST_WAYS = 200
-"""Of so many forks that go round for ever a way is shown."""
+"""The most endless forks whose loops are shown."""
 
 
 def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
-    """Find forks that do not close: for each the one message that says most."""
+    """Find forks that do not close, with the most specific message for each."""
     inside = nesting(found)
     breeding = loops(inside)
     diagnostics = []
@@ -37,7 +37,7 @@ def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
 
 
 def too_deep(flow: Flow, found: Branches) -> list[Diagnostic]:
-    """Find a fork within too many others, in a graph in which all of them close."""
+    """Find a fork that is nested too deeply, in a graph in which all forks close."""
     inside = tuple(found)
     for _ in range(MOST_NESTED):
         inner = (fork for one in inside for branch in found[one] for fork in branch.inner)
@@ -64,7 +64,7 @@ def gates_of(branches: Branched) -> tuple[str, ...]:
 
 
 def _shared(flow: Flow, found: Branches, branches: Branched) -> Diagnostic | None:
-    """A fork inside a branch takes the gate of the fork around it for its own."""
+    """Find a fork inside a branch that closes at the gate of the outer fork."""
     gates = gates_of(branches)
     for branch in branches:
         for inner in filter(lambda fork: _sound(found[fork]), branch.inner):
@@ -99,7 +99,7 @@ def _open(flow: Flow, found: Branches, branches: Branched, shown: bool) -> Diagn
 
 
 def _sound(branches: Branched) -> bool:
-    """Do the branches all close, at one gate?"""
+    """Whether all branches close at one gate."""
     return len(gates_of(branches)) == 1 and all(
         branch.gates and not branch.astray and not branch.circles and not branch.stuck
         for branch in branches
@@ -107,12 +107,11 @@ def _sound(branches: Branched) -> bool:
 
 
 def idle_gates(flow: Flow, found: Branches, *, lacking: bool) -> dict[str, Diagnostic]:
-    """Find gates that missions come to outside of any fork, by name.
+    """Find gates that missions reach outside of any fork, by name.
 
-    Where something else is `lacking`, a block that nothing leads to, that may be the branch which a
-    gate waits for: it has a message already.
+    If an unreached block is `lacking`, it may be the missing branch, and has a message already.
     """
-    # where branches close at different gates, what comes behind them has been said already
+    # branches that close at different gates are reported already
     torn = {
         g for branches in found.values() if len(gates_of(branches)) > 1 for g in gates_of(branches)
     }

@@ -1,4 +1,4 @@
-"""Which statuses a gate lets through, given what each branch of its fork can bring."""
+"""The statuses that pass a gate, given those that each branch can bring."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from plutoc_runtime.domain.status import WORST_FIRST, Status
 Came = Mapping[int, Iterable[Place]]
 """The arrivals at one gate, by branch."""
 Passing = tuple[Status, Facts]
-"""A status that passes a gate, and what the mission has behind it then."""
+"""A status that passes a gate, with the mission's facts then."""
 
 
 def passing(gate: Gate, came: Came) -> dict[Passing, Place]:
-    """Return what passes when every branch has come, and who brings each."""
+    """Return what passes when every branch has arrived, with the arrival that brings it."""
     brought: dict[Passing, Place] = {}
     for arrivals in came.values():
         for arrival in arrivals:
@@ -29,7 +29,7 @@ def passing(gate: Gate, came: Came) -> dict[Passing, Place]:
 
 
 def with_each(gate: Gate, came: Came) -> Iterator[tuple[Place, Status]]:
-    """Give each arrival with every status that can pass when it is one of those at the gate."""
+    """Yield each arrival with every status that can pass together with it."""
     best = {branch: _best(arrivals) for branch, arrivals in came.items()}
     bringers = Counter(s for arrivals in came.values() for s in {a.status: None for a in arrivals})
     lowest = sorted(best.values())

@@ -23,7 +23,7 @@ class Fork:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Checked:
-    """A sound graph. What missions do after a Stop counts like anything else that they do."""
+    """A sound graph, with the results of the checks, which include missions resumed after a Stop."""
 
     graph: Graph
     arrives: Mapping[str, frozenset[Status]]
@@ -36,9 +36,9 @@ class Checked:
     implicit_ends: tuple[tuple[str, Status], ...]
     """Where a mission ends without an edge to `end`."""
     resumes: Mapping[str, tuple[str, ...]]
-    """Where a mission goes on that was stopped at each block: the way it came decides which."""
+    """Where a mission resumes that was stopped at each block, which may depend on its path."""
     entries: Mapping[str, frozenset[Status]]
     """The blocks at which interrupted missions go on, in the order of the source, and how they
     stand then."""
     explored: int
-    """How many states of a mission were explored: the whole cost of the checks hangs on it."""
+    """How many states of a mission were explored, which determines the cost of the checks."""

@@ -1,4 +1,4 @@
-"""What stands side by side in a fork: attributes that two branches write, limits without watch."""
+"""The checks of concurrent branches: attributes written twice, limits that nothing watches."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def written_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
             [n for n in _nodes(flow, found, inside, branch) if n.hook and n.hook.writes]
             for branch in branches
         ]
-        # of many branches few write anything: only those are held against each other
+        # only the few branches that write anything are compared
         for one, other in combinations(filter(None, writers), 2):
             for first in one:
                 for second in other:
@@ -38,7 +38,7 @@ def written_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
 
 
 def unwatched_limits(flow: Flow, found: Branches) -> list[Diagnostic]:
-    """Find blocks that set a limit to a flight with nothing beside them that watches it."""
+    """Find blocks that limit a flight without a concurrent block that watches it."""
     inside = nesting(found)
     diagnostics: dict[str, Diagnostic] = {}
     for place in flow.places:
@@ -67,7 +67,7 @@ def _nodes(flow: Flow, found: Branches, inside: nx.DiGraph, branch: Branch) -> l
 def _watched(
     flow: Flow, found: Branches, inside: nx.DiGraph, frame: Frame | None, seen: set[Fork]
 ) -> bool:
-    """Does a branch beside this one, or beside a branch around it, only watch?"""
+    """Whether a branch beside this one, or beside an outer one, only watches."""
     if frame is None or frame.split.fork in seen:
         return False
     for branch in found[frame.split.fork]:

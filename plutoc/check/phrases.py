@@ -1,4 +1,4 @@
-"""What the checks' sentences are made of: how they name statuses, blocks, forks and ways."""
+"""Phrases of the checks' messages: statuses, blocks, forks and paths."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def arrows(blocks: Sequence[str]) -> str:
 
 
 def there(*ways: Way | None) -> str:
-    """The shortest ways that show it, on lines of their own, below what is to be done."""
+    """The shortest paths that show it, on lines of their own, below the help."""
     shown = [way for way in ways if way is not None]
     if not shown:
         return ""
@@ -116,19 +116,19 @@ def related_to(graph: Graph, span: Span, label: str) -> Related:
 
 
 def emits_here(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Related:
-    """What the block before an arrow emits."""
+    """A note on what the block before an arrow emits."""
     here = f"emits {listed(leaving)}" if leaving else "what comes here has no trip left"
     return related_to(graph, graph.node[edge.source].name_span, here)
 
 
 def is_flown(astray: Astray) -> bool:
-    """Does a branch come to a block that flies its mission, and not to an end?"""
+    """Whether a branch reaches a block that flies its mission, and not an end."""
     place, leaving = astray
     return place.node != END and leaving is None
 
 
 def fate(astray: Astray) -> str:
-    """What becomes of a branch that does not close."""
+    """How a branch that does not close ends."""
     place, leaving = astray
     if leaving is None:
         return f"reaches `{place.node}` first"
@@ -136,7 +136,7 @@ def fate(astray: Astray) -> str:
 
 
 def taken_by(node: Node, status: Status, taker: str | None) -> str:
-    """What to add where no arrow takes a status."""
+    """The arrow to add if none takes a status."""
     if taker is None:
         return f"add a block that accepts {status.value}"
     return f"add `{node.name} -> {taker} when {status.value}`"

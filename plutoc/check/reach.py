@@ -1,4 +1,4 @@
-"""Where missions come in, blocks that nothing reaches, and edges that nothing takes."""
+"""The checks of reachability: the entry, unreached blocks, edges that are never taken."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from plutoc_runtime.domain.status import Status
 
 
 def entry(graph: Graph) -> tuple[Node | None, tuple[Edge, ...], list[Diagnostic]]:
-    """Return the block that makes missions, the edges that may be walked, and what is wrong."""
+    """Return the block that creates missions, the edges to explore, and the errors."""
     creators = [node for node in graph.nodes if node.block.creates]
     if not creators:
         return None, (), [errors.no_creator(graph)]
@@ -38,10 +38,10 @@ def entry(graph: Graph) -> tuple[Node | None, tuple[Edge, ...], list[Diagnostic]
 
 
 def unreached(flow: Flow, creator: str, missed: Callable[[Node], bool]) -> list[Diagnostic]:
-    """Find blocks to which no path leads, one message for what hangs together.
+    """Find unreachable blocks, one message for each connected group.
 
-    Where a mission is stuck, its arrow is missing to one of those that could take it: not to reach
-    them follows from that, and is not said again. So it is with blocks that are missed elsewhere.
+    A stuck mission lacks an arrow to a block that could take it: that such a block is unreached
+    follows from it, and is not reported again. The same holds for blocks that other findings miss.
     """
     graph = flow.graph
     reached = reachable(flow.arrows, [creator])
@@ -73,7 +73,7 @@ def _behind(lost: nx.DiGraph, first: str) -> tuple[str, ...]:
 
 
 def _creator_leads(graph: Graph, reached: Container[str], part: tuple[str, ...]) -> bool:
-    """Does an unreached creator lead here? Then its own message says enough."""
+    """Whether an unreached creator, which has its own message, leads here."""
     return any(
         edge.source != START
         and graph.node[edge.source].block.creates
@@ -84,7 +84,7 @@ def _creator_leads(graph: Graph, reached: Container[str], part: tuple[str, ...])
 
 
 def starved(flow: Flow) -> list[Diagnostic]:
-    """Find blocks that missions come near, but never with a status that they accept."""
+    """Find blocks that missions never reach with a status that they accept."""
     found = []
     for node in flow.graph.nodes:
         if flow.arrives[node.name]:
@@ -99,7 +99,7 @@ def starved(flow: Flow) -> list[Diagnostic]:
 
 
 def untaken(flow: Flow, stopped: Flow) -> list[Diagnostic]:
-    """Find edges that no status can ever take, not even that of a mission that was stopped."""
+    """Find edges that no status can ever take, not even after a Stop."""
     return [
         errors.untaken(flow.graph, edge, leaving, flow.way_to(edge.source))
         for edge, leaving, taken in _left_by(flow, stopped)
@@ -108,7 +108,7 @@ def untaken(flow: Flow, stopped: Flow) -> list[Diagnostic]:
 
 
 def spent(flow: Flow) -> list[Diagnostic]:
-    """Find blocks to which missions come only when no trip is left: they end there, and go nowhere.
+    """Find blocks that missions reach only when no trip is left, and where they end.
 
     What lies behind is not reached, if nothing else leads to it, even by an `otherwise`.
     """
@@ -124,7 +124,7 @@ def spent(flow: Flow) -> list[Diagnostic]:
 
 
 def spare(flow: Flow, stopped: Flow) -> list[Diagnostic]:
-    """Warn of guards that say more than can happen, and of an `otherwise` with nothing left."""
+    """Warn of guards with impossible statuses, and of an `otherwise` with none left."""
     found = []
     for edge, leaving, taken in _left_by(flow, stopped):
         never = tuple(s for s in edge.guard or () if s not in leaving)
@@ -143,7 +143,7 @@ def _unflown(flow: Flow) -> list[Edge]:
 
 
 def _left_by(flow: Flow, stopped: Flow) -> Iterator[tuple[Edge, tuple[Status, ...], bool]]:
-    """Give each edge with what leaves the block before it, and whether any of that takes it."""
+    """Yield each edge with the statuses that leave its block, and whether any of them takes it."""
     for edge in flow.edges:
         if edge.source != START and flow.leaves[edge.source]:
             leaving = ordered(flow.leaves[edge.source] | stopped.leaves[edge.source])
@@ -151,12 +151,12 @@ def _left_by(flow: Flow, stopped: Flow) -> Iterator[tuple[Edge, tuple[Status, ..
 
 
 def _blames_edge(flow: Flow, edge: Edge) -> bool:
-    """Is the edge itself at fault, not a block that starves or a mission stuck before it?"""
+    """Whether the edge itself is wrong, and not a starved block or a stuck mission before it."""
     if is_stuck(flow, edge.source):
         return False
     return edge.target == END or bool(flow.arrives[edge.target])
 
 
 def is_stuck(flow: Flow, name: str) -> bool:
-    """Can a mission be left at this block, with a status that is not an end?"""
+    """Whether a mission can get stuck at this block with a status that is not final."""
     return any(place.node == name and not is_final(s) for place, s in flow.loose)

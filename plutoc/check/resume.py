@@ -1,9 +1,9 @@
-"""Where an interrupted mission goes on: the nearest block behind it that waits or allocates.
+"""Where an interrupted mission resumes: the last block before that waits or allocates.
 
-A Stop takes the drone away and dissolves every fork, so a block inside a fork is no such point, nor
-one that is reached with a drone allocated already. A mission that has met no point yet begins anew.
-One with nothing left to fly (COMPLETED) goes back to where its last drone was allocated, and from
-there it is told once more how that trip ended: nothing is flown again.
+A Stop takes the drone away and dissolves every fork, so a block inside a fork is no such point, nor one that
+is reached with a drone allocated already. A mission without a point starts again. One with nothing left to
+fly (COMPLETED) returns to where its last drone was allocated, and from there gets the outcome of that trip
+again: nothing is flown twice.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ IsPoint = Callable[[Flow, Place], bool]
 
 
 def nearest(flow: Flow) -> Points:
-    """Return for each place the points at which a mission goes on that is interrupted there."""
+    """Return for each place the points at which a mission interrupted there resumes."""
     unfinished = _points(flow, _is_point)
     over = _points(flow, _is_allocator)
     return {
@@ -37,7 +37,7 @@ def nearest(flow: Flow) -> Points:
 
 
 def resumed(graph: Graph, points: Points) -> tuple[Place, ...]:
-    """Return where interrupted missions go on, each with the status that it has then."""
+    """Return where interrupted missions resume, with their statuses then."""
     found = {False: 0, True: 0}
     for place, bits in points.items():
         found[place.facts.launched] |= bits
@@ -54,9 +54,9 @@ def resumed(graph: Graph, points: Points) -> tuple[Place, ...]:
 
 
 def entries(graph: Graph, points: Sequence[Points]) -> Mapping[str, frozenset[Status]]:
-    """Return the blocks at which missions go on, in the order of the source, and their statuses.
+    """Return the blocks at which missions resume, in the order of the source, with their statuses.
 
-    Where they are made is none of them: those that are set back to there begin anew.
+    Not the creator: missions that return there start again.
     """
     found: dict[str, set[Status]] = {}
     for place in (place for some in points for place in resumed(graph, some)):
@@ -69,7 +69,7 @@ def entries(graph: Graph, points: Sequence[Points]) -> Mapping[str, frozenset[St
 
 
 def resume_points(graph: Graph, points: Sequence[Points]) -> Mapping[str, tuple[str, ...]]:
-    """Return the blocks at which a mission can go on that was interrupted at each block."""
+    """Return for each block where a mission interrupted there can resume."""
     found = dict.fromkeys(graph.node, 0)
     for place, bits in (pair for some in points for pair in some.items()):
         if place.node in found:

@@ -24,7 +24,7 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     """
     creator, edges, found = reach.entry(graph)
     if creator is None or (found and not graph.outgoing[creator.name]):
-        raise Rejected(in_order(found))  # nothing moves: there is nothing else to say
+        raise Rejected(in_order(found))  # no mission moves: nothing else can be checked
     flow = explore(graph, edges, (creation(creator.name),))
     points = resume.nearest(flow)
     stopped, points_then = _after_a_stop(flow, points)
@@ -41,7 +41,7 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     found += parallel.written_twice(flow, parallels)
     found += unwatched
     if found or (found := forks.too_deep(flow, parallels)):
-        raise Rejected(in_order(found))  # the same things go wrong once more after a Stop
+        raise Rejected(in_order(found))  # the same errors would recur after a Stop
     again = branches(stopped)
     wrong = _in_flight(stopped, again, lacking=False) + forks.unclosed(stopped, again)
     if wrong:
@@ -63,7 +63,7 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
 
 
 def _missed(unclosed: list[Diagnostic], unwatched: list[Diagnostic]) -> Callable[[Node], bool]:
-    """Say which blocks were most likely meant to be where these findings miss one."""
+    """Return the blocks that were most likely meant where these findings miss one."""
 
     def missed(node: Node) -> bool:
         block = node.block
@@ -74,7 +74,7 @@ def _missed(unclosed: list[Diagnostic], unwatched: list[Diagnostic]) -> Callable
 
 
 def _warnings(flow: Flow, stopped: Flow) -> list[Diagnostic]:
-    """Find what is odd about a sound graph; about another one, most of this would be guessed."""
+    """Return the warnings of a sound graph; for another one most would be guesses."""
     return [
         *reach.spare(flow, stopped),
         *ending.implicitly(flow),
@@ -86,7 +86,7 @@ def _warnings(flow: Flow, stopped: Flow) -> list[Diagnostic]:
 
 
 def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagnostic]:
-    """Find what can happen to a mission on its way: each shown by the shortest way to it."""
+    """Return the errors that missions can run into, each with the shortest path to it."""
     idle = forks.idle_gates(flow, parallels, lacking=lacking)
     return [
         *ending.stuck(flow, parallels, tuple(idle)),
@@ -98,10 +98,10 @@ def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagno
 
 
 def _after_a_stop(flow: Flow, points: resume.Points) -> tuple[Flow, resume.Points]:
-    """Follow missions that were stopped and go on, where that is another way than before.
+    """Explore missions that resume after a Stop, where they take new paths.
 
-    They may be stopped once more, so this ends where nothing is new any more. Raises `Rejected` where
-    that is too far.
+    They may be stopped again, so this repeats until nothing is new. Raises `Rejected` if that is too
+    much.
     """
     begun: dict[Place, None] = {}
     looked = 0
@@ -119,5 +119,5 @@ def _after_a_stop(flow: Flow, points: resume.Points) -> tuple[Flow, resume.Point
 def _both(
     one: Mapping[T, frozenset[Status]], other: Mapping[T, frozenset[Status]]
 ) -> Mapping[T, frozenset[Status]]:
-    """Join what was seen before a Stop and after one."""
+    """Join the explorations before and after a Stop."""
     return {key: statuses | other.get(key, frozenset()) for key, statuses in one.items()}

@@ -1,10 +1,9 @@
 """Explore every state that a mission can be in, until nothing new turns up.
 
-A state is a block, a status, the innermost branch that a clone is in, and what the mission has
-behind it. What the branches of a fork have in common is the end of the trip in flight, and that is
-chosen at the launch. Given it they know nothing of each other, so what a gate lets through depends
-only on what each of them can bring: no product of branches is ever built, forks may nest, and the
-exploration is exact however many branches there are.
+A state is a block, a status, the innermost branch that a clone is in, and facts about its past. All that the
+branches of a fork share is the outcome of the trip in flight, which is chosen at the launch. Given that, they
+are independent, so what passes a gate depends only on what each of them can bring: no product of branches is
+built, forks may nest, and the exploration is exact for any number of branches.
 """
 
 from __future__ import annotations
@@ -34,8 +33,8 @@ from plutoc_runtime.domain.status import Status
 Places = dict[Place, None]
 """An ordered set."""
 MOST_PLACES, MOST_STEPS = 200_000, 1_000_000
-"""So many places of missions are looked at, and so many steps from one to another; an app has about
-as many places as it has blocks, and as many steps as it has edges."""
+"""The limits of the exploration: places, and steps between them. A usual app has about as many places as
+blocks, and as many steps as edges."""
 
 
 def explore(
@@ -45,10 +44,10 @@ def explore(
     *,
     idle: Collection[str] = (),
 ) -> Flow:
-    """Return where missions can be, from these places on, along these edges.
+    """Explore all places of missions from these on, along these edges.
 
-    With `idle` blocks, only as long as they stay there with nothing left to fly, and as no hook fails
-    them that could do otherwise. Raises `Rejected` where there is no end of places.
+    With `idle` blocks, only as long as they stay there with nothing left to fly and no hook fails
+    them. Raises `Rejected` beyond the limits.
     """
     arrows = arrows_of(graph, edges)
     rounds = unflown(graph, arrows)
@@ -75,43 +74,43 @@ def arrows_of(graph: Graph, edges: Iterable[Edge]) -> nx.DiGraph:
 
 
 def unflown(graph: Graph, arrows: nx.DiGraph) -> Mapping[str, int]:
-    """Return the blocks of loops on which nothing is flown; those of one loop have one number.
+    """Return the blocks of loops without flights; those of one loop have one number.
 
-    There a mission finds all as it was before. Nearly every loop in an app leads to its next launch,
-    so that hardly any is left.
+    There the answers of blocks are remembered. Nearly every loop of an app has a launch, so these
+    are few.
     """
     unlaunched = subgraph(arrows, (node.name for node in graph.nodes if not node.block.launches))
     return {name: number for number, part in enumerate(loops(unlaunched), 1) for name in part}
 
 
 def stop_if_tangled(graph: Graph, places: int, steps: int = 0) -> None:
-    """Raise `Rejected` if there is too much to look at."""
+    """Raise `Rejected` beyond the limits of the exploration."""
     if places > MOST_PLACES or steps > MOST_STEPS:
         raise Rejected([errors.too_tangled(graph, MOST_PLACES, MOST_STEPS)])
 
 
 def creation(creator: str) -> Place:
-    """Return where a mission comes into being."""
+    """Return the place where missions are created."""
     return Place(frame=None, node=creator, status=Status.UNEXECUTED, facts=Facts())
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class _Walk:
-    """The walk while it goes on. Dicts stand in for sets: their order is certain."""
+    """The exploration in progress. Dicts are used as sets with a deterministic order."""
 
     graph: Graph
     edges: tuple[Edge, ...]
     arrows: nx.DiGraph
     forgets: bool
-    """A hook may put another trip first, in one branch while another one is in a gate."""
+    """Whether a hook may put another trip first, in one branch while another is at a gate."""
     rounds: Mapping[str, int]
-    """Blocks that can be come to twice before anything is flown, and the way round of each."""
+    """Blocks that can be reached twice without a flight, with the loop of each."""
     numbers: Mapping[str, int]
-    """Those of them that then say the same."""
+    """Those of them that repeat their answers."""
     idle: Collection[str]
-    """If there are any, a mission that leaves them, or has something to fly, is not followed."""
+    """If given, missions that leave these blocks, or have something to fly, are not explored."""
     hasty: dict[Split, None] = field(default_factory=dict)
-    """Forks whose gate has stopped waiting for a branch that never arrives."""
+    """Forks whose gate does not wait for a branch that never arrives."""
     outgoing: dict[str, list[Edge]] = field(default_factory=dict)
     steps: int = 0
     widths: dict[Split, int] = field(default_factory=dict)
@@ -124,9 +123,9 @@ class _Walk:
     through: dict[Split, dict[str, dict[gate_outcomes.Passing, Place]]] = field(
         default_factory=dict
     )
-    """What each fork's gates have let through, and the arrival that brought it."""
+    """What has passed each fork's gates, with the arrival that brought it."""
     waiting: dict[Split, None] = field(default_factory=dict)
-    """Forks with a clone at a gate that has let nothing through yet."""
+    """Forks with a clone at a gate that nothing has passed yet."""
     strays: dict[Split, Places] = field(default_factory=dict)
     arrives: dict[str, set[Status]] = field(default_factory=dict)
     leaves: dict[str, set[Status]] = field(default_factory=dict)
@@ -168,7 +167,7 @@ class _Walk:
 
     def reach(self, place: Place, step: Step) -> None:
         if self.idle and self.rounds.get(place.node) != self.rounds.get(step.before.node):
-            place = place._replace(node=END)  # what follows on another way round is looked at there
+            place = place._replace(node=END)  # what follows on another loop is explored there
         self.after.add_edge(step.before, place)
         self.steps += 1
         if place not in self.places:
@@ -176,7 +175,7 @@ class _Walk:
             self.queue.append(place)
 
     def leave(self, place: Place, status: Status, facts: Facts) -> None:
-        """Go on along the edges that take the status: one routes, several fork."""
+        """Follow the edges that take the status: one routes, several fork."""
         self.leaves.setdefault(place.node, set()).add(status)
         taken = [e for e in self.outgoing.get(place.node, ()) if status in e.takes]
         for edge in taken:
@@ -198,7 +197,7 @@ class _Walk:
                 frame = Frame(split=split, branch=branch)
                 target = Place(frame=frame, node=edge.target, status=status, facts=facts)
                 self.reach(target, Step(before=place, leaving=status, enters=True))
-            # others forked here before: their gate's findings hold for this mission too
+            # others have forked here before: what passed their gate holds for this mission, too
             for gate in tuple(self.through.get(split, {}).values()):
                 for passed, arrival in tuple(gate.items()):
                     self.go_on(arrival, passed, place)
@@ -206,7 +205,7 @@ class _Walk:
                 self.go_on(lost, (lost.status, lost.facts), place)
 
     def close(self, place: Place, frame: Frame, gate: Gate) -> None:
-        """A clone arrives at the gate of its fork."""
+        """Process a clone that arrives at the gate of its fork."""
         branches = self.closes.setdefault(frame.split, {}).setdefault(place.node, {})
         branches.setdefault(frame.branch, {})[place] = None
         passed = self.through.get(frame.split, {}).get(place.node, {})
@@ -215,7 +214,7 @@ class _Walk:
             self.let_through(frame.split, place.node, gate)
 
     def let_through(self, split: Split, name: str, gate: Gate) -> None:
-        """Let missions go on behind a gate, as far as its branches have come."""
+        """Continue missions behind a gate, given the arrivals so far."""
         passed = self.through.setdefault(split, {}).setdefault(name, {})
         for what, arrival in self.passing(split, gate, self.closes[split][name]).items():
             if what not in passed:
@@ -230,7 +229,7 @@ class _Walk:
     def passing(
         self, split: Split, gate: Gate, branches: dict[int, Places]
     ) -> dict[gate_outcomes.Passing, Place]:
-        """Return what a gate lets through, given what each branch has brought so far."""
+        """Return what passes a gate, given what each branch has brought so far."""
         if gate is Gate.ALL and len(branches) < self.width(split) and split not in self.hasty:
             return {}
         passing = gate_outcomes.passing(gate, branches)
@@ -240,7 +239,7 @@ class _Walk:
         return passing
 
     def go_on(self, arrival: Place, what: gate_outcomes.Passing, entry: Place) -> None:
-        """The branch is left where the clone has arrived; the mission goes on from there."""
+        """Leave the branch where the clone has arrived; the mission continues from there."""
         target = self.beyond(arrival, what, entry)
         self.reach(target, Step(before=arrival, leaving=None, back_to=entry))
 
@@ -250,7 +249,7 @@ class _Walk:
         return Place(frame=entry.frame, node=arrival.node, status=status, facts=facts, out=True)
 
     def join_at_gates(self) -> None:
-        """Let every clone at a gate lead on to what passes there together with it.
+        """Connect every clone at a gate with everything that passes together with it.
 
         So far only the clone that brings a status does; but the others do not end here.
         """
@@ -267,7 +266,7 @@ class _Walk:
                     stop_if_tangled(self.graph, len(self.places), self.steps)
 
     def stray(self, place: Place, split: Split) -> None:
-        """A clone is flown before its gate: an error, walked on as if its branch ended here."""
+        """Process a clone that is flown before its gate, an error, as if its branch ended here."""
         self.strays.setdefault(split, {})[place] = None
         for entry in tuple(self.entries[split]):
             self.go_on(place, (place.status, place.facts), entry)
@@ -278,7 +277,7 @@ class _Walk:
         return self.widths[split]
 
     def stop_waiting(self) -> None:
-        """A gate that waits in vain would hide all that is behind it: one mistake, one message."""
+        """Release gates that wait in vain, which would hide everything behind them."""
         for split in tuple(self.waiting):
             self.hasty[split] = None
             for name in self.closes[split]:

@@ -1,4 +1,4 @@
-"""How the program ends: its exit codes, what is wrong with how it was called, and being told to end.
+"""The end of the program: exit codes, usage errors, and signals that end it.
 
 That is done by `kill`, by a CI job that is cancelled, by a terminal that is closed.
 """

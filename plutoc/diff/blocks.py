@@ -1,4 +1,4 @@
-"""Blocks that are new, gone or renamed, and how their settings have changed."""
+"""Comparing blocks: added, removed and renamed ones, and changed settings."""
 
 from __future__ import annotations
 

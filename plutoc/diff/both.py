@@ -1,4 +1,4 @@
-"""The two apps side by side: what is what, and where missions go in each."""
+"""The two apps side by side: their matched parts, and the routes of missions in each."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class Both:
 
 
 def side_by_side(old: Version, new: Version) -> Both:
-    """Match what the two apps have in common."""
+    """Match the common parts of two apps."""
     mine, theirs = old.checked.graph, new.checked.graph
     blocks = pairs(old.checked, new.checked)
     hooks = hook_pairs(mine, theirs, blocks)

@@ -1,4 +1,4 @@
-"""What goes on at once: branches that forks have got or lost, their order, and their gates."""
+"""Comparing forks: added and removed branches, their order, and their gates."""
 
 from __future__ import annotations
 

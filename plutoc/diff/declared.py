@@ -1,4 +1,4 @@
-"""What an app declares beside its graph: its name, its categories, its actions and its hooks."""
+"""Comparing declarations: the app's name, its categories, actions, hooks and fields."""
 
 from __future__ import annotations
 

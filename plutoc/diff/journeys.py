@@ -1,4 +1,4 @@
-"""Where missions go now and went before, and where they go on after a Stop."""
+"""Comparing the routes of missions, and where they resume after a Stop."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which block of the new app is which block of the old one.
+"""Matching the blocks of the new app with those of the old one.
 
 A name and a kind that both have are the same block. What is left over may have been renamed. So we
 go along the arrows from what is matched already: a neighbour that is declared alike, and comes by an

@@ -1,4 +1,4 @@
-"""What a block does for a mission, as far as sentences need it: asked of its properties."""
+"""The role of a block in messages, derived from its properties."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where missions go from each block, with each status: the edges that carry something, by name."""
+"""The routes of missions from each block, with each status: the edges in use, by name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""All that changed in meaning, an aspect a line."""
+"""The comparison of two apps, a line for each aspect."""
 
 from __future__ import annotations
 

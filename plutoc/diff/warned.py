@@ -1,4 +1,4 @@
-"""Warnings that there are now, and ones that there are no more."""
+"""Comparing the warnings of the checks."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""From a plan to the files of a generated package: pure functions from data to text."""
+"""From a plan to the files of a generated package: pure functions that return text."""

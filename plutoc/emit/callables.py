@@ -1,4 +1,4 @@
-"""The functions that `flow.py` calls, and by what names: none hides another."""
+"""The functions that `flow.py` calls, with names that do not clash."""
 
 from __future__ import annotations
 

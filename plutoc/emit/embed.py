@@ -1,4 +1,4 @@
-"""What a generated package carries along: the runtime's modules, the blocks' steps, and a library.
+"""Embedding code in a generated package: the runtime's modules, the blocks' steps, and the library.
 
 A module of the runtime is copied byte for byte. A module of a block is copied with its imports bent to where things are now,
 and not a byte more: `plutoc_runtime` becomes dots, and a module of the block's own package, however
@@ -28,7 +28,7 @@ BRAIN = f"{LIBRARY}/_brain"
 
 
 class NoLibrary(Exception):
-    """There is no library that could be carried. The message says what to install."""
+    """The library to carry is not installed. The message says what to install."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,7 +134,7 @@ def _path(package: str, name: str) -> str:
 
 
 def _flat(name: str) -> str:
-    """Return what a block's module is called among the others: `survey.scan.step` is `scan`."""
+    """Return the file name of a block's module: `survey.scan.step` becomes `scan`."""
     _, *parts = name.split(".")
     if len(parts) > 1 and parts[-1] == "step":
         parts.pop()
@@ -174,7 +174,7 @@ def _targets(target: str, names: tuple[str, ...]) -> Iterator[str]:
 
 
 def _moved(module: Module, package: str) -> str:
-    """Return a block's module with its imports bent to where they lead now."""
+    """Return a block's module with its imports rewritten."""
     up = ".." if package == OURS else "..."
     lines = module.text.encode().splitlines(keepends=True)
     for one in sorted(imports_from(module), key=lambda one: (one.line, one.column), reverse=True):

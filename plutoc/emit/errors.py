@@ -1,4 +1,4 @@
-"""What can stand in the way of a package's files: P4."""
+"""Errors of writing a package's files (P4)."""
 
 from __future__ import annotations
 

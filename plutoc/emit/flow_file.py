@@ -1,4 +1,4 @@
-"""`flow.py`: how a mission flows, and what the app says about itself."""
+"""`flow.py`: the flow of a mission, and the app's description."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def _of_mission(fields: Iterable[Field]) -> bool:
 
 
 def _asked_in_loops(body: Body) -> bool:
-    """Is it asked anew in each round of a loop where a mission was interrupted?"""
+    """Whether the place of interruption is asked for inside a loop."""
     return any(isinstance(step, Arrived) for step in steps(body))
 
 

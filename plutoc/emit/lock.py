@@ -101,7 +101,7 @@ def _of_blocks(package: str) -> str:
 
 
 class DamagedLock(Exception):
-    """It cannot be read. The text says why, for a person."""
+    """The lock cannot be read. The text says why."""
 
     made_by: str | None = None
     """The version of the compiler that wrote it, if that can be made out all the same."""
@@ -119,7 +119,7 @@ class Lock:
     hooks: Mapping[str, str] = field(default_factory=dict)
     """Name → kind of the hooks that the app declares, or has declared before."""
     is_merged: bool = False
-    """It has what two branches wrote, one beside the other."""
+    """Whether it has the lines of two merged branches."""
 
 
 def is_newer(made_by: str | None, version: str) -> bool:

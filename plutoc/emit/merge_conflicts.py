@@ -1,4 +1,4 @@
-"""What a merge of two branches leaves in a file: both sides of it, with marks between them."""
+"""Files with merge conflicts: both sides, with conflict markers between them."""
 
 from __future__ import annotations
 

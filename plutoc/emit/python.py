@@ -1,4 +1,4 @@
-"""How values, texts, annotations and imports are written in generated Python."""
+"""Writing values, texts, annotations and imports as Python."""
 
 from __future__ import annotations
 

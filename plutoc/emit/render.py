@@ -1,4 +1,4 @@
-"""How the text of a file comes about: a template places what was decided, Black formats Python."""
+"""Rendering files: a Jinja2 template places the values, Black formats Python."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Writing a package: the one place of the compiler that changes what is on the disk.
+"""Writing a package: the only module of the compiler that writes to the disk.
 
 First `compare` says what would change, and refuses what is not ours to change; then `write` does
 it, all of it or nothing. New texts are written aside and renamed, so no file is ever half-written.
@@ -38,11 +38,11 @@ Save = Callable[[Path, bytes], object]
 
 
 class Refused(Rejected):
-    """Something is in the way that is not ours to overwrite."""
+    """A file must not be overwritten."""
 
 
 class CannotWrite(Exception):
-    """The disk says no. Nothing was changed."""
+    """The files cannot be written. Nothing was changed."""
 
     def __init__(self, error: OSError, folder: Path) -> None:
         name = error.filename
@@ -60,7 +60,7 @@ class InTheWay(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
-    """One file: its text before and after; None where there is none."""
+    """One file: its text before and after; None if there is none."""
 
     path: str
     before: str | None

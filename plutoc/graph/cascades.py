@@ -1,4 +1,4 @@
-"""One mistake is told once, however many others come of it."""
+"""Suppressing follow-up errors: one mistake is reported once."""
 
 from __future__ import annotations
 

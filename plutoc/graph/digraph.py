@@ -1,6 +1,6 @@
-"""What networkx finds in a directed graph, given in the order of the graph's own vertices.
+"""Graph algorithms of networkx, with results in the order of the graph's own vertices.
 
-Networkx answers with sets, and so do its views of a part: their order is another one in each run.
+Networkx returns sets, whose order differs in each run.
 """
 
 from __future__ import annotations
@@ -34,26 +34,26 @@ def components(graph: nx.DiGraph) -> tuple[Vertices, ...]:
 
 
 def loops(graph: nx.DiGraph) -> tuple[Vertices, ...]:
-    """Return the components in which one can go round."""
+    """Return the components with a cycle."""
     parts = nx.strongly_connected_components(graph)
     return _sorted(graph, (part for part in parts if len(part) > 1 or _is_loop(graph, *part)))
 
 
 def endless_loops(graph: nx.DiGraph) -> tuple[Vertices, ...]:
-    """Return those of the loops that nothing leads out of."""
+    """Return the loops without an exit."""
     parts = nx.attracting_components(graph)
     return _sorted(graph, (part for part in parts if len(part) > 1 or _is_loop(graph, *part)))
 
 
 def round_of(graph: nx.DiGraph, loop: Iterable[Vertex], head: Vertex) -> Vertices:
-    """Return the shortest way round from a vertex of a loop, which comes first."""
+    """Return the shortest cycle through a vertex of a loop, which comes first."""
     inside = subgraph(graph, loop)
     ways = (nx.shortest_path(inside, vertex, head) for vertex in inside.successors(head))
     return (head, *min(ways, key=len)[:-1])
 
 
 def _is_loop(graph: nx.DiGraph, vertex: Vertex) -> bool:
-    """Say whether a vertex leads to itself."""
+    """Return whether a vertex has an edge to itself."""
     return bool(graph.has_edge(vertex, vertex))
 
 

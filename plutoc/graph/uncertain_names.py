@@ -1,4 +1,4 @@
-"""What may be declared where the source cannot be read, or where a declared name is wrong.
+"""Names that may be declared where the source is unreadable, or where a declared name is wrong.
 
 One mistake is told once: a name that such a place may declare is not called unknown elsewhere.
 """

@@ -1,1 +1,1 @@
-"""The code that a developer added, held against what the app declares."""
+"""Checking the developer's hooks against what the app declares."""

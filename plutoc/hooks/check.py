@@ -1,4 +1,4 @@
-"""The developer's functions against what the app declares."""
+"""Checking the developer's functions against what the app declares."""
 
 from __future__ import annotations
 

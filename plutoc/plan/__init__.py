@@ -1,1 +1,1 @@
-"""From checked graph to plan: structured control flow, one coroutine a mission."""
+"""From checked graph to plan: structured control flow, one coroutine per mission."""

@@ -1,4 +1,4 @@
-"""What is in a body of steps, what is true of it, and in which order the arms of a switch read best."""
+"""Queries on bodies of steps, and the order in which the arms of a switch read best."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ Jump = Continue | Break | End | Goto
 
 
 def falls(body: Body) -> bool:
-    """Does control, on some way, come to the end of the body?"""
+    """Whether control can fall off the end of the body."""
     return all(_passes(step) for step in body)
 
 
 def breaks(body: Body) -> bool:
-    """Does a `Break` in the body leave the loop around it?"""
+    """Whether a `Break` in the body leaves the loop around it."""
     return _jumps(body, Break)
 
 
 def continues(body: Body) -> bool:
-    """Does a `Continue` in the body begin the loop around it again?"""
+    """Whether a `Continue` in the body restarts the loop around it."""
     return _jumps(body, Continue)
 
 
@@ -63,13 +63,13 @@ def _passes(step: Step) -> bool:
 
 
 def switch(arms: Iterable[Arm]) -> Body:
-    """Return a switch whose arms read best; what only one arm goes on to stands behind it.
+    """Return a switch with its arms in the best order; a single arm that falls through is moved behind it.
 
     Arms that leave at once come first, then arms that leave later, then those that go on: so the
     main line stays flat, and the exceptions to it stand indented above.
     """
     ordered = sorted(arms, key=_rank)
-    # where a mission was interrupted is always one of the places that were asked for
+    # an interrupted mission's place is always one of those asked for
     decided = any(arm.places for arm in ordered)
     if all(_rank(arm) == 0 for arm in ordered):
         ordered.sort(key=lambda arm: arm.body == (Continue(),))

@@ -17,7 +17,7 @@ from plutoc_runtime.domain.status import Status
 
 
 def build(checked: Checked) -> Plan:
-    """Return what the generated coroutine shall do, not yet optimised: every block a call."""
+    """Return the plan of the generated coroutine, not optimised: every block is a call."""
     edge = next(e for e in checked.graph.outgoing[START] if checked.carries[e])
     charts = Charts(checked)
     chart = charts.chart(edge.target, checked.carries[edge], checked.entries)
@@ -37,7 +37,7 @@ def _body(
 def _structured(
     found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...], graph: Graph
 ) -> Body | None:
-    """Write the body by loops and switches, if that is possible."""
+    """Build the body of loops and switches, if possible."""
     one_entry = reducible(found)
     if one_entry is None:
         return None
@@ -54,9 +54,9 @@ def _structured(
 
 
 def _dispatch(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...] = ()) -> Body:
-    """Return a chart without structure as one dispatch: a case for each spot that is jumped to.
+    """Return an unstructured chart as one dispatch: a case for each spot that is jumped to.
 
-    What one arrow alone leads to is written where it is led to, so chains and branches stay together.
+    A spot with a single incoming arrow is inlined, so chains and branches stay together.
     """
     first, entered = found.chart.entry, frozenset(entries)
     places = tuple(
@@ -68,7 +68,7 @@ def _dispatch(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...]
     )
     around = Context(elsewhere=frozenset(places), labels=frozenset(places))
     cases = tuple(
-        # each with a writer of its own: here nothing is ever tried twice
+        # each has a writer of its own, so nothing is tried twice
         Case(label=spot.name, body=Writer(found, steps).body(spot, around))
         for spot in places
     )
@@ -86,7 +86,7 @@ def _at(spot: Spot, steps: Mapping[Spot, Body]) -> Body:
 
 
 def _steps(charts: Charts, chart: Chart, spot: Spot, names: dict[str, int]) -> Body:
-    """Write what happens at a spot itself."""
+    """Build the steps of a spot itself."""
     node = charts.checked.graph.node
     match spot.kind:
         case Kind.BLOCK:
@@ -131,7 +131,7 @@ def _name(block: str, names: dict[str, int]) -> str:
 
 
 def _path(chart: Chart) -> tuple[str, ...]:
-    """The blocks of a branch, as far as it does not part."""
+    """The blocks of a branch, up to where its flow divides."""
     found: dict[str, None] = {}
     spot: Spot | None = chart.entry
     while spot is not None:

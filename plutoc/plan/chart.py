@@ -1,7 +1,7 @@
-"""The flow chart of one body: which places a mission comes to in it, and what leads where.
+"""The control-flow graph of one body: its places, and the ways between them.
 
-The flow outside of all forks is one body, and each branch of a fork is one. The statuses are walked
-anew in every body: a block may stand in two of them, and get other statuses in each.
+The flow outside of all forks is one body, and each branch of a fork is one. Statuses are propagated in each
+body separately: a block may be in two of them, with different statuses.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Leads = Mapping[Status, tuple[int, "Spot | None", str]]
 
 
 Entries = Mapping[str, frozenset[Status]]
-"""Blocks at which missions go on that were interrupted, and how they stand then."""
+"""Blocks at which interrupted missions resume, with their statuses."""
 NONE: Entries = {}
 
 
@@ -58,27 +58,27 @@ class Spot:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Way:
-    """What leads from a spot to the next, or out of the body."""
+    """An edge from a spot to the next, or out of the body."""
 
     statuses: tuple[Status, ...]
     """In declared order."""
     target: Spot | None
-    """None: the mission, or the branch, is at its end."""
+    """None: the end of the mission or the branch."""
     to: str
-    """The target as a person names it."""
+    """The target's name for people."""
     asked: tuple[Status, ...] = ()
     """What the source says that leads there, whether it can come or not; empty: all that comes."""
     places: tuple[Place, ...] = ()
-    """Where those were interrupted that are led there; empty: it is the status that counts."""
+    """The places of interruption for which it is taken; empty: it depends on the status."""
 
 
 NO_TRIP_LEFT = Way(statuses=(Status.FAILED,), target=None, to=END)
-"""Out of a block in which every mission ends that comes there."""
+"""Leaves a block in which every mission ends."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Chart:
-    """A body before it has a structure."""
+    """A body as a control-flow graph."""
 
     entry: Spot
     ways: Mapping[Spot, tuple[Way, ...]]
@@ -88,7 +88,7 @@ class Chart:
 
 
 class Charts:
-    """Draws the charts of one graph, and remembers what came out of each branch."""
+    """Makes the charts of one graph, and caches the outcome of each branch."""
 
     def __init__(self, checked: Checked) -> None:
         self.checked = checked
@@ -97,7 +97,7 @@ class Charts:
         self.brought: dict[tuple[Edge, Status], frozenset[Status]] = {}
 
     def chart(self, entry: str, statuses: frozenset[Status], entries: Entries = NONE) -> Chart:
-        """Return the body that begins at a block with these statuses, and is entered at others."""
+        """Return the body that begins at a block with these statuses, and has further entries."""
         first = Spot(kind=Kind.BLOCK, name=entry)
         queue = [
             (Spot(kind=Kind.BLOCK, name=name), status)
@@ -140,7 +140,7 @@ class Charts:
         return tuple(s for s in IN_GRAPH if s in left)
 
     def follow(self, spot: Spot, status: Status) -> tuple[int, Spot | None, str]:
-        """Return where this status leads: the edge's number, the target, and its name."""
+        """Return the successor for a status: the edge's number, the target, and its name."""
         if spot.kind is Kind.FORK:
             return 0, Spot(kind=Kind.BEHIND, name=spot.gate), spot.gate
         graph = self.checked.graph
@@ -154,7 +154,7 @@ class Charts:
         return len(self.numbers), None, END
 
     def asked(self, spot: Spot, leads: Leads) -> Mapping[Spot | None, frozenset[Status]]:
-        """Return the statuses that the source leads to each target, beyond those that come."""
+        """Return the statuses that the source leads to each target, also impossible ones."""
         edges = self.checked.graph.outgoing[spot.name]
         if spot.kind is Kind.FORK or (len(edges) == 1 and edges[0].guard is None):
             return {}
@@ -170,8 +170,8 @@ class Charts:
         return {target: frozenset(statuses) for target, statuses in found.items()}
 
     def entered(self, edge: Edge) -> Spot | None:
-        """Return the spot that an edge leads to; to a mission in a branch a gate is the end."""
-        # behind the gate another body goes on
+        """Return the spot that an edge leads to; in a branch a gate is the end."""
+        # behind the gate the outer body continues
         out = edge.target == END or self.checked.graph.node[edge.target].block.gate is not None
         return None if out else Spot(kind=Kind.BLOCK, name=edge.target)
 
@@ -190,7 +190,7 @@ class Charts:
 
 
 def _ways(leads: Leads, asked: Mapping[Spot | None, frozenset[Status]]) -> tuple[Way, ...]:
-    """One way for each target, however many statuses and edges lead there."""
+    """Return one way for each target, for all its statuses and edges."""
     targets: dict[Spot | None, tuple[int, str]] = {}
     for number, target, to in sorted(leads.values(), key=lambda lead: lead[0]):
         targets.setdefault(target, (number, to))

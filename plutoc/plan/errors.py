@@ -1,4 +1,4 @@
-"""What can be wrong with a plan. Each is a mistake of ours: no source can be the cause."""
+"""The errors of a plan, each of which is a bug of the compiler."""
 
 from __future__ import annotations
 

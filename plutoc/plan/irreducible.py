@@ -1,8 +1,7 @@
-"""Irreducible loops, entered at several places, get one entry: a few blocks are written twice for it.
+"""Making irreducible loops, which have several entries, reducible by duplicating a few blocks.
 
-One place in the loop becomes its entry. A mission that comes to another one from
-outside finds a copy of it, and of what is passed from there until the loop's entry or its outside is
-reached. The copies are walked through once, so nothing goes round in them but what is a loop of its own.
+One place in the loop becomes its entry. A mission that enters elsewhere gets a copy of that place, and of what
+follows until the loop's entry or exit. The copies are passed once, so they contain no loops but inner ones.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from plutoc.plan.shape import Shape, shape
 MOST_COPIES = 6
 """For all loops of a body together."""
 MOST_HEADS = 100
-"""So many spots of a loop are tried as its only entry; of a longer loop only its entries are."""
+"""The most spots of a loop that are tried as its entry; of a longer loop only its entries are tried."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,7 +31,7 @@ class _Irreducible:
 
 
 def reducible(found: Shape) -> Shape | None:
-    """Return a shape in which every loop has one entry; None: it would take too many copies."""
+    """Return a shape in which every loop has one entry; None: it would need too many copies."""
     copies = 0
     while found.entering:
         chart = found.chart
@@ -76,7 +75,7 @@ def _after(chart: Chart, spot: Spot, inside: Mapping[Spot, None]) -> tuple[Spot,
 
 
 def _smallest(chart: Chart, loop: _Irreducible) -> Mapping[Spot, tuple[Spot, ...]] | None:
-    """Return what must be copied for each entry, with the loop beginning where it costs least."""
+    """Return the regions to copy for the cheapest choice of the loop's entry."""
     heads = loop.spots if len(loop.spots) <= MOST_HEADS else loop.entries
     options = [
         {entry: _region(chart, loop, entry, head) for entry in loop.entries if entry != head}
@@ -92,7 +91,7 @@ def _smallest(chart: Chart, loop: _Irreducible) -> Mapping[Spot, tuple[Spot, ...
 
 
 def _region(chart: Chart, loop: _Irreducible, entry: Spot, head: Spot) -> tuple[Spot, ...]:
-    """Return what can be passed from an entry before the loop's head, or its outside, is reached."""
+    """Return what is reachable from an entry before the loop's head or exit."""
     inside = dict.fromkeys(spot for spot in loop.spots if spot != head)
     onward = nx.from_dict_of_lists({s: _after(chart, s, inside) for s in inside}, nx.DiGraph)
     return (entry, *(spot for _, spot in islice(nx.bfs_edges(onward, entry), MOST_COPIES)))
@@ -101,7 +100,7 @@ def _region(chart: Chart, loop: _Irreducible, entry: Spot, head: Spot) -> tuple[
 def _apart(
     chart: Chart, loop: _Irreducible, entry: Spot, region: tuple[Spot, ...], number: int
 ) -> Chart:
-    """Return the chart where those who come to an entry from outside find a copy of a region."""
+    """Return the chart with a copy of a region for entries from outside."""
     copies: dict[Spot | None, Spot] = {spot: replace(spot, copy=number) for spot in region}
     ways = {
         spot: led if spot in loop.spots else _turned(led, {entry: copies[entry]})

@@ -1,4 +1,4 @@
-"""The plan: what the generated coroutine does, as data that can be printed and checked.
+"""The plan: the generated coroutine as data that can be printed and checked.
 
 A body is a sequence of steps. Control leaves it by falling off its end, which means what the step
 around it says, or by `Continue`, `Break` or `End`.
@@ -13,12 +13,12 @@ from plutoc.graph.model import Node
 from plutoc_runtime.domain.status import Status
 
 Place = str | None
-"""The block at which an interrupted mission goes on; None: it begins."""
+"""The block at which an interrupted mission resumes; None: it begins."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Call:
-    """The mission goes through a block: `status = step(run, status, …)`."""
+    """A call of a block: `status = step(run, status, …)`."""
 
     node: Node
 
@@ -33,7 +33,7 @@ class Branch:
     """`launch -> watch -> first`, for a person."""
     body: Body
     idle: bool = False
-    """Without it everything is the same: no clone is sent."""
+    """Whether it has no effect, so that no clone is sent."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,37 +57,37 @@ class Watch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arm:
-    """What is done for some of the statuses of a `Switch`; `to` names where it leads."""
+    """The body for some statuses of a `Switch`; `to` names its target."""
 
     statuses: tuple[Status, ...]
     body: Body
     to: str
     places: tuple[Place, ...] = ()
-    """In place of statuses, where an interrupted mission goes on."""
+    """Instead of statuses, the places at which an interrupted mission resumes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Switch:
-    """Goes on by status, or by where a mission was interrupted. The arms share neither."""
+    """Branches by status, or by the place of interruption. The arms are disjoint."""
 
     arms: tuple[Arm, ...]
     decided: bool = False
-    """Nothing else can arrive, so the last arm takes what the others leave, without asking."""
+    """Whether nothing else can arrive, so that the last arm needs no condition."""
 
     @property
     def enters(self) -> bool:
-        """Does it ask where an interrupted mission goes on?"""
+        """Whether it branches by the place of interruption."""
         return any(arm.places for arm in self.arms)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrived:
-    """An interrupted mission has come to where it goes on: from here it is one like any other."""
+    """An interrupted mission has reached the place where it resumes: from here on it is an ordinary one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Loop:
-    """`while True`: falling off the end begins again."""
+    """`while True`: falling off the end restarts it."""
 
     head: str
     body: Body
@@ -95,22 +95,22 @@ class Loop:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Continue:
-    """Begin the innermost loop again."""
+    """Restart the innermost loop."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Break:
-    """Leave the innermost loop and go on behind it."""
+    """Leave the innermost loop."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class End:
-    """The mission, or the branch, is at its end: `return status`."""
+    """The end of the mission or the branch: `return status`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Goto:
-    """Inside a `Dispatch`: go on with the case of this name."""
+    """Inside a `Dispatch`: jump to the case of this name."""
 
     label: str
 
@@ -125,7 +125,7 @@ class Case:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Dispatch:
-    """For a graph without structure: `match` on where the mission is, in one loop."""
+    """For an unstructured graph: a state machine, with `match` in a loop."""
 
     start: str
     cases: tuple[Case, ...]
@@ -144,4 +144,4 @@ class Plan:
     checked: Checked
     body: Body
     left_out: tuple[tuple[str, str], ...] = ()
-    """Blocks and those of their parameters that are as a step takes them if nothing is said."""
+    """Parameters with their steps' default values, by block."""

@@ -1,7 +1,6 @@
-"""Which statuses can arrive at each switch of a plan.
+"""Data-flow analysis: the statuses that can arrive at each switch of a plan.
 
-Only statuses are walked with, and each step anew only if a further one comes to it: that is quick,
-however large the plan. What leaves a block is what it can give for what arrived, and no more than
+Only statuses are propagated, and a step is visited again only for a new one: that is fast for any plan. What leaves a block is what it can give for what arrived, and no more than
 the checks have seen to leave it.
 """
 
@@ -38,14 +37,14 @@ Statuses = frozenset[Status]
 
 
 class Resuming(NamedTuple):
-    """An interrupted mission on its way to the block where it goes on."""
+    """An interrupted mission that has not reached the block where it resumes."""
 
     place: str
     status: Status
 
 
 Coming = frozenset[Status | Resuming]
-"""What comes to a step."""
+"""The states that reach a step."""
 Brought = Mapping[tuple[int, Status], Statuses]
 """What a branch, by its identity, brings to its gate when a mission forks with a status."""
 NONE = frozenset[Status]()
@@ -54,7 +53,7 @@ NOTHING: Coming = frozenset()
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class _Frame:
-    """The function that is walked, and the jumps that were met in the innermost loop."""
+    """The function being visited, and the jumps found in its innermost loop."""
 
     ends: set[Status] = field(default_factory=set)
     continued: set[Status | Resuming] = field(default_factory=set)
@@ -79,7 +78,7 @@ class _Walk:
         return coming
 
     def step(self, step: Step, coming: Coming, frame: _Frame) -> Coming:
-        """Walk a step; return what falls off its end."""
+        """Visit a step; return what falls off its end."""
         match step:
             case Call(node=node):
                 return self.leave(node, _at(node, coming))
@@ -168,7 +167,7 @@ def _statuses(coming: Iterable[Status | Resuming]) -> Statuses:
 
 
 def _at(node: Node, coming: Coming) -> Statuses:
-    """Return what comes to a block, with those that go on just there."""
+    """Return what reaches a block, with missions that resume there."""
     here = (one.status for one in coming if isinstance(one, Resuming) and one.place == node.name)
     return _statuses(coming).union(here)
 
@@ -179,7 +178,7 @@ def _place(one: Status | Resuming) -> Place:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reaching:
-    """What was found."""
+    """The result of the analysis."""
 
     switches: Mapping[int, set[Status]]
     """What can arrive at each, by its identity."""
@@ -187,7 +186,7 @@ class Reaching:
 
 
 def reaching_statuses(plan: Plan) -> Reaching:
-    """Walk a plan with all statuses that can occur."""
+    """Analyse a plan with all possible statuses."""
     walk = _Walk(plan.checked)
     begin = frozenset[Status | Resuming]((Status.UNEXECUTED,))
     entering = (

@@ -1,4 +1,4 @@
-"""An interrupted mission goes on where it was: a way into the chart for each block where it can.
+"""Entries into the chart for each block at which an interrupted mission can resume.
 
 Before:                         After:
     create -> wait                  ? -> create, if the mission begins
@@ -28,18 +28,18 @@ from plutoc.plan.model import Place
 from plutoc.plan.shape import Shape, shape
 
 MOST_ENTRIES = 40
-"""Blocks where missions go on; with more of them, a dispatch is shorter."""
+"""The most blocks at which missions resume; with more, a dispatch is shorter."""
 MOST_COPIES = 4
-"""Blocks that may be written once more for one loop."""
+"""The most blocks that may be duplicated for one loop."""
 MOST_LEADING, MOST_ASIDE = 3, 2
 """Of these, for all that come to the loop, and for those alone that go on at one block."""
 MOST_HEADS = 100
-"""So many spots of a loop are tried as its head."""
+"""The most spots of a loop that are tried as its head."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Site:
-    """Where missions enter: at a block itself, or at a loop inside of which it is."""
+    """An entry: at a block itself, or at a loop that contains it."""
 
     spot: Spot
     points: tuple[str, ...]
@@ -63,7 +63,7 @@ class _Heading:
 
 
 def entrances(found: Shape, points: Sequence[str], graph: Graph) -> Iterator[Shape]:
-    """Yield shapes that can be entered at these blocks, the one to be preferred first."""
+    """Yield shapes with entries at these blocks, the preferred one first."""
     if not points:
         yield found
         return
@@ -74,7 +74,7 @@ def entrances(found: Shape, points: Sequence[str], graph: Graph) -> Iterator[Sha
 
 
 class _Entering:
-    """The chart while it gets its entries."""
+    """Adds entries to a chart."""
 
     def __init__(
         self, found: Shape, points: Sequence[str], graph: Graph, *, other_heads: bool
@@ -82,7 +82,7 @@ class _Entering:
         self.found = found
         self.graph = graph
         self.other_heads = other_heads
-        """May a loop begin at another block than before?"""
+        """Whether a loop may get another head."""
         self.rounds = {head: found.loop_body(head) for head in found.loops}
         self.ways = dict(found.chart.ways)
         self.places: tuple[Place, ...] = (None, *points)
@@ -202,7 +202,7 @@ class _Entering:
         return spot.kind is not Kind.BLOCK or self.graph.node[spot.name].block.launches
 
     def copied(self, region: Sequence[Spot]) -> Mapping[Spot, Spot]:
-        """Write some spots once more."""
+        """Duplicate some spots."""
         self.copies += 1
         copies = {spot: replace(spot, copy=self.copies) for spot in region}
         for spot, copy in copies.items():
@@ -263,7 +263,7 @@ class _Entering:
         return start
 
     def arriving(self, spot: Spot) -> Spot:
-        """Return where a mission that goes on has come to its block."""
+        """Mark where a resumed mission has reached its block."""
         arrived = Spot(kind=Kind.ARRIVED, name=spot.name, copy=spot.copy)
         self.ways[arrived] = (Way(statuses=(), target=spot, to=spot.name),)
         return arrived
@@ -273,7 +273,7 @@ class _Entering:
         return _way(places, target)
 
     def turn(self, spot: Spot, instead: Spot, but: Collection[Spot] = ()) -> None:
-        """Lead all ways to a spot elsewhere, but for those from some others."""
+        """Redirect all ways to a spot, except those from some others."""
         for one, ways in self.ways.items():
             if one not in but and any(way.target == spot for way in ways):
                 self.ways[one] = _turned(ways, {spot: instead})

@@ -1,4 +1,4 @@
-"""Where a mission was interrupted is asked for only where it makes a difference.
+"""Remove questions about the place of interruption whose answer is certain.
 
 A plan knows it as long as the mission has not come to a block that tells it to forget. So at each
 question some of the places can turn up, and others cannot: those from which no mission comes here.
@@ -28,11 +28,11 @@ from plutoc.plan.rewrite import rewritten_body
 
 
 class Candidate(NamedTuple):
-    """A mission, as far as a question can tell."""
+    """A mission, as far as a question can distinguish it."""
 
     place: Place
     resumed: bool
-    """It goes on already: it began, or has come to its block."""
+    """Whether it has begun, or has reached its block."""
 
 
 Candidates = frozenset[Candidate]
@@ -99,7 +99,7 @@ class _Walk:
 
 
 def candidates(body: Body, places: tuple[str, ...]) -> Mapping[int, tuple[Switch, Candidates]]:
-    """Return each question with the missions that may come to it, by its identity."""
+    """Return for each question, by identity, the missions that may reach it."""
     walk = _Walk()
     begin = {GOES_ON, *(Candidate(place, False) for place in places)}
     walk.body(body, frozenset(begin), _Frame())
@@ -107,7 +107,7 @@ def candidates(body: Body, places: tuple[str, ...]) -> Mapping[int, tuple[Switch
 
 
 def asked_once(body: Body, places: tuple[str, ...]) -> Body:
-    """Return a body in which nothing is asked whose answer is certain."""
+    """Return a body without questions whose answer is certain."""
     if not places:
         return body
     found = candidates(body, places)

@@ -1,6 +1,6 @@
-"""A plan with some of its steps replaced: what a pass does, without the way to each step.
+"""Rewriting a plan bottom-up: the traversal that passes share.
 
-What nothing was replaced in stays the very same object.
+Unchanged parts stay the same objects.
 """
 
 from __future__ import annotations

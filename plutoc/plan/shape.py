@@ -1,4 +1,4 @@
-"""The shape of a chart: what must be passed on the way to each spot, and where its loops are."""
+"""The structure of a chart: dominators, loops and merges."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from plutoc.plan.chart import Chart, Spot
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shape:
-    """What a chart's arrows say about its structure."""
+    """The structure of a chart."""
 
     chart: Chart
     order: tuple[Spot, ...]
-    """Every spot behind those that lead to it, loops aside."""
+    """The spots in reverse postorder."""
     place: Mapping[Spot, int]
-    """Where a spot stands in the order."""
+    """The index of each spot in the order."""
     arrows: nx.MultiDiGraph
     """An arrow for each way."""
     forward: nx.MultiDiGraph
-    """The same without those back to a spot that all ways to their beginning pass."""
+    """The arrows without back edges."""
     dominators: nx.DiGraph
-    """The dominator tree: above each spot stands the last one that every way there passes."""
+    """The dominator tree: the parent of each spot is its immediate dominator."""
     number: Mapping[Spot, int]
     """Counts the spots so that all that is below one in the tree follows it."""
     size: Mapping[Spot, int]
@@ -38,15 +38,15 @@ class Shape:
     """Arrows back to a loop that is entered elsewhere as well; none, if every loop has one entry."""
 
     def is_below(self, spot: Spot, other: Spot) -> bool:
-        """Is a spot reached only through the other, or the other itself?"""
+        """Whether a spot is dominated by the other."""
         return 0 <= self.number[spot] - self.number[other] < self.size[other]
 
     def is_child(self, spot: Spot, other: Spot) -> bool:
-        """Is the other the last one that every way to a spot passes?"""
+        """Whether the other is the immediate dominator of a spot."""
         return bool(self.dominators.has_edge(other, spot))
 
     def below(self, spot: Spot) -> list[Spot]:
-        """Return the spot and all that is reached through it only, in order."""
+        """Return the spot and all that it dominates, in order."""
         return self.ordered(nx.dfs_preorder_nodes(self.dominators, spot))
 
     def ordered(self, spots: Iterable[Spot]) -> list[Spot]:

@@ -1,4 +1,4 @@
-"""From a chart to a body of loops and switches, if the chart has that structure.
+"""Structuring a chart: a body of loops and switches, if possible.
 
 Each spot is written once, where the last spot before it is that every way there passes: in an arm
 if one arrow leads there, behind the switch if several do. What loops leave towards stands behind
@@ -29,19 +29,19 @@ MOST_TRIES = 50
 
 
 class Unstructured(Exception):
-    """A jump is needed that cannot be written."""
+    """A jump is needed that Python does not have."""
 
 
 class GivenUp(Exception):
-    """It would be nested too deeply, or take too long: too many ways were tried."""
+    """The result would be nested too deeply, or the search takes too long."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Context:
-    """What a piece of a body knows of what is around it."""
+    """The context of a part of a body."""
 
     follow: Spot | None = None
-    """Where falling off the end leads; None: it must not."""
+    """Where falling off the end leads; None: it is not allowed."""
     head: Spot | None = None
     """Where the innermost loop begins."""
     out: Spot | None = None
@@ -67,7 +67,7 @@ class Writer:
         self.tried = 0
         self.rounds: dict[Spot, frozenset[Spot]] = {}
         self.reached: dict[Spot, frozenset[Spot]] = {}
-        """Both are looked for only where they are asked for: all of them may be far too much."""
+        """Caches, filled on demand, as computing all may be far too much."""
 
     def body(self, spot: Spot, around: Context) -> Body:
         """Write a spot, and all that is reached through it only."""

@@ -1,4 +1,4 @@
-"""Is a plan sound? Run after it was built and after every pass; a failure is our own mistake."""
+"""Verification of a plan, after it was built and after every pass; a failure is a bug of the compiler."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Walk a plan with everything that can happen, and hold each step against the graph.
+"""Verify a plan by abstract interpretation: each step must do what the graph says.
 
-What is walked with are pairs of a block that was left and the status that it was left with. Each
-step must go on where the graph's edges lead that pair.
+The states are pairs of the block that was left and the status on leaving it. Each step must continue where
+the graph's edges lead that pair.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from plutoc.plan.model import (
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 ENTERS, ARRIVED = "interrupted at ", "arrived at "
-"""What stands for the block that was left, before an interrupted mission has come to any."""
+"""Pseudo-blocks for interrupted missions that have not reached a block yet."""
 
 Left = dict[tuple[str, Status], None]
 """Blocks that were left, and with which status: an ordered set."""
@@ -42,11 +42,11 @@ Left = dict[tuple[str, Status], None]
 
 @dataclass(frozen=True, kw_only=True)
 class _Frame:
-    """The function that is walked, and the jumps that were met in the innermost loop."""
+    """The function being visited, and the jumps found in its innermost loop."""
 
     where: str
     to: str
-    """What the function ends at: `end`, or a gate."""
+    """Where the function ends: `end`, or a gate."""
     ends: Left = field(default_factory=dict)
     continued: Left = field(default_factory=dict)
     broken: Left = field(default_factory=dict)
@@ -56,7 +56,7 @@ class _Frame:
 
 @dataclass(kw_only=True)
 class _Walk:
-    """All that was met so far."""
+    """The state of the verification."""
 
     checked: Checked
     carried: Mapping[tuple[str, str], frozenset[Status]]
@@ -68,7 +68,7 @@ class _Walk:
     """By identity: two switches may be equal and stand in different places."""
 
     def function(self, body: Body, left: Left, where: str, to: str) -> Left:
-        """Walk a whole function; return what it ends with."""
+        """Visit a whole function; return its final states."""
         frame = _Frame(where=where, to=to)
         self.body(body, left, frame)
         return frame.ends
@@ -79,7 +79,7 @@ class _Walk:
         return left
 
     def step(self, step: Step, left: Left, frame: _Frame) -> Left:
-        """Walk a step; return what falls off its end."""
+        """Visit a step; return what falls off its end."""
         match step:
             case Call():
                 self.moves(left, step.node.name, frame)

@@ -1,4 +1,4 @@
-"""Why the parser cannot go on here: the diagnostic of one mistake."""
+"""The diagnostic of one syntax error: why the parser cannot continue here."""
 
 from __future__ import annotations
 

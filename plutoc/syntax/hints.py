@@ -1,4 +1,4 @@
-"""What people write who think of another language, and how it is said here."""
+"""Hints for those who write the syntax of another language."""
 
 from __future__ import annotations
 

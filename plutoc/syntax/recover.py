@@ -1,4 +1,4 @@
-"""Every mistake in a syntax, one diagnostic each, and a tree of all that can be read.
+"""Error recovery: a diagnostic for every syntax error, and a tree of all that can be read.
 
 Only called where there is a mistake. Each line is judged by itself (lines.py says what a line is);
 what the parser refuses becomes a `BadStatement`, and the rest is parsed.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from pluto_fleet.journal.errors import JournalError
-from pluto_fleet.journal.memory import Memory
+from tests.journal.memory import Memory
 
 
 def texts(memory: Memory) -> list[str]:

@@ -13,7 +13,6 @@ from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
-from pluto_fleet.journal.memory import Memory
 from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation, WorldAction
 from plutoc_runtime.alone.faults import Faults
@@ -25,6 +24,7 @@ from plutoc_runtime.domain.trace import Event
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, EventKind
 from plutoc_runtime.time.virtual import VirtualTime
+from tests.journal.memory import Memory
 
 from . import apps
 from .mortal import Mortal

@@ -12,13 +12,13 @@ from pluto_fleet.flight.live_fleet import live_fleet
 from pluto_fleet.gateway.executor import Executor
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.journal.fold import Records
-from pluto_fleet.journal.memory import Memory
 from pluto_fleet.report.sentences import line_of
 from plutoc_runtime.domain.errors import BadInput, Failure
 from plutoc_runtime.domain.model import Drone
 from plutoc_runtime.domain.status import DroneStatus
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET
+from tests.journal.memory import Memory
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable, names
 

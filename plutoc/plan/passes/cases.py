@@ -1,4 +1,4 @@
-"""A dispatch jumps only where it must, and what is jumped to most stands first.
+"""Inline the cases of a dispatch where possible, and sort them by the number of jumps.
 
 Before:                             After:
     dispatch from create                dispatch from create
@@ -29,11 +29,11 @@ from plutoc.plan.model import Body, Call, Dispatch, End, Goto, Plan, Step, Switc
 from plutoc.plan.rewrite import rewritten, rewritten_body
 
 SHORT = 2
-"""Calls that may be written more than once."""
+"""The most calls of a case that may be duplicated."""
 
 
 def cases(plan: Plan) -> Plan:
-    """Write short cases where they are jumped to, and the others in the order of their jumps."""
+    """Inline short cases, and sort the others by the number of jumps."""
     return rewritten(plan, _fused)
 
 
@@ -48,7 +48,7 @@ def _fused(step: Step, _: Step) -> Body:
 
 
 def _to_fuse(dispatch: Dispatch) -> Mapping[str, Body]:
-    """Return cases that can be written where they are jumped to, none of which jumps to another."""
+    """Return cases that can be inlined, none of which jumps to another of them."""
     jumps = _jumps(dispatch)
     found: dict[str, Body] = {}
     led_to = {dispatch.start, *dispatch.entries}

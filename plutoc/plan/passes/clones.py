@@ -1,4 +1,4 @@
-"""No clone goes into a branch that brings nothing of its own, or that never begins.
+"""Send no clone into a branch that contributes nothing, or that never begins.
 
 Before:                                     After:
     join tell -> all                            join tell -> all
@@ -28,7 +28,7 @@ from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST
 
 
 def clones(plan: Plan) -> Plan:
-    """Send clones only where they do something."""
+    """Send clones only where they have an effect."""
 
     @cache
     def brought() -> Brought:
@@ -58,7 +58,7 @@ def _idle(join: Join, arrows: list[int], brought: Callable[[], Brought]) -> Sequ
 
 
 def _as_bad(branch: Branch, brought: Brought) -> bool:
-    """Does a branch always bring the status of its fork, or a worse one?"""
+    """Whether a branch always brings the status of its fork, or a worse one."""
     pairs = [
         (status, after) for status in IN_GRAPH for after in brought.get((id(branch), status), ())
     ]

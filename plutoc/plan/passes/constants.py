@@ -1,4 +1,4 @@
-"""A parameter that is as the block's function takes it anyway is not handed over.
+"""Omit arguments that equal the default of the block's function.
 
 Before:                                         After:
     create = MissionCreator                         create = MissionCreator
@@ -23,7 +23,7 @@ from plutoc.plan.model import Plan
 
 
 def constants(plan: Plan) -> Plan:
-    """Hand over no parameter that says what goes without saying."""
+    """Omit arguments with default values."""
     left_out = tuple(
         (node.name, name) for node in plan.checked.graph.nodes for name in _left_out(node)
     )

@@ -1,4 +1,4 @@
-"""A switch asks nothing that is settled already.
+"""Drop the conditions of a switch that are certain.
 
 Before:                                     After:
     call retry                                  call retry
@@ -10,7 +10,7 @@ Before:                                     After:
       STANDBY -> launch: go on
     call launch
 
-The last arm takes what the others leave, and where there is only one arm, nothing is asked at all.
+The last arm becomes the default, and a switch with one arm becomes its body.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from plutoc.plan.rewrite import rewritten
 
 
 def decided(plan: Plan) -> Plan:
-    """Ask no question that has one answer."""
+    """Drop conditions that are certain."""
     return rewritten(plan, _decided)
 
 

@@ -1,4 +1,4 @@
-"""Statuses that cannot arrive at a switch are asked for no more, and arms without any go.
+"""Remove impossible statuses from switches, and arms without any status.
 
 Before:                                     After:
     call retry                                  call retry
@@ -23,7 +23,7 @@ from plutoc.plan.rewrite import rewritten
 
 
 def impossible(plan: Plan) -> Plan:
-    """Ask for no status that cannot arrive."""
+    """Remove statuses that cannot arrive."""
     found = reaching_statuses(plan).switches
 
     def narrowed(step: Step, before: Step) -> Body:

@@ -1,4 +1,4 @@
-"""A loop that only leads back to a block before another loop becomes a second call of that block.
+"""Replace an outer loop around another loop by a second call of the block before the inner one.
 
 Before:                             After:
     loop wait                           call wait
@@ -50,14 +50,14 @@ from plutoc.plan.model import (
 from plutoc.plan.rewrite import rewritten
 
 MOST_CALLS = 3
-"""How many more calls there may be."""
+"""The most additional calls."""
 
 _JUMPS: tuple[type[Step], ...] = (End, Goto, Break, Continue)
 """In the order in which ways that only jump stand in a switch."""
 
 
 def straight(plan: Plan) -> Plan:
-    """Write a loop around a loop as a further call of the block that stands between them."""
+    """Replace outer loops by further calls of the blocks between outer and inner loop."""
     return rewritten(plan, lambda step, _: _straightened(step, plan.checked))
 
 

@@ -1,4 +1,4 @@
-"""Two switches in a row, on the same status, are one.
+"""Merge two consecutive switches on the same status.
 
 Before:                                     After:
     call m1                                     call m1
@@ -24,7 +24,7 @@ from plutoc.plan.rewrite import rewritten_bodies
 
 
 def switches(plan: Plan) -> Plan:
-    """Ask once what is asked twice in a row."""
+    """Merge consecutive switches."""
     return rewritten_bodies(plan, _joined)
 
 
@@ -41,7 +41,7 @@ def _joined(body: Body) -> Body:
 
 
 def _leads_on(before: Switch, step: Switch) -> bool:
-    """Do all statuses that come to a switch come from one arm of that before it, as they are?"""
+    """Whether all statuses of a switch come unchanged from one arm of the switch before it."""
     if before.enters or step.enters:
         return False
     on = [arm for arm in before.arms if falls(arm.body)]

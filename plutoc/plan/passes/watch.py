@@ -1,4 +1,4 @@
-"""A fork of nothing but blocks that wait for the trip's end becomes one wait under all limits.
+"""Replace a fork of blocks that only wait for the trip's end by one wait with all limits.
 
 Before:                                     After:
     call launch                                 call launch
@@ -32,7 +32,7 @@ from plutoc.plan.rewrite import rewritten
 
 
 def watch(plan: Plan) -> Plan:
-    """Wait once for the end of a trip, however many blocks watch it."""
+    """Merge concurrent waits for the end of a trip."""
     return rewritten(plan, _fused)
 
 
@@ -52,7 +52,7 @@ def _fused(step: Step, _: Step) -> Body:
 def _together(
     branches: tuple[Branch, ...], found: list[tuple[Node, ...] | None]
 ) -> tuple[Branch, ...]:
-    """Let the first of some branches side by side that only wait do so for all of them."""
+    """Merge the waits of concurrent branches that only wait into the first one."""
     made: list[Branch] = []
     first: int | None = None
     for number, (branch, watchers) in enumerate(zip(branches, found, strict=True)):
@@ -71,7 +71,7 @@ def _together(
 
 
 def _watchers(branch: Branch, gate: Node) -> tuple[Node, ...] | None:
-    """Return the blocks that wait in a branch, or None if it does something else."""
+    """Return the blocks of a branch that only waits, or None."""
     match branch.body:
         case (Watch(watchers=watchers), End()):
             return watchers
@@ -83,13 +83,13 @@ def _watchers(branch: Branch, gate: Node) -> tuple[Node, ...] | None:
 
 
 def _only_waits(block: Block) -> bool:
-    """Does the block do no more than to wait, under a limit that can be asked for?"""
+    """Whether a block only waits, with a limit that can be evaluated separately."""
     if not block.watches:
         return False
     return block.limit is not None or not (block.limits or block.asks or block.named)
 
 
 def _only_closes(gate: Node) -> bool:
-    """Does a gate do no more than to let a status through as it is?"""
+    """Whether a gate only passes a status on."""
     same = all(gate.emitted(status) == {status} for status in gate.block.accepts)
     return same and not gate.block.asks

@@ -125,11 +125,6 @@ def cut_short(file: Path) -> JournalError:
     )
 
 
-def full(seq: int) -> JournalError:
-    """A journal in memory is full, as on a full disk."""
-    return cannot_write(Path("the journal in memory"), OSError(ENOSPC, ""), seq)
-
-
 def cannot_mend(path: Path, why_not: str) -> JournalError:
     """A damaged journal cannot be repaired, and stays as it is."""
     return JournalError(f"{path}: the journal cannot be mended: {why_not}")

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
+from errno import ENOSPC
 from itertools import islice
+from pathlib import Path
 
+from pluto_fleet.journal import errors
+from pluto_fleet.journal.database import Row
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.reader import Read
 from plutoc_runtime.domain.trace import Event
-
-from . import errors
-from .database import Row
-from .errors import JournalError
-from .reader import Read
 
 
 class Memory:
@@ -58,7 +59,8 @@ class Memory:
             raise self.failure
         if self.room is not None:
             if len(rows) > self.room:
-                self.failure = errors.full(self.seq)
+                full = OSError(ENOSPC, "")
+                self.failure = errors.cannot_write(Path("the journal in memory"), full, self.seq)
                 raise self.failure
             self.room -= len(rows)
         now = self._clock()
