@@ -22,9 +22,9 @@ async def test_a_flight_is_told_step_by_step(tmp_path: Path) -> None:
     async with flying(tmp_path) as flown:
         team, seen = flown.team, flown.team.telemetry["cf1"]
         assert (seen.location, seen.battery_level, seen.landed) == ((1, 1, 0), 0.0, True)
-        standing = await flown.do(team.drone_report("cf1"))
-        assert standing.reached
-        assert (standing.landed, standing.problems, standing.done) == (True, (), None)
+        report = await flown.do(team.drone_report("cf1"))
+        assert report.reached
+        assert (report.landed, report.problems, report.done) == (True, (), None)
         team.begins("cf1", None, 0.0)
         await flown.do(team.takeoff("cf1", 1.0))
         assert not seen.landed
@@ -84,12 +84,12 @@ async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -
 
 
 async def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
-    """After the roll call it is waited for until it has been mended."""
+    """After the report it is waited for until it has been mended."""
     drone, wanted = FakeDrone(), [RequiredAction(action="take_photo", parameters={})]
     drone.lacks = {"take_photo"}
     async with flying(tmp_path, drone, wanted=wanted) as flown:
-        standing = await flown.do(flown.team.drone_report("cf1"))
-        assert standing.problems == ("cf1 cannot take_photo",)
+        report = await flown.do(flown.team.drone_report("cf1"))
+        assert report.problems == ("cf1 cannot take_photo",)
         assert await flown.do(flown.team.reach("cf1"))
         with pytest.raises(FlightFailed, match="cf1 is not ready: cf1 cannot take_photo"):
             flown.team.begins("cf1", None, 0.0)

@@ -73,8 +73,8 @@ async def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -
         drone.put((2.0, 2.0, 0.0))
         drone.answers = True
         await flown.until(lambda: team._vehicles["cf1"].linked)
-        standing = await flown.do(team.drone_report("cf1"))
-        assert (standing.landed, standing.boot, standing.location) == (True, 1, (2, 2, 0))
+        report = await flown.do(team.drone_report("cf1"))
+        assert (report.landed, report.boot, report.location) == (True, 1, (2, 2, 0))
         assert await flown.do(team.reach("cf1"))
 
 
@@ -87,9 +87,9 @@ async def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_pa
         drone.hangs = drone.clings = {"connect"}
         await flown.until(lambda: not team._vehicles["cf1"].linked)
         before = the_loop().time()
-        standing = await flown.do(team.drone_report("cf1"))
+        report = await flown.do(team.drone_report("cf1"))
         assert the_loop().time() - before <= 17
-        assert not standing.reached
+        assert not report.reached
 
 
 async def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path) -> None:
@@ -129,12 +129,12 @@ async def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> 
 
 
 async def test_who_takes_long_to_connect_is_connected_all_the_same(tmp_path: Path) -> None:
-    """The roll call does not wait for it; a radio that many share is slow."""
+    """The report does not wait for it; a radio that many share is slow."""
     drone = FakeDrone()
     drone.slow = {"connect": 25.0}
     async with flying(tmp_path, drone) as flown:
-        standing = await flown.do(flown.team.drone_report("cf1"))
-        assert (standing.reached, standing.problems) == (False, ("cf1 did not answer in 15 s",))
+        report = await flown.do(flown.team.drone_report("cf1"))
+        assert (report.reached, report.problems) == (False, ("cf1 did not answer in 15 s",))
         assert await flown.do(flown.team.reach("cf1"))
         assert the_loop().time() < 1000 + 27
 

@@ -47,7 +47,7 @@ async def commanded(
     patience: float | None = None,
     ledger: FileLedger | None = None,
 ) -> AsyncIterator[tuple[Flown, Gateway]]:
-    """Begin a gateway over some fake drones, and call the roll."""
+    """Begin a gateway over some fake drones, and query the drones."""
     drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, count + 1)]
     async with flying(folder, *drones) as flown:
         crafts = [Craft(flown, index) for index in range(count)]
@@ -152,8 +152,8 @@ async def test_another_gateway_flies_none_whose_motors_were_cut(tmp_path: Path) 
     ledger = FileLedger(tmp_path / "ledger")
     async with commanded(tmp_path, ledger=ledger) as (flown, gateway):
         link, heard, drone = gateway.link(1), list[object](), flown.drones["cf1"]
-        roll = await flown.do(link.fleet_report())
-        assert roll.drones["cf1"].problems == ("cf1's motors were cut",)
+        fleet_report = await flown.do(link.fleet_report())
+        assert fleet_report.drones["cf1"].problems == ("cf1's motors were cut",)
         flown.kernel.post(link.fly, measuring("cf1", (1.0, 5.0, 1.2)), heard.append)
         await flown.until(lambda: heard)
         assert str(heard[0]) == "cf1's motors were cut"

@@ -35,8 +35,8 @@ def test_without_their_dongle_all_hover_and_come_home_when_it_is_back(tmp_path: 
 
     async def fly() -> None:
         async with commanded(tmp_path, HOMES, ether.uris, {}) as flown:
-            roll = await flown.do(flown.link.fleet_report())
-            assert all(standing.reached for standing in roll.drones.values()), flown.log
+            fleet_report = await flown.do(flown.link.fleet_report())
+            assert all(report.reached for report in fleet_report.drones.values()), flown.log
             jobs = [
                 flown.flies(id, (x, y + 3.0, 0.8), action=None) for id, (x, y, _) in HOMES.items()
             ]

@@ -172,8 +172,8 @@ def test_each_fault_fails_its_own_flight_and_no_other(tmp_path: Path) -> None:
             async with commanded(tmp_path, HOMES, server.uris, OPTIONS) as flown:
                 hall = Hall(server, flown)
                 began = monotonic()
-                roll = await flown.do(flown.link.fleet_report())
-                silent = [id for id, standing in roll.drones.items() if not standing.reached]
+                fleet_report = await flown.do(flown.link.fleet_report())
+                silent = [id for id, report in fleet_report.drones.items() if not report.reached]
                 assert silent == ["mute"], flown.log
                 assert monotonic() - began < 30
                 stories = {story.__name__: story(hall) for story in STORIES}

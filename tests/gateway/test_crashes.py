@@ -116,10 +116,10 @@ class World(Field):
         errands.cancel()
 
     async def do(self, link: Link) -> None:
-        """Call the roll; attach to what flies or is done, fly what was not; ask no other."""
-        roll = await link.fleet_report()
+        """Query all drones; attach to what flies or is done, fly what was not; ask no other."""
+        fleet_report = await link.fleet_report()
         for job in self.jobs:
-            known = roll.jobs.get(job.id)
+            known = fleet_report.jobs.get(job.id)
             state = None if known is None else known.state
             if job.id in self.reported:
                 assert state is JobState.DONE
@@ -128,7 +128,7 @@ class World(Field):
             elif state is JobState.BEGUN:
                 self.unknown.add(job.id)
             else:
-                if not roll.drones[job.drone].reached and not await link.recover(job.drone):
+                if not fleet_report.drones[job.drone].reached and not await link.recover(job.drone):
                     continue
                 link.fly(job, partial(self.heard, job))
 
@@ -163,9 +163,9 @@ def test_no_sequence_of_crashes_does_anything_twice(
         assert len(done) == len(set(done))
         assert world.reported.keys() <= set(done)
         for job in world.jobs:
-            standing = fly(world.virtual, world.navigation.drone_report(job.drone))
+            report = fly(world.virtual, world.navigation.drone_report(job.drone))
             cut = job.drone == "cf1" and world.cut_after is not None
-            out = cut or not standing.reached
+            out = cut or not report.reached
             assert job.id in world.reported or job.id in world.unknown or out
         assert world.cut_after in (None, world.navigation.flown("cf1"))
         world.kernel.close()

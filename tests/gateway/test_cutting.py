@@ -123,8 +123,8 @@ class Kept(Field):
         self.ledger = FileLedger(self.file)
         self.another()
 
-    def roll(self, epoch: int) -> tuple[str, ...]:
-        """Call the roll, and return why cf1 may not fly."""
+    def problems(self, epoch: int) -> tuple[str, ...]:
+        """Query the drones, and return why cf1 may not fly."""
         return fly(self.virtual, self.gateway.link(epoch).fleet_report()).drones["cf1"].problems
 
 
@@ -133,7 +133,7 @@ def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
     field, heard = Kept(tmp_path), list[object]()
     cut(field)
     field.is_killed()
-    assert field.roll(1) == ("cf1's motors were cut",)
+    assert field.problems(1) == ("cf1's motors were cut",)
     link = field.gateway.link(2)
     fly(field.virtual, link.fleet_report())
     for command in (link.takeoff("cf1", 1.2), link.go_to("cf1", THERE)):
@@ -142,7 +142,7 @@ def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
     assert fly(field.virtual, link.recover("cf2")) is True
     link.mended("cf1")
     field.is_killed()
-    assert field.roll(3) == ()
+    assert field.problems(3) == ()
     field.gateway.link(4).fly(Task(), heard.append)
     field.advance(100)
     assert field.navigation.flown("cf1") > 0
@@ -166,11 +166,11 @@ def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.M
         cut(field)
     assert on_record == [["cf1"]]
     field.is_killed()
-    assert field.roll(2) == ()
+    assert field.problems(2) == ()
     link = field.gateway.link(3)
     fly(field.virtual, link.bring_down(Down.LAND))
     assert field.navigation.bodies["cf1"].landed
-    assert field.roll(4) == ("cf1's motors were cut",)
+    assert field.problems(4) == ("cf1's motors were cut",)
     field.virtual.close()
 
 
@@ -188,7 +188,7 @@ def test_who_could_not_be_told_is_as_before(
     assert cut(field, "cf1") == "cf1 cannot be reached"
     assert cut(field, "cf2") == "cf2 cannot be reached"
     for epoch in (1, 2):
-        assert field.roll(epoch) == ("cf1's motors were cut",)
+        assert field.problems(epoch) == ("cf1's motors were cut",)
         link = field.gateway.link(epoch)
         fly(field.virtual, link.fleet_report())
         assert fly(field.virtual, link.recover("cf2")) is True

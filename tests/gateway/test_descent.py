@@ -41,8 +41,8 @@ def test_landing_breaks_off_every_flight() -> None:
     brought_down(field, Down.LAND)
     assert (all_landed(field), heard) == (True, [])
     assert field.kernel.now == pytest.approx(6)  # up for three seconds, and down
-    roll = fly(field.virtual, field.gateway.link(10).fleet_report())
-    assert roll.jobs[Task().id].state is JobState.BROKEN_OFF
+    fleet_report = fly(field.virtual, field.gateway.link(10).fleet_report())
+    assert fleet_report.jobs[Task().id].state is JobState.BROKEN_OFF
 
 
 def test_the_link_is_not_heard_from_then_on_until_the_roll_is_called() -> None:
@@ -119,9 +119,9 @@ def test_it_goes_on_without_the_brain() -> None:
     field.advance(1)
     new = field.gateway.link(2)
     new.fly(Task(id="too early", drone="cf2"), lambda _: None)
-    roll = fly(field.virtual, new.fleet_report())
-    assert all(standing.landed for standing in roll.drones.values())
-    assert list(roll.jobs) == [Task().id]
+    fleet_report = fly(field.virtual, new.fleet_report())
+    assert all(report.landed for report in fleet_report.drones.values())
+    assert list(fleet_report.jobs) == [Task().id]
 
 
 def test_one_that_cannot_follow_keeps_no_other_up() -> None:

@@ -48,8 +48,8 @@ def test_what_is_on_its_way_can_be_broken_off() -> None:
     link.break_off("cf1")
     field.advance(50)
     assert heard == []
-    roll = fly(field.virtual, link.fleet_report())
-    assert roll.jobs[Task().id].state is JobState.DONE
+    fleet_report = fly(field.virtual, link.fleet_report())
+    assert fleet_report.jobs[Task().id].state is JobState.DONE
 
 
 def test_single_commands_are_late_too_and_can_be_broken_off() -> None:
@@ -119,7 +119,7 @@ def test_a_drone_that_is_switched_off_in_the_air_comes_down() -> None:
     link.fly(Task(), heard.append)
     field.advance(20)
     field.navigation.reboot("cf1")
-    standing = fly(field.virtual, link.drone_report("cf1"))
-    assert (standing.reached, standing.boot, standing.done) == (False, 1, {})
+    report = fly(field.virtual, link.drone_report("cf1"))
+    assert (report.reached, report.boot, report.done) == (False, 1, {})
     assert fly(field.virtual, link.recover("cf1"))
     assert fly(field.virtual, link.drone_report("cf1")).reached

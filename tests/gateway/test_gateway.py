@@ -14,13 +14,13 @@ from tests.runtime.simulation.flights import failure, fly
 
 
 def called(field: Field) -> FleetReport:
-    """Call the roll through a new link."""
+    """Query all drones through a new link."""
     return fly(field.virtual, field.gateway.link(99).fleet_report())
 
 
-def states(roll: FleetReport) -> dict[str, JobState]:
+def states(fleet_report: FleetReport) -> dict[str, JobState]:
     """Return how far each job is."""
-    return {id: entry.state for id, entry in roll.jobs.items()}
+    return {id: entry.state for id, entry in fleet_report.jobs.items()}
 
 
 def test_a_job_is_flown_and_reported_once() -> None:
@@ -54,9 +54,9 @@ def test_a_job_under_way_outlives_the_brain_that_gave_it() -> None:
     field.gateway.link(1).fly(Task(), old.append)
     field.advance(10)
     link = field.gateway.link(2)
-    roll = fly(field.virtual, link.fleet_report())
-    assert states(roll) == {Task().id: JobState.FLYING}
-    assert not roll.drones["cf1"].landed
+    fleet_report = fly(field.virtual, link.fleet_report())
+    assert states(fleet_report) == {Task().id: JobState.FLYING}
+    assert not fleet_report.drones["cf1"].landed
     link.attach(Task().id, new.append)
     field.advance(100)
     assert (old, new) == ([], [None])
@@ -178,9 +178,9 @@ def test_a_drone_that_did_it_says_so_even_if_the_ledger_does_not() -> None:
     field.navigation.bodies["cf1"].done[Task().id] = 21.5
     field.gateway.crash()
     field.another()
-    roll = called(field)
-    assert states(roll) == {Task().id: JobState.DONE}
-    assert roll.jobs[Task().id].value == 21.5
+    fleet_report = called(field)
+    assert states(fleet_report) == {Task().id: JobState.DONE}
+    assert fleet_report.jobs[Task().id].value == 21.5
 
 
 def test_a_job_broken_off_before_its_action_may_fly_again() -> None:

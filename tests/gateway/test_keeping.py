@@ -70,8 +70,8 @@ def test_what_was_done_and_is_aboard_is_remembered(tmp_path: Path) -> None:
     (tmp_path / DRONES).write_bytes(before)
     field = Kept(tmp_path, 1025.0)
     assert field.navigation.carrying("cf1") == PILLS
-    standing = fly(field.virtual, field.navigation.drone_report("cf1"))
-    assert standing.done == {Task().id: None}
+    report = fly(field.virtual, field.navigation.drone_report("cf1"))
+    assert report.done == {Task().id: None}
     deeds = [json.loads(line) for line in (tmp_path / DEEDS).read_text().splitlines()]
     (deed,) = deeds
     assert [deed[key] for key in ("time", "drone", "action", "item", "job", "boot")] == [
@@ -95,8 +95,8 @@ def test_what_was_put_down_is_not_aboard(tmp_path: Path) -> None:
     field.navigation.reboot("cf1")
     field = field.later(tmp_path, 1)
     assert field.navigation.carrying("cf1") is None
-    standing = fly(field.virtual, field.navigation.drone_report("cf1"))
-    assert (standing.boot, standing.done, standing.reached) == (1, {}, False)
+    report = fly(field.virtual, field.navigation.drone_report("cf1"))
+    assert (report.boot, report.done, report.reached) == (1, {}, False)
 
 
 def test_a_line_that_was_never_finished_was_never_done(tmp_path: Path) -> None:

@@ -37,13 +37,13 @@ def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
         assert not link.telemetry("cf1").landed
         photo = await brain.flown(link, Task(id="photo", action="take_photo", item=None))
         assert isinstance(photo, Photo)
-        roll = await brain.told(link.fleet_report())
-        assert {id: job.state for id, job in roll.jobs.items()} == {
+        fleet_report = await brain.told(link.fleet_report())
+        assert {id: job.state for id, job in fleet_report.jobs.items()} == {
             Task().id: JobState.DONE,
             "photo": JobState.DONE,
         }
-        assert roll.jobs["photo"].value == photo
-        assert roll.drones["cf1"].carrying == "pills"
+        assert fleet_report.jobs["photo"].value == photo
+        assert fleet_report.drones["cf1"].carrying == "pills"
         await brain.told(link.land("cf1"))
         assert link.telemetry("cf1").landed
         await link.goodbye()
@@ -82,8 +82,11 @@ def test_a_brain_that_is_gone_finds_its_job_flying_on(tmp_path: Path) -> None:
         await brain.until(lambda: not link.telemetry("cf1").landed)
         await link.close()
         link = await brain.linked()
-        roll = await brain.told(link.fleet_report())
-        assert (roll.jobs[Task().id].state, roll.jobs[Task().id].flies) == (JobState.FLYING, True)
+        fleet_report = await brain.told(link.fleet_report())
+        assert (fleet_report.jobs[Task().id].state, fleet_report.jobs[Task().id].flies) == (
+            JobState.FLYING,
+            True,
+        )
         heard: list[object] = []
         brain.kernel.post(link.attach, Task().id, heard.append)
         await brain.until(lambda: bool(heard))
@@ -123,12 +126,14 @@ def test_a_gateway_that_is_killed_comes_back_to_the_same_world(tmp_path: Path) -
         os.kill(killed, signal.SIGKILL)
         await brain.kernel.run(brain.lost)
         link = await brain.linked()
-        roll = await brain.told(link.fleet_report())
+        fleet_report = await brain.told(link.fleet_report())
         assert pid(tmp_path) != killed
-        assert {id: entry.state for id, entry in roll.jobs.items()} == {Task().id: JobState.DONE}
-        assert roll.drones["cf1"].carrying == "pills"
-        assert not roll.drones["cf2"].landed
-        assert roll.drones["cf2"].location[0] > 3
+        assert {id: entry.state for id, entry in fleet_report.jobs.items()} == {
+            Task().id: JobState.DONE
+        }
+        assert fleet_report.drones["cf1"].carrying == "pills"
+        assert not fleet_report.drones["cf2"].landed
+        assert fleet_report.drones["cf2"].location[0] > 3
         assert await brain.flown(link, Task(id="far", drone="cf2", stops=(FAR,))) is None
 
     played(tmp_path, play)
@@ -145,16 +150,16 @@ def test_all_can_be_brought_down_by_the_brain_and_without_it(tmp_path: Path) -> 
         await brain.told(link.bring_down(Down.HOME))
         assert link.telemetry("cf1").landed
         assert link.telemetry("cf1").location == pytest.approx((1, 1, 0))
-        roll = await brain.told(link.fleet_report())
-        assert roll.jobs[Task().id].state is JobState.BROKEN_OFF
+        fleet_report = await brain.told(link.fleet_report())
+        assert fleet_report.jobs[Task().id].state is JobState.BROKEN_OFF
         brain.kernel.post(link.fly, Task(), lambda _: None)
         await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
         assert stop_directly(tmp_path, Down.LAND, 5) == "the drones come down"
         await brain.kernel.run(brain.lost)
         link = await brain.linked()
-        roll = await brain.told(link.fleet_report())
-        assert roll.drones["cf1"].landed
-        assert roll.drones["cf1"].location[0] > 2
+        fleet_report = await brain.told(link.fleet_report())
+        assert fleet_report.drones["cf1"].landed
+        assert fleet_report.drones["cf1"].location[0] > 2
 
     played(tmp_path, play)
 

@@ -109,11 +109,11 @@ def test_jobs_arrive_as_they_were(
 )
 def test_a_roll_call_arrives_as_it_was(drones: list[DroneReport], jobs: list[Entry]) -> None:
     """Of all drones and of all jobs."""
-    roll = FleetReport(
-        drones={standing.drone: standing for standing in drones},
+    fleet_report = FleetReport(
+        drones={report.drone: report for report in drones},
         jobs={entry.id: entry for entry in jobs},
     )
-    assert fleet_report_of(sent(fleet_report_data(roll))) == roll
+    assert fleet_report_of(sent(fleet_report_data(fleet_report))) == fleet_report
 
 
 def test_settings_are_read_as_they_were_written() -> None:

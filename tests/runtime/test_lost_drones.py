@@ -80,7 +80,7 @@ def test_one_that_is_as_lost_as_before_stays_so(monkeypatch: pytest.MonkeyPatch)
     """It was not looked after: it is asked, and it is LOST again, with the reason."""
 
     async def drone_report(drone: str) -> DroneReport:
-        return replace(fleet.navigation.bodies[drone].standing, problems=("it lies on its back",))
+        return replace(fleet.navigation.bodies[drone].report, problems=("it lies on its back",))
 
     fleet = living(*"ab")
     monkeypatch.setattr(fleet.navigation, "mended", lambda _: None)
@@ -200,8 +200,8 @@ def test_where_one_was_brought_back_it_is_told_so_before_another_is_refused() ->
     heard: list[str] = []
 
     async def drone_report(drone: str) -> DroneReport:
-        standing = fleet.navigation.bodies[drone].standing
-        return replace(standing, problems=() if heard else ("it has crashed",))
+        report = fleet.navigation.bodies[drone].report
+        return replace(report, problems=() if heard else ("it has crashed",))
 
     vars(fleet.gateway.navigation).update(mended=heard.append, drone_report=drone_report)
     fleet.live_on()
@@ -250,9 +250,9 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
     """The others fly; what a drone says of itself commands no terminal, and is not endless."""
 
     async def drone_report(self: Executor, drone: str) -> DroneReport:
-        standing = fleet.navigation.bodies[drone].standing
+        report = fleet.navigation.bodies[drone].report
         problems = ("its battery has 3.4 V", "\x1b[31m" + "x" * 1000) if drone == "cf1" else ()
-        return replace(standing, problems=problems)
+        return replace(report, problems=problems)
 
     async def fetched(drone: str) -> bool:
         await Future[None]()

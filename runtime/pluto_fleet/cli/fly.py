@@ -26,8 +26,8 @@ from ..flight.lives import (
     reopen,
     run_flight,
 )
+from ..flight.mission_status import finished, has_ended, records_in
 from ..flight.offline import clear_stop, pending_stop
-from ..flight.standing import finished, has_ended, records_in
 from ..journal import place
 from ..journal.errors import exists
 from ..journal.header import fingerprint, header

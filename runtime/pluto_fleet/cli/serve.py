@@ -17,7 +17,7 @@ from plutoc_runtime.domain.text import in_shell
 
 from ..files.fleet import as_flown
 from ..files.reading import text_of
-from ..flight.standing import finished, records_in
+from ..flight.mission_status import finished, records_in
 from ..jobs.reports import Down
 from ..journal import place
 from ..process import respawn as again

@@ -14,8 +14,8 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.text import in_shell, printable, quoted
 
 from ..flight import offline
+from ..flight.mission_status import ANSWERS, records_in, waiting
 from ..flight.offline import record_decision
-from ..flight.standing import ANSWERS, records_in, waiting
 from ..gateway.starting import cut_directly, stop_directly
 from ..jobs.reports import Down
 from ..journal.errors import missing

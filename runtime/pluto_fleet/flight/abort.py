@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..jobs.job import CommandLink
 
 
-class CallingOff:
+class DeferredAbort:
     """Fails trips once the gateway has confirmed that their actions were not done."""
 
     def __init__(self, link: CommandLink) -> None:
@@ -34,10 +34,10 @@ class CallingOff:
         )
 
     async def _fail_unless_done(self, state: MissionState, flight: Flight, reason: str) -> None:
-        roll = await self._link.fleet_report()
+        fleet_report = await self._link.fleet_report()
         if state.in_flight is not flight or state.task is None:
             return  # it has ended, or its mission was suspended
-        entry = roll.jobs.get(flight.id)
+        entry = fleet_report.jobs.get(flight.id)
         what = outcome_of(entry, state.core.app.actions[flight.trip.action], begun=False)
         if what is Outcome.UNKNOWN:
             assert isinstance(state.supervisor, LiveEngine)

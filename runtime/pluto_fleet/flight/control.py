@@ -27,8 +27,8 @@ from .reconcile import (
     find_outcome,
     fly_again,
     fly_on,
+    resume_status,
     settle_doubt,
-    standing,
     was_done,
 )
 
@@ -211,8 +211,8 @@ class Control:
 
     async def _broken_off(self, state: MissionState, flight: Flight, then: Then) -> None:
         """Abort a flight, and find out its outcome from the ledger and the drone."""
-        roll = await self._link.fleet_report()
-        entry = roll.jobs.get(flight.id)
+        fleet_report = await self._link.fleet_report()
+        entry = fleet_report.jobs.get(flight.id)
         begun = bool(self._record(state)["flight"]["begun"])
         what = await find_outcome(self._core, flight, entry, begun)
         del self._steps_out[state.mission.name]
@@ -248,12 +248,12 @@ class Control:
 
     def _resume(self, state: MissionState) -> None:
         flight = state.flight if state.goes_on else None
-        status = standing(state) if flight is None else flight.result()
+        status = resume_status(state) if flight is None else flight.result()
         interventions.resume(self._core, state.mission, status)
         delay = self._record(state)["delay"]
         if state.delay is not None and delay is not None:
             state.delay = state.delay[0], delay[1], delay[2]  # it has not waited meanwhile
-        self._engine.resume(state, standing(state))
+        self._engine.resume(state, resume_status(state))
 
     def _skip(self, unwanted: Trip, state: MissionState) -> None:
         mission = state.mission

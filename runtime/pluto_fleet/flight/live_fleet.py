@@ -53,28 +53,28 @@ class LiveFleet(Fleet):
 
     async def _why_lost(self, drone: Drone, reason: str) -> str:
         """Return the drone's own reason, which may be newer than that of the failed flight."""
-        standing = await self._navigation.drone_report(drone.id)
-        return _in_words(standing) or await super()._why_lost(drone, reason)
+        report = await self._navigation.drone_report(drone.id)
+        return _in_words(report) or await super()._why_lost(drone, reason)
 
-    def take_up(self, drone: Drone, standing: DroneReport) -> None:
+    def take_up(self, drone: Drone, report: DroneReport) -> None:
         """Take over a drone that no mission needs now, when an app starts or resumes.
 
         It is allocated only once it is on the ground, healthy, with nothing aboard; a lost one only
         once it has been repaired, even if it reports to be healthy.
         """
         if drone in self.lost:
-            self._leave_lost(drone, standing)
+            self._leave_lost(drone, report)
             return
-        why = self._say_why_not(drone, standing)
-        well = standing.reached and standing.landed and not standing.problems
-        if not (well and standing.carrying is None and self._rests(drone)):
+        why = self._say_why_not(drone, report)
+        well = report.reached and report.landed and not report.problems
+        if not (well and report.carrying is None and self._rests(drone)):
             self.recover(drone, why or f"{drone.id} does not answer")
-            if why and standing.landed:
+            if why and report.landed:
                 self.unready[drone] = why
 
-    def _leave_lost(self, drone: Drone, standing: DroneReport) -> None:
+    def _leave_lost(self, drone: Drone, report: DroneReport) -> None:
         """Leave a lost drone where it is, unless it is in the air: then it comes home, and stays lost."""
-        if standing.reached and not standing.landed:
+        if report.reached and not report.landed:
             down = partial(self._bring_down, reason=self.lost[drone])
             self._send(drone, DroneStatus.RECOVERING, down, "comes down")
         else:
@@ -88,11 +88,11 @@ class LiveFleet(Fleet):
         self.unready[drone] = reason
         self._become(drone, DroneStatus.LOST)
 
-    def _say_why_not(self, drone: Drone, standing: DroneReport) -> str:
+    def _say_why_not(self, drone: Drone, report: DroneReport) -> str:
         """Log why a drone may not fly, and return the reason."""
-        if not standing.problems:
+        if not report.problems:
             return ""
-        why = _in_words(standing)
+        why = _in_words(report)
         self._trace.note("drone.not_ready", drone=drone.id, reason=why)
         return why
 
@@ -160,8 +160,8 @@ class LiveFleet(Fleet):
         if await self._navigation.recover(drone.id):
             await self._settle(drone)
         else:
-            standing = await self._navigation.drone_report(drone.id)
-            self._lose(drone, self._say_why_not(drone, standing) or _STILL)
+            report = await self._navigation.drone_report(drone.id)
+            self._lose(drone, self._say_why_not(drone, report) or _STILL)
 
 
 def live_fleet(core: Core) -> LiveFleet:
@@ -170,9 +170,9 @@ def live_fleet(core: Core) -> LiveFleet:
     return core.fleet
 
 
-def _in_words(standing: DroneReport) -> str:
+def _in_words(report: DroneReport) -> str:
     """Return why a drone may not fly, in its own words."""
-    return cut_off("; ".join(map(printable, standing.problems)), LONGEST)
+    return cut_off("; ".join(map(printable, report.problems)), LONGEST)
 
 
 _STILL = "it was brought back, and could not be reached"

@@ -27,8 +27,8 @@ from ..journal.store import Store
 from .config import End, FlightConfig, FlightResult, Stops
 from .fly import Recovered, live, recovered
 from .live_flight import LiveFlight
+from .mission_status import all_over, finished
 from .offline import pending_stop
-from .standing import all_over, finished
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App

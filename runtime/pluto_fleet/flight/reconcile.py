@@ -137,9 +137,9 @@ def settle_doubt(state: MissionState, engine: LiveEngine, link: CommandLink, don
         fly_again(state, flight, link)
     if kept and state.carrier is None:
         state.core.fleet.recover(flight.flier)
-    engine.resume(state, standing(state))
+    engine.resume(state, resume_status(state))
 
 
-def standing(state: MissionState) -> Status:
+def resume_status(state: MissionState) -> Status:
     """Return the status with which an interrupted mission resumes."""
     return STANDBY if state.mission.attempts or state.interrupted else UNEXECUTED

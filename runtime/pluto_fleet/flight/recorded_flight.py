@@ -19,7 +19,7 @@ from ..files.reading import shortened
 from ..journal.durable_link import DurableLink
 from ..journal.recorder import Recorder, Sink
 from ..process.signal_guard import guard_hooks
-from .abort import CallingOff
+from .abort import DeferredAbort
 from .control import Control
 from .live_engine import LiveEngine, live_engine
 from .live_fleet import LiveFleet, live_fleet
@@ -67,7 +67,7 @@ class RecordedFlight:
             navigation,
             heard,
             self.recorder,
-            CallingOff(link),
+            DeferredAbort(link),
             LiveFleet,
             LiveEngine,
         )
@@ -120,25 +120,27 @@ class RecordedFlight:
 
     async def _started(self, missions: Sequence[Mission[Any]]) -> float:
         core = self.session.core
-        roll = await self._link.fleet_report()
-        if roll.drones.keys().isdisjoint(self._mended):  # else one of them is queried again
+        fleet_report = await self._link.fleet_report()
+        if fleet_report.drones.keys().isdisjoint(self._mended):  # else one of them is queried again
             _refuse_if_none_is_ready(
-                roll, {name: one["reason"] for name, one in self._lost.items()}
+                fleet_report, {name: one["reason"] for name, one in self._lost.items()}
             )
         core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
         for drone in core.fleet.drones:
-            live_fleet(core).take_up(drone, roll.drones[drone.id])
+            live_fleet(core).take_up(drone, fleet_report.drones[drone.id])
         self.session.set_out(missions)
         self.missions = tuple(missions)
         return await self.session.see_through()
 
     async def _went_on(self) -> float:
         session, records = self.session, self.recorder.records
-        roll = await self._link.fleet_report()
+        fleet_report = await self._link.fleet_report()
         session.core.trace.note("brain.began", epoch=self._epoch)
         self._retire()
-        missions = await go_on(session.core, live_engine(session), self._link, roll, records)
+        missions = await go_on(
+            session.core, live_engine(session), self._link, fleet_report, records
+        )
         self.missions = tuple(missions)
         return await session.see_through()
 
@@ -160,7 +162,7 @@ class RecordedFlight:
             self._link.mended(drone)
 
 
-def _refuse_if_none_is_ready(roll: FleetReport, lost: Mapping[str, str]) -> None:
+def _refuse_if_none_is_ready(fleet_report: FleetReport, lost: Mapping[str, str]) -> None:
     """Raise `BadInput` if no drone may fly: nothing has begun."""
     reasons = {
         drone: (
@@ -168,7 +170,7 @@ def _refuse_if_none_is_ready(roll: FleetReport, lost: Mapping[str, str]) -> None
             if drone in lost
             else "; ".join(one.problems)
         )
-        for drone, one in roll.drones.items()
+        for drone, one in fleet_report.drones.items()
     }
     problems = [of(drone, reason) for drone, reason in reasons.items()]
     if problems and all(reasons.values()):

@@ -18,8 +18,8 @@ from .reconcile import (
     find_outcome,
     fly_again,
     fly_on,
+    resume_status,
     settle_doubt,
-    standing,
     was_done,
 )
 from .restore import Rebuilt, last_flight, rebuilt, remember, restore_results
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 
 async def go_on(
-    core: Core, engine: LiveEngine, link: CommandLink, roll: FleetReport, records: Records
+    core: Core, engine: LiveEngine, link: CommandLink, fleet_report: FleetReport, records: Records
 ) -> list[Mission[Any]]:
     """Resume everything where it was interrupted; return all missions, also those that have ended."""
     by_index = sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
@@ -45,7 +45,7 @@ async def go_on(
     for drone in drones.values():
         drone.trips = records.flown.get(drone.id, 0)
     revivals = [
-        _Revival(core, engine, link, roll, one, drones)
+        _Revival(core, engine, link, fleet_report, one, drones)
         for one in missions.values()
         if not one.record["ended"]
     ]
@@ -56,10 +56,10 @@ async def go_on(
     engaged: set[Drone] = set()
     for revival in revivals:
         revival.revive(engaged)
-    at_work = {entry.drone for entry in roll.jobs.values() if entry.flies}
+    at_work = {entry.drone for entry in fleet_report.jobs.values() if entry.flies}
     for drone in drones.values():
         if drone not in engaged:
-            found = roll.drones[drone.id]
+            found = fleet_report.drones[drone.id]
             if drone.id in at_work:  # the earlier run could not abort its job any more
                 link.break_off(drone.id)
                 found = replace(found, landed=False)  # it may take off before it receives that
@@ -76,11 +76,11 @@ class _Revival:
         core: Core,
         engine: LiveEngine,
         link: CommandLink,
-        roll: FleetReport,
+        fleet_report: FleetReport,
         one: Rebuilt,
         drones: Mapping[str, Drone],
     ) -> None:
-        self._core, self._engine, self._link, self._roll = core, engine, link, roll
+        self._core, self._engine, self._link, self._fleet_report = core, engine, link, fleet_report
         self._mission, self._record, self._unfit = one.mission, one.record, one.unfit
         self._state: MissionState = engine.new_state(one.mission)
         remember(self._state, one.record, drones)
@@ -91,7 +91,7 @@ class _Revival:
         """Find out the outcome of a flight that had not ended."""
         flight, record = self._flight, self._record
         if flight is not None and not flight.is_set and self._why_held() is None:
-            entry, begun = self._roll.jobs.get(flight.id), bool(record["flight"]["begun"])
+            entry, begun = self._fleet_report.jobs.get(flight.id), bool(record["flight"]["begun"])
             self._fate = await find_outcome(self._core, flight, entry, begun)
 
     def revive(self, engaged: set[Drone]) -> None:
@@ -120,7 +120,7 @@ class _Revival:
         """Settle a flight that had not ended, and resume."""
         state, flight, link = self._state, self._flight, self._link
         assert flight is not None
-        entry = self._roll.jobs.get(flight.id)
+        entry = self._fleet_report.jobs.get(flight.id)
         if what is Outcome.FLIES_ON and entry is not None:
             engaged.add(flight.flier)
             fly_on(state, flight, link, entry)
@@ -154,7 +154,7 @@ class _Revival:
             self._engine.set_aside(state)
             interventions.pause(self._core, mission)
         else:
-            status = standing(state)
+            status = resume_status(state)
             if not state.goes_on:
                 mission.status, mission.reason = status, ""
             self._engine.resume(state, status)
@@ -165,7 +165,7 @@ class _Revival:
         drone, item = state.carrier, state.carries
         if drone is None or item is None:
             return
-        found = self._roll.drones[drone.id]
+        found = self._fleet_report.drones[drone.id]
         if found.reached and found.carrying != item.name:
             state.carrier = state.carries = None
             state.end(f"{item.name} is not aboard {drone.id} any more")

@@ -177,13 +177,13 @@ class Executor:
 
     async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
-        standing = await self._controls.drone_report(drone)
+        report = await self._controls.drone_report(drone)
         if self._traffic is not None:
             self._traffic.look_around()
         why = str(motors_cut(drone))
-        if drone in self._cut and why not in standing.problems:
-            return replace(standing, problems=(*standing.problems, why))
-        return standing
+        if drone in self._cut and why not in report.problems:
+            return replace(report, problems=(*report.problems, why))
+        return report
 
     # After a failure
 

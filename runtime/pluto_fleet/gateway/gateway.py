@@ -125,10 +125,10 @@ class Link:
 
     async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
-        standing = await self._navigation.drone_report(drone)
+        report = await self._navigation.drone_report(drone)
         if not self._is_heard:
             await _for_ever()
-        return standing
+        return report
 
     async def _command(
         self, drone: str, command: Coroutine[Any, Any, T], *, stays: bool = False
@@ -158,11 +158,11 @@ class Link:
         gateway = self._gateway
         while gateway.descent is not None:
             await gateway.descent.ended()
-        roll = await gateway.fleet_report()
+        fleet_report = await gateway.fleet_report()
         if not gateway.is_commanded_by(self):
             await _for_ever()
         self._is_heard = True
-        return roll
+        return fleet_report
 
     def attach(self, id: str, report: Report) -> None:
         """Register for the report of an earlier job: called when it ends, or now if it has."""
@@ -350,10 +350,10 @@ class Gateway:
         return FleetReport(drones=drones, jobs=self.jobs.settle(drones, self._epoch > 1))
 
     async def _ask(self, drone: str) -> DroneReport:
-        standing = await self.navigation.drone_report(drone)
-        if standing.reached:
-            self.jobs.boots[drone] = standing.boot
-        return standing
+        report = await self.navigation.drone_report(drone)
+        if report.reached:
+            self.jobs.boots[drone] = report.boot
+        return report
 
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight; it may have been restarted meanwhile."""

@@ -114,19 +114,19 @@ def entry_data(entry: Entry) -> dict[str, object]:
     }
 
 
-def drone_report_data(standing: DroneReport) -> dict[str, object]:
+def drone_report_data(report: DroneReport) -> dict[str, object]:
     """Return a drone's answer as plain data."""
-    done = standing.done
+    done = report.done
     return {
-        "drone": standing.drone,
-        "reached": standing.reached,
-        "location": standing.location,
-        "landed": standing.landed,
-        "battery_level": standing.battery_level,
-        "boot": standing.boot,
-        "carrying": standing.carrying,
+        "drone": report.drone,
+        "reached": report.reached,
+        "location": report.location,
+        "landed": report.landed,
+        "battery_level": report.battery_level,
+        "boot": report.boot,
+        "carrying": report.carrying,
         "done": None if done is None else {id: value_data(value) for id, value in done.items()},
-        "problems": standing.problems,
+        "problems": report.problems,
     }
 
 
@@ -138,22 +138,22 @@ def drone_report_of(data: Message) -> DroneReport:
     return DroneReport(**{**data, **known, "done": values})
 
 
-def fleet_report_data(roll: FleetReport) -> dict[str, object]:
+def fleet_report_data(report: FleetReport) -> dict[str, object]:
     """Return a report of the fleet as plain data."""
     return {
-        "drones": [drone_report_data(standing) for standing in roll.drones.values()],
-        "jobs": [{**entry_data(entry), "flies": entry.flies} for entry in roll.jobs.values()],
+        "drones": [drone_report_data(one) for one in report.drones.values()],
+        "jobs": [{**entry_data(entry), "flies": entry.flies} for entry in report.jobs.values()],
     }
 
 
 def fleet_report_of(data: Message) -> FleetReport:
     """Return a report of the fleet."""
-    standings = map(drone_report_of, data["drones"])
+    reports = map(drone_report_of, data["drones"])
     entries = [
         Entry(**{**job, "state": JobState(job["state"]), "value": value_of(job["value"])})
         for job in data["jobs"]
     ]
     return FleetReport(
-        drones={standing.drone: standing for standing in standings},
+        drones={one.drone: one for one in reports},
         jobs={entry.id: entry for entry in entries},
     )

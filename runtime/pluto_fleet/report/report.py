@@ -19,7 +19,7 @@ from plutoc_runtime.domain.text import (
     printable,
 )
 
-from ..flight.standing import ANSWERS, aside, count_flights, in_order, waiting
+from ..flight.mission_status import ANSWERS, aside, count_flights, in_order, waiting
 
 if TYPE_CHECKING:
     from plutoc_runtime.alone.simulate import SimulationResult

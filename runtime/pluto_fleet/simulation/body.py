@@ -13,7 +13,7 @@ from operator import is_
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.alone.faults import Drawn, befell
-from plutoc_runtime.alone.ideal import Charge, Leg, standing
+from plutoc_runtime.alone.ideal import Charge, Leg, resting
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.fleet.reach import CLIMB_SPEED, docked
 from plutoc_runtime.time.future import Future
@@ -88,7 +88,7 @@ class Body:
         """It was told to land before the process was killed, and touches down by itself."""
         self._drawn, self._began = Drawn(), clock()
         self._charge = Charge(drone.battery_level, clock())
-        self._leg, self._landed = standing(drone.home, clock()), True
+        self._leg, self._landed = resting(drone.home, clock()), True
         self._flown = 0.0
         self._due: Due = _NEVER
         self._due_of: tuple[object, ...] = (None,) * 6
@@ -145,7 +145,7 @@ class Body:
         return self._drawn.action
 
     @property
-    def standing(self) -> DroneReport:
+    def report(self) -> DroneReport:
         """Return its report; one that takes no commands does not answer."""
         now = self._clock()
         self.settle(now)
@@ -180,7 +180,7 @@ class Body:
         """Hover where it is, if it still takes commands."""
         self.settle(now)
         if self.down is None and not self._landed:
-            self._turn(standing(self._leg.at(now), now), now)
+            self._turn(resting(self._leg.at(now), now), now)
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below: its flight has ended."""
@@ -196,7 +196,7 @@ class Body:
         if self.down is not None and self.down.failure is Failure.BATTERY:
             self.reboot()
         self.down = None
-        self._turn(standing(self.drone.home, now), now)
+        self._turn(resting(self.drone.home, now), now)
         self.touch_down(now)
 
     def reboot(self) -> None:
@@ -274,7 +274,7 @@ class Body:
 
     def _rest(self, when: float) -> None:
         x, y, _ = self._leg.at(when)
-        self._turn(standing((x, y, 0.0), when), when)
+        self._turn(resting((x, y, 0.0), when), when)
         self._landed = True
 
     def _turn(self, leg: Leg, now: float) -> None:

@@ -253,7 +253,7 @@ class SimulatedNavigation:
 
     async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
-        return self.bodies[drone].standing
+        return self.bodies[drone].report
 
     async def _wait_until(self, body: Body, when: float) -> None:
         await self._busy(body, when, "to recover")

@@ -16,7 +16,7 @@ from plutoc_runtime.flow.location import declaration_above
 
 from ..flight.control import ANSWERS
 from ..flight.interventions import PRIORITY
-from ..flight.standing import aside
+from ..flight.mission_status import aside
 from ..gateway.wire import STALE_AFTER
 
 if TYPE_CHECKING:

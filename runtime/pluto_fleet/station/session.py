@@ -21,7 +21,7 @@ from ..flight.config import End, Stops
 from ..flight.live_engine import live_engine
 from ..flight.live_fleet import live_fleet
 from ..flight.lives import FlightObserver, FlightSetup, run_flight
-from ..flight.standing import records_in
+from ..flight.mission_status import records_in
 from ..journal.fold import Records
 from ..journal.lock import holder
 from ..journal.place import written

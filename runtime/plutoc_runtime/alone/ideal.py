@@ -54,7 +54,7 @@ class Leg:
         return dist(self.start, self.at(now))
 
 
-def standing(place: Point, now: float) -> Leg:
+def resting(place: Point, now: float) -> Leg:
     """Return a leg that stays in one place."""
     return Leg(place, place, now, now)
 
@@ -102,7 +102,7 @@ class IdealDrone:
         """Set when its command is done; fails if the command is aborted."""
         self.job: Task[None] | None = None
         self._began = self._flown = 0.0
-        self._charge, self._leg = Charge(1.0, kernel.now), standing(entry.home, kernel.now)
+        self._charge, self._leg = Charge(1.0, kernel.now), resting(entry.home, kernel.now)
         self.touch_down(kernel.now)
 
     @property
@@ -163,11 +163,11 @@ class IdealDrone:
         """Hover where it is, if it still takes commands."""
         now = self.settle()
         if self.down is None and not self._landed:
-            self.turn(standing(self._leg.at(now), now), now)
+            self.turn(resting(self._leg.at(now), now), now)
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below; in its dock it is charged."""
-        self.turn(standing((*self._leg.at(now)[:2], 0.0), now), now)
+        self.turn(resting((*self._leg.at(now)[:2], 0.0), now), now)
         self._landed = True
         charges = docked(self._leg.end, self.home)
         self._charge = self._charge.changing(now, charges / self.category.charge_time)
@@ -175,7 +175,7 @@ class IdealDrone:
     def dock(self) -> None:
         """Put it into its dock, restarted, so that it takes commands again."""
         self.down, self.settings, now = None, {}, self._kernel.now
-        self.turn(standing(self.home, now), now)
+        self.turn(resting(self.home, now), now)
         self.touch_down(now)
 
     @property

@@ -182,7 +182,7 @@ def see_through(
             raise
         raise BadInput(
             f"{name}: the simulation stops at {duration(kernel.now)}: missions wait for ever, "
-            f"because the policy gives them none of the drones ({queue.standing()})"
+            f"because the policy gives them none of the drones ({queue.summary()})"
         ) from None
     finally:
         kernel.close()

@@ -177,7 +177,7 @@ class Queue:
         """Whether any request waits."""
         return bool(self._entries)
 
-    def standing(self) -> str:
+    def summary(self) -> str:
         """Return a summary of what the drones are doing: why a mission waits."""
         count = Counter(drone.status for drone in self._drones)
         return ", ".join(f"{count[s]} {s.value.lower()}" for s in DroneStatus if count[s])

@@ -26,10 +26,10 @@ def context_of(run: Run[Any]) -> Context:
     return Context(core.kernel, core.results, core.log, run.mission, lambda: state.flight)
 
 
-Standing = tuple[Sequence[tuple["Trip", str, int]], int]
+OpenTrips = tuple[Sequence[tuple["Trip", str, int]], int]
 
 
-def standing(mission: Mission[Any]) -> Standing:
+def open_trips(mission: Mission[Any]) -> OpenTrips:
     """Return the open trips, with their names and attempts, and how many trips there are in all."""
     to_do = [(trip, trip.name, trip.attempt) for trip in mission.trips]
     return to_do, len(to_do) + len(mission.completed_trips)
@@ -41,7 +41,7 @@ async def settle(
     status: Status,
     emits: tuple[Status, ...],
     returned: object,
-    before: Standing,
+    before: OpenTrips,
 ) -> Status:
     """Return the status with which the mission continues; an impossible one is a fault."""
     name = hook_name(hook)
@@ -97,11 +97,11 @@ def _check_trips(run: Run[Any], name: str) -> None:
             )
 
 
-def _note_change(core: Core, before: Standing, mission: Mission[Any]) -> None:
+def _note_change(core: Core, before: OpenTrips, mission: Mission[Any]) -> None:
     """Record that the hook has changed the trips; those completed meanwhile do not count."""
     to_do, trips = before
     left = [known for known in to_do if known[0].status is not TripStatus.COMPLETED]
-    if core.trace.live and standing(mission) != (left, trips):
+    if core.trace.live and open_trips(mission) != (left, trips):
         core.trace.note("mission.changed", **change_data(core.app, mission))
 
 

@@ -66,7 +66,7 @@ async def _no_longer_than(run: Run[Any], request: Request, seconds: float) -> No
     if not await kernel.within(request, kernel.now + seconds, EventKind.ALLOCATE, run.key):
         raise MissionFailed(
             f"trip {request.trip.name} had no drone within {duration(seconds)}: "
-            f"waits for a drone ({queue.standing()})"
+            f"waits for a drone ({queue.summary()})"
         )
 
 

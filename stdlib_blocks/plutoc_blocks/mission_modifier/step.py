@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.flow.modification import context_of, settle, standing
+from plutoc_runtime.flow.modification import context_of, open_trips, settle
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -20,6 +20,6 @@ async def modify_mission(
     emits: tuple[Status, ...] = (),
 ) -> Status:
     """Call the hook, and go on with the status that it returns."""
-    before = standing(run.mission)
+    before = open_trips(run.mission)
     returned = await run.hook(hook, run.mission, context_of(run))
     return await settle(run, hook, status, emits, returned, before)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.jobs.controls import Controls
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.alone.ideal import standing
+from plutoc_runtime.alone.ideal import resting
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import Failure
 from plutoc_runtime.domain.model import Category, Item, Photo, Point
@@ -337,4 +337,4 @@ async def test_the_same_drones_fly_in_real_time() -> None:
 
 def test_who_stands_somewhere_from_a_moment_to_come_is_there_already() -> None:
     """A mishap may be due the last digit of a float after the event that brings it."""
-    assert standing((1.0, 2.0, 0.0), 5.0).at(4.9999999) == (1.0, 2.0, 0.0)
+    assert resting((1.0, 2.0, 0.0), 5.0).at(4.9999999) == (1.0, 2.0, 0.0)
