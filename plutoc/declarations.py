@@ -140,7 +140,7 @@ _HOOKS = (type(None), HookKind)
 
 
 def _is_plain(value: object) -> bool:
-    """Say whether this can be written into a package: a number that is one, or a text."""
+    """Return whether this can be written into a package: a number that is one, or a text."""
     match value:
         case str():
             return is_text(value)

@@ -66,7 +66,7 @@ def _last_sign(text: str, end: int) -> int:
 
 
 def is_single(source: Source, names: tuple[str, str], span: Span) -> bool:
-    """Say whether an arrow is written as just that, with neither of its ends in brackets."""
+    """Return whether an arrow is written as just that, with neither of its ends in brackets."""
     first, last = map(re.escape, names)
     return bool(re.fullmatch(rf"{first}\s*->\s*{last}", source.quote(span)))
 

@@ -78,7 +78,7 @@ class Allocate(Block):
         self.fleet.request(self.m)
 
     def update(self) -> Status:
-        """Say whether it is there."""
+        """Return whether it is there."""
         return Status.SUCCESS if self.m.drone >= 0 else Status.RUNNING
 
 

@@ -47,11 +47,11 @@ class Flow(StateMachine):
         self.flight = launch(self.m.id, self.m.trip, self.m.attempt)
 
     def is_ok(self) -> bool:
-        """Say whether the flight went well."""
+        """Return whether the flight went well."""
         return self.ok
 
     def has_more(self) -> bool:
-        """Say whether another trip is to be flown."""
+        """Return whether another trip is to be flown."""
         return self.m.trip + 1 < self.m.trips
 
     async def after_landed(self) -> None:

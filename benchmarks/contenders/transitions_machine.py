@@ -79,11 +79,11 @@ class Mission(ideal.Mission):
         self.flight = launch(self.id, self.trip, self.attempt)
 
     def is_ok(self) -> bool:
-        """Say whether the flight went well."""
+        """Return whether the flight went well."""
         return self.ok
 
     def has_more(self) -> bool:
-        """Say whether another trip is to be flown."""
+        """Return whether another trip is to be flown."""
         return self.trip + 1 < self.trips
 
     async def give_drone(self) -> None:

@@ -52,7 +52,7 @@ class Done:
 
 
 def fails(mission: int, trip: int, attempt: int) -> bool:
-    """Say whether this flight fails; all three count from 0."""
+    """Return whether this flight fails; all three count from 0."""
     x = (mission * 1000003 + trip * 10007 + attempt * 101 + 12345) & 0xFFFFFFFF
     x ^= x >> 16
     x = (x * 0x45D9F3B) & 0xFFFFFFFF

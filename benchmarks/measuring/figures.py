@@ -38,7 +38,7 @@ class Figure:
         return "" if self.most is None else f"≤ {self.most:g}"
 
     def kept(self, number: float) -> bool:
-        """Say whether it is as wanted."""
+        """Return whether it is as wanted."""
         enough = self.least is None or number >= self.least
         return enough and (self.most is None or number <= self.most)
 

@@ -69,7 +69,7 @@ def latest(results: Results) -> list[Shot]:
 
 
 def too_far_apart(one: Shot, other: Shot) -> bool:
-    """Say whether two photos are of neighbouring places and show too little of the same ground."""
+    """Return whether two photos are of neighbouring places and show too little of the same ground."""
     (x, y, _), (other_x, other_y, _) = one.result.trip.target, other.result.trip.target
     along, across = abs(x - other_x), abs(y - other_y)
     if across <= STRIP:

@@ -71,7 +71,7 @@ def passed_over(checked: Checked, file: Path, folder: Path) -> Source | None:
 
 
 def _is_there(checked: Checked, path: Path) -> bool:
-    """Say whether there is a file, or a link; refuse what is neither, and has its name.
+    """Return whether there is a file, or a link; refuse what is neither, and has its name.
 
     A pipe is not opened: it may never be written to.
     """

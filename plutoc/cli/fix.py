@@ -60,7 +60,7 @@ def summary(done: Mended) -> str:
 
 
 def _has_new_errors(before: Sequence[Diagnostic], after: Sequence[Diagnostic]) -> bool:
-    """Say whether mending brought errors, other than those that could not be seen before.
+    """Return whether mending brought errors, other than those that could not be seen before.
 
     While there are errors of one group, say P0, the later groups are not, or not wholly, looked at.
     """

@@ -94,5 +94,5 @@ def _kinds(old: Node, new: Node) -> tuple[str, str]:
 
 
 def same(one: Plain | None, other: Plain | None) -> bool:
-    """Say whether two values are one: `yes` is not 1."""
+    """Return whether two values are one: `yes` is not 1."""
     return one == other and isinstance(one, bool) == isinstance(other, bool)

@@ -51,7 +51,7 @@ class Side:
         return Counter(map(role, self.graph.nodes))
 
     def is_only(self, node: Node) -> bool:
-        """Say whether no other block does the same: then it need not be named."""
+        """Return whether no other block does the same: then it need not be named."""
         return self.roles[role(node)] == 1
 
     def called(self, names: Iterable[str]) -> tuple[str, ...]:

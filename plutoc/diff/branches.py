@@ -89,7 +89,7 @@ def _limits(side: Side) -> dict[str, tuple[Node, ...]]:
 
 
 def _is_told(node: Node | None, elsewhere: dict[str, tuple[Node, ...]]) -> bool:
-    """Say whether it is a limit that the other app knows nothing of: that is told as such."""
+    """Return whether it is a limit that the other app knows nothing of: that is told as such."""
     return node is not None and node.block.limits and limited(node.block) not in elsewhere
 
 
@@ -99,7 +99,7 @@ def _by_origin(side: Side) -> _Forks:
 
 
 def _acts(side: Side, fork: Fork) -> bool:
-    """Say whether a branch of a fork does more than to watch."""
+    """Return whether a branch of a fork does more than to watch."""
     ahead = [(edge.target, fork.status) for edge in fork.branches]
     known: dict[tuple[str, Status], None] = {}
     while ahead:

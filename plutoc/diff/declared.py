@@ -48,7 +48,7 @@ def _by_name(graph: Graph) -> dict[str, tuple[Library, ...]]:
 
 
 def _same_libraries(was: Sequence[Library], now: Sequence[Library]) -> bool:
-    """Say whether the same is required, however it is written."""
+    """Return whether the same is required, however it is written."""
     written = [{library.requirement for library in each} for each in (was, now)]
     if written[0] == written[1]:
         return True

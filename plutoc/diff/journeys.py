@@ -116,7 +116,7 @@ def _way(both: Both, one: Reroute) -> tuple[Status, tuple[str, ...], tuple[str, 
 
 
 def _stays(both: Both, one: Reroute) -> bool:
-    """Say whether a mission is still somewhere where it was before: then branches are told."""
+    """Return whether a mission is still somewhere where it was before: then branches are told."""
     return not {*both.old.called(one.before)}.isdisjoint(one.after)
 
 
@@ -134,13 +134,13 @@ def _steps_between(both: Both, one: Reroute) -> tuple[tuple[str, ...], tuple[str
 
 
 def _retries(side: Side, names: tuple[str, ...]) -> bool:
-    """Say whether missions come to a block that puts their failed trips back, and nowhere else."""
+    """Return whether missions come to a block that puts their failed trips back, and nowhere else."""
     node = side.graph.node.get(names[0]) if len(names) == 1 else None
     return node is not None and node.block.retries
 
 
 def _flown_again(side: Side, one: Reroute) -> bool:
-    """Say whether failed trips are put back now, by a block of its own or by one that allocates."""
+    """Return whether failed trips are put back now, by a block of its own or by one that allocates."""
     nodes = [side.graph.node.get(name) for name in one.after]
     allocates = any(n is not None and role(n) is Role.ALLOCATES for n in nodes)
     return _retries(side, one.after) or (allocates and one.statuses == (Status.FAILED,))

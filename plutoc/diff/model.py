@@ -104,5 +104,5 @@ class Reroute:
 
     @property
     def forks(self) -> bool:
-        """Say whether missions are in several places at once, before or after."""
+        """Return whether missions are in several places at once, before or after."""
         return len(self.before) > 1 or len(self.after) > 1

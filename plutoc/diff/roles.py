@@ -46,7 +46,7 @@ def role(node: Node) -> Role:
 
 
 def decides(node: Node) -> bool:
-    """Say whether a mission can leave a block with another status than it came with."""
+    """Return whether a mission can leave a block with another status than it came with."""
     if node.block.emits_by_hook and node.hook and node.hook.emits:
         return True
     return any(out != {status} for status, out in node.block.transitions.items())

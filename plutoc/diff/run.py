@@ -47,7 +47,7 @@ def _in_order(told: Iterable[Change]) -> tuple[Change, ...]:
 
 
 def _arrows_differ(both: Both) -> bool:
-    """Say whether missions take other arrows, gates included."""
+    """Return whether missions take other arrows, gates included."""
     before = {
         (both.old.called([name])[0], status): both.old.known(targets)
         for (name, status), targets in both.old.routes.items()

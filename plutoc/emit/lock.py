@@ -123,7 +123,7 @@ class Lock:
 
 
 def is_newer(made_by: str | None, version: str) -> bool:
-    """Say whether a newer compiler than this version made it, as PEP 440 orders versions."""
+    """Return whether a newer compiler than this version made it, as PEP 440 orders versions."""
     if made_by is None or made_by == version:
         return False
     return Version(made_by) > Version(version)
@@ -146,7 +146,7 @@ def read_lock(data: bytes) -> Lock:
 
 
 def only_forgets(before: str, after: str) -> bool:
-    """Say whether one record is the other but for some hooks that were declared before."""
+    """Return whether one record is the other but for some hooks that were declared before."""
     old, new = before.splitlines(), after.splitlines()
     left = [line for line in old if line not in new]
     return all(line in old for line in new) and all(map(_FORGOTTEN.fullmatch, left))

@@ -49,11 +49,11 @@ def _mark(line: bytes) -> bytes:
 
 
 def was_written(data: bytes, digests: Collection[str]) -> bool:
-    """Say whether a text is one of those that were written, by the SHA-256 of these."""
+    """Return whether a text is one of those that were written, by the SHA-256 of these."""
     return sha256(data).hexdigest() in digests
 
 
 def was_merged(data: bytes, digests: Collection[str]) -> bool:
-    """Say whether a text has the marks of a merge, and each of its sides was written."""
+    """Return whether a text has the marks of a merge, and each of its sides was written."""
     both = sides(data)
     return both is not None and all(was_written(side, digests) for side in both)

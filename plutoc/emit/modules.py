@@ -70,12 +70,12 @@ def load(name: str) -> Module | None:
 
 
 def is_within(name: str, package: str) -> bool:
-    """Say whether a module is a package, or in it."""
+    """Return whether a module is a package, or in it."""
     return name == package or name.startswith(f"{package}.")
 
 
 def is_standard(name: str) -> bool:
-    """Say whether a module is Python's own."""
+    """Return whether a module is Python's own."""
     return name.partition(".")[0] in sys.stdlib_module_names
 
 

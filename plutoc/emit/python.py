@@ -53,7 +53,7 @@ def annotation(type_name: str, taken: Collection[str]) -> str:
 
 
 def shadows(taken: Collection[str], type_names: Iterable[str]) -> bool:
-    """Say whether one of these types would be hidden by one of these names."""
+    """Return whether one of these types would be hidden by one of these names."""
     return any(annotation(name, taken) != name for name in type_names)
 
 

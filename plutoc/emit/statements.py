@@ -104,7 +104,7 @@ def _whither(before: Step | None) -> str:
 
 
 def returns_at_once(body: Body) -> bool:
-    """Say whether a body ends by returning what its last block gives."""
+    """Return whether a body ends by returning what its last block gives."""
     return len(body) > 1 and isinstance(body[-1], End) and isinstance(body[-2], Call | Join | Watch)
 
 
@@ -122,7 +122,7 @@ def _call(node: Node, branches: tuple[str, ...], scope: Scope) -> str:
 
 
 def _waits(step: Callable[..., Any]) -> bool:
-    """Say whether a step is awaited: an `async def`, or what `types.coroutine` has made one."""
+    """Return whether a step is awaited: an `async def`, or what `types.coroutine` has made one."""
     flags: int = getattr(getattr(step, "__code__", None), "co_flags", 0)
     return iscoroutinefunction(step) or bool(flags & CO_ITERABLE_COROUTINE)
 
@@ -301,7 +301,7 @@ def _at_the_end(body: Body, scope: Scope) -> Iterator[str]:
 
 
 def _leads_on(step: Step) -> bool:
-    """Say whether a step is a switch of which every way but the last leads elsewhere."""
+    """Return whether a step is a switch of which every way but the last leads elsewhere."""
     match step:
         case Switch(arms=(*early, Arm(body=())), decided=True):
             return bool(early) and not any(falls(arm.body) for arm in early)

@@ -170,7 +170,7 @@ def _refuse_newer(folder: Path, place: Place, made_by: str | None) -> None:
 
 
 def _is_free(folder: Path) -> bool:
-    """Say whether a folder is empty, work aside that a kill left there."""
+    """Return whether a folder is empty, work aside that a kill left there."""
     return all(name.startswith(_ASIDE) for name in os.listdir(folder))
 
 

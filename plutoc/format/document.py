@@ -88,7 +88,7 @@ def written(document: Document, *, indent: int, step: int, width: int) -> str:
 
 
 def _fits(document: Document, rest: Sequence[_Todo], room: int) -> bool:
-    """Say whether there is room for a document, and for what follows on its line."""
+    """Return whether there is room for a document, and for what follows on its line."""
     todo: list[tuple[bool, Document]] = [(False, document)]
     following = len(rest)
     while room >= 0:

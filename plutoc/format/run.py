@@ -47,12 +47,12 @@ def format_source(source: Source) -> str:
 
 
 def same_meaning(one: File, other: File) -> bool:
-    """Say whether two trees differ at most in places."""
+    """Return whether two trees differ at most in places."""
     return _unplaced(one) == _unplaced(other)
 
 
 def same_writing(one: str, other: str) -> bool:
-    """Say whether two sound texts differ at most in commas and in blanks around words.
+    """Return whether two sound texts differ at most in commas and in blanks around words.
 
     So each text and each comment is there, and between the same words. This reads with a pattern of
     its own, so that it makes no mistake that the formatter makes.

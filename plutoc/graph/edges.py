@@ -86,7 +86,7 @@ def _arrows(flow: FlowDecl) -> Iterator[Arrow]:
 
 
 def _is_possible(arrow: Arrow, nodes: Mapping[str, Node]) -> bool:
-    """Say whether both ends are there; where they are not, that is told elsewhere."""
+    """Return whether both ends are there; where they are not, that is told elsewhere."""
     source, target = arrow.source.text, arrow.target.text
     return (source == START or source in nodes) and (target == END or target in nodes)
 

@@ -31,12 +31,12 @@ _STYLES = {
 
 
 def is_well_formed(name: str) -> bool:
-    """Say whether it is made of ASCII letters, digits and underscores, and not too long."""
+    """Return whether it is made of ASCII letters, digits and underscores, and not too long."""
     return len(name) <= LONGEST and _NAME.fullmatch(name) is not None
 
 
 def has_style(name: str, style: Style) -> bool:
-    """Say whether it is written as names of that role are."""
+    """Return whether it is written as names of that role are."""
     return _STYLES[style].fullmatch(name) is not None
 
 

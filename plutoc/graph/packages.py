@@ -106,7 +106,7 @@ def find(
 
 
 def _fits(block: Block, declared: BlockDecl) -> bool:
-    """Say whether a declaration could be one of this block."""
+    """Return whether a declaration could be one of this block."""
     given = {argument.name.text for argument in declared.arguments}
     passes = any(isinstance(param, HookParam) and param.passes for param in block.params)
     required = {p.name for p in block.params if isinstance(p, Param | HookParam) and p.required}

@@ -114,7 +114,7 @@ def _read(text: str) -> Requirement | None:
 
 
 def _is_found(url: str | None) -> bool:
-    """Say whether an address has a scheme, which `packaging` does not ask for: `numpy @ 2.0`."""
+    """Return whether an address has a scheme, which `packaging` does not ask for: `numpy @ 2.0`."""
     return url is None or ":" in url
 
 

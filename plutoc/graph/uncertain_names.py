@@ -37,7 +37,7 @@ class UncertainNames:
     """What is declared in a statement that cannot be read: the name may have more letters."""
 
     def may_declare(self, name: str) -> bool:
-        """Say whether this name may have been meant."""
+        """Return whether this name may have been meant."""
         if len(self.texts) + len(self.heads) > _MANY:
             return True
         return (

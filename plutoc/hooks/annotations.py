@@ -65,11 +65,11 @@ class Scope:
         return f"{_TYPING[0]}.{rest}" if first in _TYPING else path
 
     def is_bound(self, name: str) -> bool:
-        """Say whether the module gives the name a value."""
+        """Return whether the module gives the name a value."""
         return name in self.module.defined
 
     def is_known(self, name: str) -> bool:
-        """Say whether Python would find the name, or may."""
+        """Return whether Python would find the name, or may."""
         found = name in self.parameters or self.is_bound(name) or name in vars(builtins)
         return found or self.module.imports_all
 

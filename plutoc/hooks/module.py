@@ -127,7 +127,7 @@ def _start(source: Source, node: ast.expr | ast.arg) -> tuple[int, int]:
 
 
 def yields(function: Function) -> bool:
-    """Say whether calling it gives a generator, and not what it returns."""
+    """Return whether calling it gives a generator, and not what it returns."""
     return any(isinstance(node, ast.Yield | ast.YieldFrom) for node in _own_nodes(function))
 
 

@@ -124,7 +124,7 @@ def _special(
 
 
 def _is_reserved(tokens: Sequence[Token], i: int, accepts: set[str]) -> bool:
-    """Say whether one of the language's words stands where only a name can."""
+    """Return whether one of the language's words stands where only a name can."""
     if tokens[i].type.lower() not in WORDS or NAME not in accepts:
         return False
     return i > 0 or tokens[1].type in _CHOICES

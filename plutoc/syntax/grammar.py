@@ -87,6 +87,6 @@ def feeds(state: State, token: Token) -> bool:
 
 
 def would_feed(state: State, tokens: Iterable[Token]) -> bool:
-    """Say whether it could go on with these."""
+    """Return whether it could go on with these."""
     trial = copied(state)
     return all(feeds(trial, token) for token in tokens)

@@ -106,7 +106,7 @@ def _ended(tokens: Sequence[Token]) -> Iterator[Token]:
 
 
 def _is_a_name(before: str, word: str, behind: str) -> bool:
-    """Say whether a word outside of brackets is a name: a setting's that begins no statement."""
+    """Return whether a word outside of brackets is a name: a setting's that begins no statement."""
     begins = before in (NEWLINE, "LBRACE") and behind not in _FOLLOWS_A_NAME
     return word in SETTING_KINDS and not begins
 
@@ -121,12 +121,12 @@ def _following(tokens: Sequence[Token]) -> list[str]:
 
 
 def _ends_line(tokens: Sequence[Token], i: int) -> bool:
-    """Say whether nothing stands behind the i-th on its line."""
+    """Return whether nothing stands behind the i-th on its line."""
     return i + 1 == len(tokens) or tokens[i + 1].type == NEWLINE
 
 
 def _begins_a_statement(tokens: Sequence[Token], i: int) -> bool:
-    """Say whether the line whose first token is the i-th cannot go on with what is in brackets."""
+    """Return whether the line whose first token is the i-th cannot go on with what is in brackets."""
     first, second = (*(t.type for t in tokens[i : i + 2]), END, END)[:2]
     if first in SETTING_KINDS and second == "TEXT":
         return True
@@ -138,7 +138,7 @@ def _begins_a_statement(tokens: Sequence[Token], i: int) -> bool:
 
 
 def _is_followed_by_an_arrow(tokens: Sequence[Token], i: int) -> bool:
-    """Say whether the bracket that opens here is the first stop of a flow."""
+    """Return whether the bracket that opens here is the first stop of a flow."""
     for at in range(i + 1, len(tokens)):
         if tokens[at].type == "RSQB":
             return at + 1 < len(tokens) and tokens[at + 1].type == ARROW

@@ -47,7 +47,7 @@ class Line:
         return self.tokens if opens else (*self.tokens, made_up(NEWLINE, ""))
 
     def has(self, kind: str) -> bool:
-        """Say whether one of its tokens is of that type."""
+        """Return whether one of its tokens is of that type."""
         return any(token.type == kind for token in self.tokens)
 
 
@@ -93,26 +93,26 @@ def _opens_the_app(tokens: Sequence[Token]) -> int:
 
 
 def begins_a_statement(line: Line) -> bool:
-    """Say whether a line looks like one of those that stand in an app."""
+    """Return whether a line looks like one of those that stand in an app."""
     second = line.tokens[1].type if len(line.tokens) > 1 else END
     return line.first in BEGINNERS or (line.first == NAME and second in (EQUAL, "_ARROW"))
 
 
 def goes_on(line: Line) -> bool:
-    """Say whether a line can only be the rest of what is in brackets: `limit: 3 min,` or `)`."""
+    """Return whether a line can only be the rest of what is in brackets: `limit: 3 min,` or `)`."""
     second = line.tokens[1].type if len(line.tokens) > 1 else END
     return line.first in ("RPAR", "RSQB", "COMMA") or (line.first == NAME and second == "COLON")
 
 
 def is_split(source: Source, base: State, first: Line, second: Line) -> bool:
-    """Say whether two lines are a statement once the break between them is gone."""
+    """Return whether two lines are a statement once the break between them is gone."""
     if is_torn(source, base, first, second):
         return True
     return _are_near(source, first, second) and would_feed(base, joined([first, second]).ended)
 
 
 def is_torn(source: Source, base: State, first: Line, second: Line) -> bool:
-    """Say whether two lines are a statement once a word with a break in it is whole again."""
+    """Return whether two lines are a statement once a word with a break in it is whole again."""
     if not _are_near(source, first, second):
         return False
     text = source.quote(first.span.to(second.span))
@@ -126,7 +126,7 @@ def _are_near(source: Source, first: Line, second: Line) -> bool:
 
 
 def is_shifted(source: Source, first: Line, below: State, second: Line) -> bool:
-    """Say whether the last letter of a line stands at the beginning of the next one."""
+    """Return whether the last letter of a line stands at the beginning of the next one."""
     letter, *rest = second.tokens
     if first.tokens[-1].type != NAME or letter.type != NAME or len(letter) > 1 or not rest:
         return False
@@ -136,7 +136,7 @@ def is_shifted(source: Source, first: Line, below: State, second: Line) -> bool:
 
 
 def is_exchanged(source: Source, above: State, first: Line, below: State, second: Line) -> bool:
-    """Say whether both lines are in order once the words beside the break change places."""
+    """Return whether both lines are in order once the words beside the break change places."""
     left, right = source.quote(first.span), source.quote(second.span)
     if len(left) + len(right) > _LONGEST:
         return False

@@ -71,7 +71,7 @@ def _hidden_characters(source: Source, tokens: Sequence[Token]) -> Iterator[Diag
 
 
 def _is_plain(text: str) -> bool:
-    """Say whether there are only letters and signs that stand on any keyboard, and blanks."""
+    """Return whether there are only letters and signs that stand on any keyboard, and blanks."""
     shown = text.replace("\r\n", "").replace("\n", "").replace("\t", "")
     return shown.isascii() and shown.isprintable()
 

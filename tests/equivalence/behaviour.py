@@ -183,7 +183,7 @@ def _flying(mission: AnyMission) -> bool:
 
 
 def _fits(status: Status, mission: AnyMission) -> bool:
-    """Say whether a mission can go on so, as `language.md` has it."""
+    """Return whether a mission can go on so, as `language.md` has it."""
     if status is Status.FAILED:
         return True
     if status is Status.RUNNING or _flying(mission):

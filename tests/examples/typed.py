@@ -124,7 +124,7 @@ class Reader:
 
 
 def is_shown(shown: str, came: str) -> bool:
-    """Say whether a page shows what came; where a Ctrl-C was pressed, times are what they are."""
+    """Return whether a page shows what came; where a Ctrl-C was pressed, times are what they are."""
     pressed = f"\n{_PRESSED}\n" in f"\n{shown}\n"
     wanted = [line for line in _plain(shown, pressed) if line != _PRESSED]
     return wanted == _plain(came, pressed)

@@ -137,7 +137,7 @@ async def commanded(
 
 
 def no_thread_is_left() -> bool:
-    """Say whether all threads end: those of cflib take a moment."""
+    """Return whether all threads end: those of cflib take a moment."""
     fine = ("MainThread", "pytest", "execnet", "Shared Radio")  # cflib never lets go of a dongle
 
     def over() -> bool:

@@ -49,7 +49,7 @@ class Hall:
         return self.server.drones[drone].body.position
 
     def flies(self, drone: str) -> bool:
-        """Say whether a drone really is in the air."""
+        """Return whether a drone really is in the air."""
         return self.server.drones[drone].body.airborne
 
     async def let(self, drone: str, fault: str, value: Value = True) -> None:
@@ -59,7 +59,7 @@ class Hall:
         await self.server.let(drone, fault, value)
 
     def is_home(self, drone: str) -> bool:
-        """Say whether a drone stands where it stood."""
+        """Return whether a drone stands where it stood."""
         (x, y, z), (hx, hy, _) = self.place(drone), HOMES[drone]
         return abs(x - hx) < 0.15 and abs(y - hy) < 0.15 and z < 0.05
 

@@ -181,7 +181,7 @@ def eventually(holds: Callable[[], bool], seconds: float = 60.0) -> bool:
 
 
 def alive(pid: int) -> bool:
-    """Say whether a process runs; one that is dead and not yet buried does not."""
+    """Return whether a process runs; one that is dead and not yet buried does not."""
     try:
         state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
     except FileNotFoundError:

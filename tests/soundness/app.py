@@ -115,7 +115,7 @@ def allowed(app: App, target: str) -> tuple[Status, ...]:
 
 
 def is_rest(arrow: Arrow) -> bool:
-    """Say whether an arrow takes what is left; one to `end` without a guard does."""
+    """Return whether an arrow takes what is left; one to `end` without a guard does."""
     return arrow.otherwise or (arrow.target == END and not arrow.guard)
 
 

@@ -26,7 +26,7 @@ class Compared:
 
     @property
     def agrees(self) -> bool:
-        """Say whether both accept the app, or both refuse it."""
+        """Return whether both accept the app, or both refuse it."""
         if self.judgement is None or self.judgement.doubtful:
             return True
         return self.judgement.sound == (not self.codes) or (

@@ -179,7 +179,7 @@ class Explorer:
         return (Token(name, status, stack, "at"),)
 
     def calls_off(self, token: Token) -> bool:
-        """Say whether the gate where a clone is lets it pass before the others have come."""
+        """Return whether the gate where a clone is lets it pass before the others have come."""
         return self.blocks[token.block].kind != FUNNEL and not self.patient
 
     def gated(self, state: State, rest: tuple[Token, ...], token: Token) -> Iterator[State]:
@@ -218,6 +218,6 @@ def first_block(app: App) -> str | None:
 
 
 def unlike_bounds(app: App) -> bool:
-    """Say whether retries give up at different numbers of flights."""
+    """Return whether retries give up at different numbers of flights."""
     bounds = {block.limit for block in app.blocks if block.kind == "PriorityManager"}
     return len(bounds - {0}) > 1

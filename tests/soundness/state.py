@@ -57,7 +57,7 @@ class State(NamedTuple):
 
     @property
     def idle(self) -> bool:
-        """Say whether nothing is left to fly, and nothing flies."""
+        """Return whether nothing is left to fly, and nothing flies."""
         return not self.trips and self.flight not in (None, Status.RUNNING)
 
 

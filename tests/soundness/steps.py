@@ -145,7 +145,7 @@ def changed(status: Status, state: State) -> Iterator[State]:
 
 
 def may_be(status: Status, state: State, token: Token, strict: bool) -> bool:
-    """Say whether a hook may send a mission on with this status."""
+    """Return whether a hook may send a mission on with this status."""
     if status not in (S, C):
         return True
     if state.flight == R:

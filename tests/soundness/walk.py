@@ -71,7 +71,7 @@ class Walk:
         return hopeful
 
     def keeps_waiting(self, state: State) -> bool:
-        """Say whether a clone waits at a gate from here on in any case."""
+        """Return whether a clone waits at a gate from here on in any case."""
         waiting = {token for token in state.tokens if token.phase == "waits"}
         look, known = [state], {state}
         while look and waiting:

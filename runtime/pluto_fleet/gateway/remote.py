@@ -247,7 +247,7 @@ class RemoteLink:
         return fleet_report_of(await self._ask(do="call"))
 
     def attach(self, id: str, report: Report) -> None:
-        """Hear of a job that was given before: when it ends, or now if it has."""
+        """Register for the report of an earlier job: called when it ends, or now if it has."""
         self._say({"do": "attach", "n": self._expect(id, report), "id": id})
 
     def forget(self, id: str) -> None:

@@ -187,7 +187,7 @@ class Trip:
         return self.now() - self.start_time if self.now else 0.0
 
     def expired(self, limit: float) -> bool:
-        """Say whether it has been flying, or flew, for this many seconds or more."""
+        """Return whether it has been flying, or flew, for this many seconds or more."""
         return self.start_time is not None and self.elapsed >= limit
 
     @property

@@ -188,6 +188,6 @@ class Restless:
 
 
 def is_home(sky: Sky, drone: SimulatedDrone) -> bool:
-    """Say whether a drone stands in its dock."""
+    """Return whether a drone stands in its dock."""
     telemetry = sky.navigation.telemetry[drone.id]
     return telemetry.landed and docked(telemetry.location, drone.home)

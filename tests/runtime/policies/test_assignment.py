@@ -102,7 +102,7 @@ def reached(edges: Sequence[Edge], start: int) -> set[int]:
 
 
 def can_be_cheaper(edges: Sequence[Edge], nodes: int) -> bool:
-    """Say whether an exchange all around has a sum below 0 (Bellman and Ford)."""
+    """Return whether an exchange all around has a sum below 0 (Bellman and Ford)."""
     length = [0.0] * nodes
     for _ in range(nodes + 1):
         shorter = [(b, length[a] + c) for a, b, c in edges if length[a] + c < length[b] - 1e-6]

@@ -41,7 +41,7 @@ def trips(station: Station) -> list[dict[str, Any]]:
 
 
 def has(station: Station, count: int) -> bool:
-    """Say whether the only mission has so many trips."""
+    """Return whether the only mission has so many trips."""
     return len(trips(station)) == count
 
 
@@ -191,6 +191,7 @@ def test_trips_of_a_mission_that_was_started_can_be_read_and_not_changed(
     page = draw(station, visit, ("take_photo", (3.0, 8.0)))
     start(page)
     until(lambda: station.get("/api/plan")["missions"][0]["launched"], "it flies")
+    expect(page.get_by_role("tab", name="Monitor", selected=True)).to_be_visible()  # shown by Start
     page.get_by_role("tab", name="Trips").click()
     expect(page.get_by_text("This mission has been started")).to_be_visible()
     expect(action_called(page, "take_photo")).to_be_hidden()

@@ -63,7 +63,7 @@ def _words(at: Point, width: float) -> Area:
 
 
 def overlap(one: Area, other: Area) -> bool:
-    """Say whether two areas share more than an edge."""
+    """Return whether two areas share more than an edge."""
     return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 
@@ -97,7 +97,7 @@ def mistakes(laid: Layout, ways: Sequence[tuple[int, int]]) -> Iterator[str]:
 
 
 def touches(box: Area, point: Point) -> bool:
-    """Say whether a point is on the edge of a box, but not in a corner."""
+    """Return whether a point is on the edge of a box, but not in a corner."""
     left, top, right, bottom = box
     x, y = point
     on_side = (_same(x, left) or _same(x, right)) and top < y < bottom
@@ -127,7 +127,7 @@ def _pieces(laid: Layout) -> Iterator[Piece]:
 
 
 def _runs_through(piece: Area, box: Area) -> bool:
-    """Say whether a piece of a way has a point within a box, its edges aside."""
+    """Return whether a piece of a way has a point within a box, its edges aside."""
     return (
         piece[0] < box[2] - 0.11
         and piece[2] > box[0] + 0.11

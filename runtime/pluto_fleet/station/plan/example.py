@@ -37,7 +37,7 @@ PLAUSIBLE: dict[Type, object] = {
 """Values of parameters without a default."""
 
 HEAVIEST = 0.005
-"""The mass of the item in kilograms; at most half of a drone's payload."""
+"""The item's mass in kilograms; half of the largest payload if that is less."""
 
 CLEAR = 0.3
 """Metres around each place that are free."""
