@@ -104,6 +104,7 @@ def _server(application: ASGIApp) -> uvicorn.Server:
 class LimitedConnection(H11Protocol):
     """An HTTP connection that is closed when idle for too long, or when others need its place."""
 
+    # uvicorn itself narrows the type of asyncio's argument
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Register the connection, and make room for it."""
         self._began = asyncio.get_running_loop().time()
