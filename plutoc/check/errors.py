@@ -13,7 +13,6 @@ from plutoc.check.phrases import (
     error,
     fork_of,
     listed,
-    names,
     related_to,
     taken_by,
     there,
@@ -22,6 +21,7 @@ from plutoc.check.phrases import (
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.edits import is_single, without_arrow
 from plutoc.graph.model import Edge, Graph, Node
+from plutoc.graph.wording import all_of
 from plutoc_runtime.domain.status import Status
 
 # Where missions come in
@@ -80,14 +80,14 @@ def into_creator(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
 
 def _named(graph: Graph, creator: Node) -> str:
     following = [edge.target for edge in graph.outgoing[creator.name]]
-    return f", {names(following)}" if following else ""
+    return f", {all_of(following)}" if following else ""
 
 
 # What nothing reaches
 
 
 def unreached(graph: Graph, node: Node, behind: Sequence[str]) -> Diagnostic:
-    also = f", nor {names(behind)} behind it" if behind else ""
+    also = f", nor {all_of(behind)} behind it" if behind else ""
     return error(
         "P2006",
         (graph, node.name_span),
@@ -213,7 +213,7 @@ def stuck_in_fork(
         meet = "let its branches meet at a gate"
     else:
         missing = [_missing_arrow(graph, each, stays, gate) for each, stays in left[:_ARROWS]]
-        meet = f"lead its branches to `{gate}`: add {names(missing)}"
+        meet = f"lead its branches to `{gate}`: add {all_of(missing)}"
     return error(
         "P2009",
         (graph, node.name_span),

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 from plutoc.check.branches import Astray, Branch
 from plutoc.check.flow import Fork, Way
-from plutoc.check.phrases import error, fate, fork_of, is_flown, names, related_to, there
+from plutoc.check.phrases import error, fate, fork_of, is_flown, related_to, there
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Graph, Node
+from plutoc.graph.wording import all_of
 
 
 def astray(
@@ -41,7 +42,7 @@ def different_gates(
 ) -> Diagnostic:
     closing = [
         related_to(
-            graph, b.edge.span, f"the branch to `{b.edge.target}` closes at {names([*b.gates])}"
+            graph, b.edge.span, f"the branch to `{b.edge.target}` closes at {all_of([*b.gates])}"
         )
         for b in branches
         if b.gates
@@ -49,7 +50,7 @@ def different_gates(
     return error(
         "P2013",
         (graph, closing[0].span),
-        f"{fork_of(branches[0].fork)} closes at different gates: {names(gates)}",
+        f"{fork_of(branches[0].fork)} closes at different gates: {all_of(gates)}",
         label=closing[0].label,
         related=tuple(closing[1:]),
         help=f"lead all branches to one gate{there(*ways)}",

@@ -9,7 +9,6 @@ from plutoc.check.branches import Astray
 from plutoc.check.flow import Fork, Hop, Way, ordered
 from plutoc.diagnostic import Diagnostic, Fix, Related
 from plutoc.graph.model import END, Edge, Graph, Node
-from plutoc.graph.wording import all_of
 from plutoc.source import Span
 from plutoc.syntax.tokens import joined
 from plutoc_runtime.domain.status import Status
@@ -22,11 +21,6 @@ _LONGEST_WAY = 60
 def listed(statuses: Sequence[Status], last: str = "and") -> str:
     """`STANDBY, COMPLETED and FAILED`."""
     return joined([status.value for status in statuses], last)
-
-
-def names(blocks: Sequence[str]) -> str:
-    """`watch`, `timer` and `first`, each in quotes."""
-    return all_of(blocks)
 
 
 def accepts(node: Node) -> str:
