@@ -18,6 +18,7 @@ from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.files.fleet import load_fleet
 from tests.crtp.radio import Ether, plugged_in
+from tests.kill.lives import eventually
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP
 
@@ -116,6 +117,7 @@ def test_crazyflies_are_found_by_radio(command: Command) -> None:
         code, out, err = command(*words)
         assert code == 0, out
         assert [line.split()[1] for line in out.splitlines()[1:3]] == list(ether.uris.values())
+        assert eventually(lambda: not ether.is_open)  # cflib closes it in a thread of its own
         ether.unplugged = True
         code, out, err = command(*words)
         assert (code, out) == (2, "")
