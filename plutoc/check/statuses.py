@@ -26,7 +26,7 @@ from plutoc.check.facts import (
 )
 from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
 from plutoc.diagnostic import Rejected
-from plutoc.graph.digraph import endless_loops, loops, subgraph
+from plutoc.graph.digraph import endless_loops, loops, reachable, subgraph
 from plutoc.graph.model import END, START, Edge, Graph
 from plutoc_runtime.domain.status import Status
 
@@ -79,8 +79,12 @@ def unflown(graph: Graph, arrows: nx.DiGraph) -> Mapping[str, int]:
     There the answers of blocks are remembered. Nearly every loop of an app has a launch, so these
     are few.
     """
-    unlaunched = subgraph(arrows, (node.name for node in graph.nodes if not node.block.launches))
-    return {name: number for number, part in enumerate(loops(unlaunched), 1) for name in part}
+    parts = loops(_without_launches(graph, arrows))
+    return {name: number for number, part in enumerate(parts, 1) for name in part}
+
+
+def _without_launches(graph: Graph, arrows: nx.DiGraph) -> nx.DiGraph:
+    return subgraph(arrows, (node.name for node in graph.nodes if not node.block.launches))
 
 
 def stop_if_tangled(graph: Graph, places: int, steps: int = 0) -> None:
@@ -103,6 +107,8 @@ class _Walk:
     arrows: nx.DiGraph
     forgets: bool
     """Whether a hook may put another trip first, in one branch while another is at a gate."""
+    beside: dict[Edge, bool] = field(default_factory=dict)
+    """Whether a hook in any branch but the one that an edge begins may do so."""
     rounds: Mapping[str, int]
     """Blocks that can be reached twice without a flight, with the loop of each."""
     numbers: Mapping[str, int]
@@ -233,10 +239,28 @@ class _Walk:
         if gate is Gate.ALL and len(branches) < self.width(split) and split not in self.hasty:
             return {}
         passing = gate_outcomes.passing(gate, branches)
-        if self.forgets:
-            for (status, facts), arrival in tuple(passing.items()):
-                passing.setdefault((status, facts._replace(attempts=0)), arrival)
+        for branch, arrivals in branches.items() if self.forgets else ():
+            if self.forgets_beside(split, branch):
+                for arrival in arrivals:
+                    if (arrival.status, arrival.facts) in passing:
+                        forgotten = arrival.facts._replace(attempts=0)
+                        passing.setdefault((arrival.status, forgotten), arrival)
         return passing
+
+    def forgets_beside(self, split: Split, branch: int) -> bool:
+        """Whether a hook of any other branch may put another trip first while this one waits."""
+        own = [edge for edge in self.outgoing[split.node] if split.status in edge.takes][branch]
+        if own not in self.beside:
+            others = [
+                edge.target
+                for edges in self.outgoing.values()
+                for edge in edges
+                if edge is not own and any(edge.takes & e.takes for e in edges if e is not edge)
+            ]
+            at_once = _without_launches(self.graph, self.arrows)
+            meanwhile = reachable(at_once, [name for name in others if name in at_once])
+            self.beside[own] = any(puts_trips(self.graph.node[name]) for name in meanwhile)
+        return self.beside[own]
 
     def go_on(self, arrival: Place, what: gate_outcomes.Passing, entry: Place) -> None:
         """Leave the branch where the clone has arrived; the mission continues from there."""

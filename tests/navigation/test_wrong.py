@@ -14,7 +14,8 @@ from tests.navigation.wrong import Wrong
 
 @pytest.mark.parametrize("wrong", Wrong.__subclasses__(), ids=lambda wrong: wrong.__name__)
 def test_a_wrong_navigation_is_found_by_the_check_that_it_names(wrong: type[Wrong]) -> None:
-    contract = type("Contract", (SimulatedContract,), {"navigation": wrong, "away": 4.0})()
+    given = {"navigation": wrong, "away": 4.0, "rest": wrong.rest}
+    contract = type("Contract", (SimulatedContract,), given)()
     with pytest.raises(AssertionError) as found:
         getattr(contract, wrong.found_by)()
     assert wrong.says in str(found.value)

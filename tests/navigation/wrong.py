@@ -15,7 +15,7 @@ from pluto_fleet.drones.errors import LinkLost, Rejected
 from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
 from pluto_fleet.simulation.body import SimulatedDrone
 from plutoc_runtime.domain.model import Category, Point
-from tests.navigation.simulated import SPEED, Simulated
+from tests.navigation.simulated import SPEED, Simulated, SimulatedContract
 
 
 class Wrong(Simulated):
@@ -25,6 +25,8 @@ class Wrong(Simulated):
     """The check of the kit that finds it."""
     says: ClassVar[str]
     """What the check says then."""
+    rest: ClassVar[float] = SimulatedContract.rest
+    """How long the check observes the drone between commands, in seconds."""
 
 
 def send() -> None:
@@ -209,6 +211,7 @@ class Restless(Wrong):
 
     found_by = "test_hold_stops_the_drone_here"
     says = "hold returned, and it moved"
+    rest = 0.5  # long enough for it to set off on a busy machine
 
     _going: asyncio.Task[None] | None = None
 

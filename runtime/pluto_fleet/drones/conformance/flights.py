@@ -110,6 +110,7 @@ class Flight:
     async def rests(self) -> None:
         """Observe for a moment."""
         await asyncio.sleep(self.subject.rest)
+        self.look()  # on a busy machine it may be the only sample
 
     async def watched(self) -> None:
         """Sample the drone until cancelled."""
