@@ -78,7 +78,7 @@ def test_a_brain_that_is_gone_finds_its_job_flying_on(tmp_path: Path) -> None:
 
     async def play(brain: Brain) -> None:
         link = await brain.linked()
-        brain.kernel.post(link.fly, Task(), lambda _: None)
+        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
         await brain.until(lambda: not link.telemetry("cf1").landed)
         await link.close()
         link = await brain.linked()
@@ -145,14 +145,14 @@ def test_all_can_be_brought_down_by_the_brain_and_without_it(tmp_path: Path) -> 
 
     async def play(brain: Brain) -> None:
         link = await brain.linked()
-        brain.kernel.post(link.fly, Task(), lambda _: None)
+        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
         await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
         await brain.told(link.bring_down(Down.HOME))
         assert link.telemetry("cf1").landed
         assert link.telemetry("cf1").location == pytest.approx((1, 1, 0))
         fleet_report = await brain.told(link.fleet_report())
         assert fleet_report.jobs[Task().id].state is JobState.BROKEN_OFF
-        brain.kernel.post(link.fly, Task(), lambda _: None)
+        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
         await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
         assert stop_directly(tmp_path, Down.LAND, 5) == "the drones come down"
         await brain.kernel.run(brain.lost)
@@ -169,7 +169,7 @@ def test_a_gateway_to_which_no_brain_comes_back_lands_its_drones_and_ends(tmp_pa
 
     async def play(brain: Brain) -> None:
         link = await brain.linked()
-        brain.kernel.post(link.fly, Task(), lambda _: None)
+        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
         await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
         assert still_runs(tmp_path) == pid(tmp_path)
         await link.close()
