@@ -56,9 +56,9 @@ def explore(
         graph=graph,
         edges=edges,
         arrows=arrows,
-        forgets=any(puts_trips(node) for node in graph.nodes),
         rounds=rounds,
         numbers={name: number for number, name in enumerate(asked)},
+        hooked=_hooked(graph, arrows),
         idle=idle,
     )
     walk.run(beginnings)
@@ -87,6 +87,18 @@ def _without_launches(graph: Graph, arrows: nx.DiGraph) -> nx.DiGraph:
     return subgraph(arrows, (node.name for node in graph.nodes if not node.block.launches))
 
 
+def _hooked(graph: Graph, arrows: nx.DiGraph) -> frozenset[Edge]:
+    hooks = [node.name for node in graph.nodes if puts_trips(node)]
+    lead_there = reachable(_without_launches(graph, arrows).reverse(copy=False), hooks)
+    return frozenset(
+        edge
+        for node in graph.nodes
+        for edge in graph.outgoing[node.name]
+        if edge.target in lead_there
+        and any(edge.takes & other.takes for other in graph.outgoing[node.name] if other is not edge)
+    )
+
+
 def stop_if_tangled(graph: Graph, places: int, steps: int = 0) -> None:
     """Raise `Rejected` beyond the limits of the exploration."""
     if places > MOST_PLACES or steps > MOST_STEPS:
@@ -105,14 +117,12 @@ class _Walk:
     graph: Graph
     edges: tuple[Edge, ...]
     arrows: nx.DiGraph
-    forgets: bool
-    """Whether a hook may put another trip first, in one branch while another is at a gate."""
-    beside: dict[Edge, bool] = field(default_factory=dict)
-    """Whether a hook in any branch but the one that an edge begins may do so."""
     rounds: Mapping[str, int]
     """Blocks that can be reached twice without a flight, with the loop of each."""
     numbers: Mapping[str, int]
     """Those of them that repeat their answers."""
+    hooked: frozenset[Edge]
+    """The first edges of the branches in which a hook may put another trip first."""
     idle: Collection[str]
     """If given, missions that leave these blocks, or have something to fly, are not explored."""
     hasty: dict[Split, None] = field(default_factory=dict)
@@ -239,7 +249,7 @@ class _Walk:
         if gate is Gate.ALL and len(branches) < self.width(split) and split not in self.hasty:
             return {}
         passing = gate_outcomes.passing(gate, branches)
-        for branch, arrivals in branches.items() if self.forgets else ():
+        for branch, arrivals in branches.items() if self.hooked else ():
             if self.forgets_beside(split, branch):
                 for arrival in arrivals:
                     if (arrival.status, arrival.facts) in passing:
@@ -250,17 +260,7 @@ class _Walk:
     def forgets_beside(self, split: Split, branch: int) -> bool:
         """Whether a hook of any other branch may put another trip first while this one waits."""
         own = [edge for edge in self.outgoing[split.node] if split.status in edge.takes][branch]
-        if own not in self.beside:
-            others = [
-                edge.target
-                for edges in self.outgoing.values()
-                for edge in edges
-                if edge is not own and any(edge.takes & e.takes for e in edges if e is not edge)
-            ]
-            at_once = _without_launches(self.graph, self.arrows)
-            meanwhile = reachable(at_once, [name for name in others if name in at_once])
-            self.beside[own] = any(puts_trips(self.graph.node[name]) for name in meanwhile)
-        return self.beside[own]
+        return not self.hooked <= {own}
 
     def go_on(self, arrival: Place, what: gate_outcomes.Passing, entry: Place) -> None:
         """Leave the branch where the clone has arrived; the mission continues from there."""
