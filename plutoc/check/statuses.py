@@ -95,7 +95,9 @@ def _hooked(graph: Graph, arrows: nx.DiGraph) -> frozenset[Edge]:
         for node in graph.nodes
         for edge in graph.outgoing[node.name]
         if edge.target in lead_there
-        and any(edge.takes & other.takes for other in graph.outgoing[node.name] if other is not edge)
+        and any(
+            edge.takes & other.takes for other in graph.outgoing[node.name] if other is not edge
+        )
     )
 
 
