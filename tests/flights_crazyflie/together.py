@@ -22,7 +22,7 @@ from pluto_fleet.crazyflie.trajectory import DEFAULT_LIMIT, SHORTEST, SpeedLimit
 from pluto_fleet.crtp.flight_log import CommandRecord, Point
 from pluto_fleet.drones.vehicle import CLIMB_LIMIT
 from pluto_fleet.journal.place import commands_note
-from pluto_fleet.journal.values import point_of
+from plutoc_runtime.hooks.values import point_of
 from pluto_fleet.process.ipc import ask
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight

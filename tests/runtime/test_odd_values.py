@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.journal.fold import Records
-from pluto_fleet.journal.values import value_data, value_of
+from plutoc_runtime.hooks.values import value_data, value_of
 from plutoc_runtime.domain.errors import ActionFailed
 from plutoc_runtime.domain.model import Mission, Photo
 from plutoc_runtime.domain.status import Status

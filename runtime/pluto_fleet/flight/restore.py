@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.status import Status, TripStatus
+from plutoc_runtime.hooks.values import item_of, trip_of, value_of
 from plutoc_runtime.trips.flight import Flight
-
-from ..journal.values import item_of, trip_of, value_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from plutoc_runtime.domain.airspace import way_from
+from plutoc_runtime.domain.airspace import permitted_way, way_from
 from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from plutoc_runtime.fleet.reach import docked, flight_seconds
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
@@ -156,6 +156,14 @@ class Executor:
             await self._controls.land(drone)
         else:
             await self.travels(drone, partial(self.way_down, drone), anywhere=True)
+
+    async def home(self, drone: str) -> None:
+        """Take off, if it stands, fly to its dock, and land there, or beside it where another stands."""
+        await self.takeoff(drone, self._airspace.cruise_height)
+        here, (x, y, _) = self._controls.telemetry[drone].location, self._drones[drone].home
+        for point in permitted_way(self._airspace, drone, here, (x, y, here[2])):
+            await self.go_to(drone, point)
+        await self.land(drone)
 
     async def read(self, drone: str, name: str) -> float:
         """Return what a drone measures under this name."""

@@ -110,6 +110,10 @@ class Link:
         self._gateway.envelope.check(target)
         await self._command(drone, self._navigation.go_to(drone, target))
 
+    async def home(self, drone: str) -> None:
+        """Fly to its dock, and land there."""
+        await self._command(drone, self._navigation.home(drone))
+
     async def land(self, drone: str) -> None:
         """Land here."""
         await self._command(drone, self._navigation.land(drone))

@@ -11,9 +11,9 @@ from pathlib import Path
 from zlib import crc32
 
 from plutoc_runtime.domain.errors import FlightFailed
+from plutoc_runtime.hooks.values import value_of
 
 from ..jobs.reports import Entry, JobState
-from ..journal.values import value_of
 from .wire import entry_data
 
 

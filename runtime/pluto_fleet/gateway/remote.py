@@ -224,6 +224,10 @@ class RemoteLink:
         """Fly straight to a point."""
         await self._ask(do="go_to", drone=drone, target=target)
 
+    async def home(self, drone: str) -> None:
+        """Fly to its dock, and land there."""
+        await self._ask(do="home", drone=drone)
+
     async def land(self, drone: str) -> None:
         """Land here."""
         await self._ask(do="land", drone=drone)

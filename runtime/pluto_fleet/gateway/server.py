@@ -303,6 +303,8 @@ def _asked(
         case "go_to":
             x, y, z = map(float, message["target"])
             return link.go_to(drone, (x, y, z))
+        case "home":
+            return link.home(drone)
         case "land":
             return link.land(drone)
         case "recover":

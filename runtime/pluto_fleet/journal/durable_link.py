@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point, Telemetry
+    from plutoc_runtime.domain.model import Telemetry
 
     from ..jobs.job import CommandLink, Job
     from ..jobs.reports import DroneReport
@@ -56,13 +56,9 @@ class DurableLink:
         """Set a parameter; the begin of the action is durable already."""
         await self._link.write(drone, name, value)
 
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off to a height."""
-        await self._link.takeoff(drone, height)
-
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        await self._link.go_to(drone, target)
+    async def home(self, drone: str) -> None:
+        """Fly to its dock, and land there."""
+        await self._link.home(drone)
 
     async def land(self, drone: str) -> None:
         """Land here."""

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.mission_data import change_data, fields_of, trip_data
+from plutoc_runtime.hooks.values import mission_data, value_data
 from plutoc_runtime.time.future import Future
 
 from .event_line import exact
 from .fold import Record, Records
-from .values import mission_data, value_data
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App

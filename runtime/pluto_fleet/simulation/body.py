@@ -13,14 +13,14 @@ from operator import is_
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.alone.faults import Drawn, befell
-from plutoc_runtime.alone.ideal import Charge, Leg, resting
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.fleet.reach import CLIMB_SPEED, docked
+from plutoc_runtime.fleet.telemetry import Charge, Leg, resting
+from plutoc_runtime.hooks.values import item_data, item_of, point_of
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Key
 
 from ..jobs.reports import DroneReport
-from ..journal.values import item_data, item_of, point_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -121,6 +121,17 @@ class Body:
     def silence(self) -> float:
         """Always 0: a simulated drone is never silent."""
         return 0.0
+
+    @property
+    def motion(self) -> dict[str, object]:
+        """Its telemetry as a brain is told it: exact until its state changes other than by time."""
+        self.settle(self._clock())
+        leg, charge = self._leg, self._charge
+        return {
+            "leg": (leg.start, leg.end, leg.leaves, leg.arrives),
+            "battery": (charge.level, charge.since, charge.rate),
+            "landed": self._landed,
+        }
 
     @property
     def is_docked(self) -> bool:

@@ -16,7 +16,6 @@ from plutoc_runtime.time.virtual import VirtualTime
 from ..gateway.gateway import Link
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
     from plutoc_runtime.time.kernel import Kernel
 
     from ..gateway.gateway import Gateway
@@ -130,13 +129,9 @@ class UnreliableLink(Link):
         """Called when a lost drone has been repaired."""
         self._send(partial(self._real.mended, drone))
 
-    def takeoff(self, drone: str, height: float) -> Coroutine[Any, Any, None]:
-        """Take off to a height."""
-        return self._far(partial(self._real.takeoff, drone, height))
-
-    def go_to(self, drone: str, target: Point) -> Coroutine[Any, Any, None]:
-        """Fly straight to a point."""
-        return self._far(partial(self._real.go_to, drone, target))
+    def home(self, drone: str) -> Coroutine[Any, Any, None]:
+        """Fly to its dock, and land there."""
+        return self._far(partial(self._real.home, drone))
 
     def land(self, drone: str) -> Coroutine[Any, Any, None]:
         """Land here."""

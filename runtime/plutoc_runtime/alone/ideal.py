@@ -1,22 +1,21 @@
 """Ideal drones: each has the air to itself, so several may pass through each other.
 
-There is no tick: what was due is applied, at its own time, the next time a drone is looked at.
+There is no tick: what was due is applied, at its own time, the next time a drone is looked at. What a drone
+does is a generator, which yields until when it waits.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Generator, Mapping, Sequence
 from math import dist, inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
-from ..domain.airspace import way_from
+from ..domain.airspace import permitted_way, way_from
 from ..domain.errors import Failure, FlightFailed
 from ..fleet.reach import CLIMB_SPEED, docked, flight_seconds, grip_problem
-from ..time.future import Future
-from ..time.kernel import FLEET, EventKind, Kernel, Key, Task
+from ..fleet.telemetry import Charge, Leg, resting
+from ..hooks.values import item_of, value_data
 from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
 from .world import World
 
@@ -24,96 +23,39 @@ if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.fleet_data import DroneData, FleetData
     from ..domain.model import Category, Item, Point
-    from ..trips.flight import Flight
+    from ..domain.trace import Clock
 
-
-@dataclass(frozen=True, slots=True)
-class Leg:
-    """A straight leg between two points, with the times at its ends."""
-
-    start: Point
-    end: Point
-    leaves: float
-    arrives: float
-
-    def at(self, now: float) -> Point:
-        """Return the position at a time; before and after the leg, nothing moves.
-
-        A leg of no duration may be asked for a moment before it: sums of floats are not exact.
-        """
-        if now >= self.arrives or self.arrives <= self.leaves:
-            return self.end
-        if now <= self.leaves:
-            return self.start
-        part = (now - self.leaves) / (self.arrives - self.leaves)
-        (ax, ay, az), (bx, by, bz) = self.start, self.end
-        return ax + part * (bx - ax), ay + part * (by - ay), az + part * (bz - az)
-
-    def length(self, now: float) -> float:
-        """Return the metres flown at a time."""
-        return dist(self.start, self.at(now))
-
-
-def resting(place: Point, now: float) -> Leg:
-    """Return a leg that stays in one place."""
-    return Leg(place, place, now, now)
-
-
-@dataclass(frozen=True, slots=True)
-class Charge:
-    """A battery: its level at a time, from 0 to 1, and its change per second."""
-
-    level: float
-    since: float
-    rate: float = 0.0
-
-    def at(self, now: float) -> float:
-        """Return the level at a time."""
-        if not self.rate or now <= self.since:
-            return self.level
-        level = self.level + self.rate * (now - self.since)
-        return min(1.0, level) if level > 0.0 else 0.0
-
-    @property
-    def empty_at(self) -> float:
-        """When it will be empty; infinite: never."""
-        return self.since - self.level / self.rate if self.rate < 0 else inf
-
-    def changing(self, now: float, rate: float) -> Charge:
-        """Return the battery with another rate from now on."""
-        return Charge(self.at(now), now, rate)
+Work = Generator[float, None, object]
+"""What a drone does: until when it waits, again and again; in the end it returns the result."""
+Steps = Generator[float, None, None]
+"""A part of it, without a result."""
 
 
 class IdealDrone:
-    """The state of one drone, initially in its dock. It is its own telemetry."""
+    """The state of one drone, initially in its dock."""
 
-    silence = 0.0
-
-    def __init__(self, entry: DroneData, category: Category, key: Key, kernel: Kernel) -> None:
-        self.id, self.home, self.category, self.key = entry.id, entry.home, category, key
-        self._kernel = kernel
+    def __init__(self, entry: DroneData, category: Category, clock: Clock) -> None:
+        self.id, self.home, self.category, self._clock = entry.id, entry.home, category, clock
         self.down: FlightFailed | None = None
         """The failure for which it takes no commands, if any."""
         self.reachable_at = 0.0  # where its link is lost: not before it has landed
         self.carries: Item | None = None
         self.settings: dict[str, float] = {}
         self.drawn = Drawn()
-        self.over: Future[None] | None = None
-        """Set when its command is done; fails if the command is aborted."""
-        self.job: Task[None] | None = None
+        self.order = 0
+        """The order that it carries out, how far it is with that, and until when it waits."""
+        self.work: Work | None = None
+        self.wakes = inf
+        self.changed = True
+        """Whether its motion has changed since it was told."""
         self._began = self._flown = 0.0
-        self._charge, self._leg = Charge(1.0, kernel.now), resting(entry.home, kernel.now)
-        self.touch_down(kernel.now)
+        self._charge, self._leg = Charge(1.0, clock.now), resting(entry.home, clock.now)
+        self.touch_down(clock.now)
 
     @property
     def location(self) -> Point:
         """Where it is."""
         return self._leg.at(self.settle())
-
-    @property
-    def battery_level(self) -> float:
-        """The charge of its battery, from 0 to 1."""
-        return self._charge.at(self.settle())
 
     @property
     def landed(self) -> bool:
@@ -132,9 +74,20 @@ class IdealDrone:
         self.settle()
         return None if self.down is None else self.down.failure
 
+    @property
+    def motion(self) -> dict[str, object]:
+        """Its telemetry: exact until its state changes other than by time."""
+        self.settle()
+        leg, charge = self._leg, self._charge
+        return {
+            "leg": (leg.start, leg.end, leg.leaves, leg.arrives),
+            "battery": (charge.level, charge.since, charge.rate),
+            "landed": self._landed,
+        }
+
     def settle(self) -> float:
         """Apply everything that was due by now, and return the time."""
-        now = self._kernel.now
+        now = self._clock.now
         while (due := self.next_due)[0] <= now:
             self._happen(*due)
         return now
@@ -147,20 +100,21 @@ class IdealDrone:
     def begin(self, drawn: Drawn) -> None:
         """Begin a flight, with its faults."""
         self.check()
-        self.drawn, self._began = drawn, self._kernel.now
+        self.drawn, self._began = drawn, self._clock.now
 
     def lift_off(self) -> None:
         """Leave the ground: the battery drains from now on, and faults are due."""
-        self._charge = self._charge.changing(self._kernel.now, -1.0 / self.category.flight_time)
+        self._charge = self._charge.changing(self._clock.now, -1.0 / self.category.flight_time)
         self._landed = False
 
     def turn(self, leg: Leg, now: float) -> None:
         """Fly another leg from now on."""
         self._flown += self._leg.length(now)
-        self._leg = leg
+        self._leg, self.changed = leg, True
 
     def halt(self) -> None:
-        """Hover where it is, if it still takes commands."""
+        """Do nothing more, and hover where it is, if it still takes commands."""
+        self.work, self.wakes = None, inf
         now = self.settle()
         if self.down is None and not self._landed:
             self.turn(resting(self._leg.at(now), now), now)
@@ -174,7 +128,7 @@ class IdealDrone:
 
     def dock(self) -> None:
         """Put it into its dock, restarted, so that it takes commands again."""
-        self.down, self.settings, now = None, {}, self._kernel.now
+        self.down, self.settings, now = None, {}, self._clock.now
         self.turn(resting(self.home, now), now)
         self.touch_down(now)
 
@@ -203,164 +157,185 @@ class IdealDrone:
             self._charge, self.carries = self._charge.changing(when, 0.0), None
 
 
-class IdealNavigation:
-    """The `Navigation` of ideal drones; a fleet of one flies exactly as it does with traffic."""
+class IdealDrones:
+    """Obeys a brain with ideal drones; a fleet of one flies exactly as it does with traffic."""
 
-    def __init__(
-        self, kernel: Kernel, app: App, fleet: FleetData, faults: Faults, seed: int
-    ) -> None:
-        self._kernel, self._airspace, self._chance = kernel, fleet.airspace, (faults, seed)
+    def __init__(self, app: App, fleet: FleetData, faults: Faults, seed: int, clock: Clock) -> None:
+        self._clock, self._airspace, self._chance = clock, fleet.airspace, (faults, seed)
         self._world = World(seed, fleet.airspace, fleet.world)
+        self._told: list[dict[str, Any]] = []
         categories = {category.name: category for category in app.categories}
         self.drones = {
-            one.id: IdealDrone(one, categories[one.category], FLEET + 1 + index, kernel)
-            for index, one in enumerate(fleet.drones)
+            one.id: IdealDrone(one, categories[one.category], clock) for one in fleet.drones
         }
 
-    def telemetry(self, drone: str) -> IdealDrone:
-        """Return a drone's telemetry, which is always current."""
-        return self.drones[drone]
+    @property
+    def due(self) -> float:
+        """When something happens next; infinite: only an order can make it happen."""
+        return self._clock.now if self._told else min(one.wakes for one in self.drones.values())
 
-    def fly(self, job: Flight, report: Callable[[object], None]) -> None:
-        """Take off, fly to the job's stops and do its action; then report."""
-        drone = self.drones[job.drone]
+    def advance(self) -> dict[str, Any]:
+        """Let the next thing happen that is due, and return what there is to tell of it."""
+        if not self._told:
+            self._go_on(min(self.drones.values(), key=lambda drone: drone.wakes))
+        return self._told.pop(0) if self._told else {}
 
-        async def fly() -> None:
-            try:
-                result = await self._flown(drone, job)
-            except FlightFailed as error:
-                result = error
-            report(result)
+    def news(self) -> dict[str, Any]:
+        """Return the telemetry of the drones whose motion has changed since the last call."""
+        motions = {}
+        for drone in self.drones.values():
+            if drone.changed:
+                motions[drone.id] = drone.motion
+                drone.changed = False
+        return motions
 
-        drone.job = self._kernel.spawn(fly(), drone.key, f"{drone.id} flies {job.id}")
+    def obey(self, order: Mapping[str, Any]) -> None:
+        """Begin what is ordered."""
+        drone, do = self.drones[order["drone"]], order["do"]
+        if do == "break_off" or (do == "cancel" and drone.order == order["order"]):
+            drone.halt()
+        elif do in ("read", "write"):  # while it hovers
+            self._answer(order)
+        elif do != "cancel":
+            drone.order, drone.work = order["id"], _WORK[do](self, drone, order)
+            self._go_on(drone)
 
-    async def _flown(self, drone: IdealDrone, job: Flight) -> object:
-        airspace, start = self._airspace, drone.location
-        for problem in filter(None, map(airspace.problem, job.stops)):
+    def _go_on(self, drone: IdealDrone) -> None:
+        assert drone.work is not None
+        try:
+            drone.wakes = next(drone.work)
+        except StopIteration as end:
+            drone.work, drone.wakes = None, inf
+            self._told.append({"done": drone.order, "value": end.value})
+        except FlightFailed as error:
+            drone.work, drone.wakes = None, inf
+            self._told.append(_failure(drone.order, error))
+
+    def _answer(self, order: Mapping[str, Any]) -> None:
+        try:
+            value = self._asked(self.drones[order["drone"]], order)
+        except FlightFailed as error:
+            self._told.append(_failure(order["id"], error))
+        else:
+            self._told.append({"done": order["id"], "value": value})
+
+    def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
+        airspace, start, stops = self._airspace, drone.location, order["stops"]
+        for problem in filter(None, map(airspace.problem, stops)):
             raise FlightFailed(Failure.REFUSED, problem)
         way = [self._above(drone)]
-        for stop in job.stops:
+        for stop in stops:
             way += way_from(airspace, drone.id, way[-1], stop)
-        seconds = flight_seconds(drone.category, airspace, start, job.stops, job.seconds)
-        drone.begin(draw(*self._chance, Order(id=job.id, seconds=seconds)))
-        await self._follow(drone, way)
-        if job.action is None:
+        seconds = flight_seconds(drone.category, airspace, start, stops, order["seconds"])
+        drone.begin(draw(*self._chance, Order(id=order["flight"], seconds=seconds)))
+        yield from self._follow(drone, way)
+        action, item = order["action"], item_of(order["item"])
+        if action is None:
             return None
-        job.begins()
-        why = grip_problem(drone.id, drone.category, drone.carries, job.action, job.item)
+        why = grip_problem(drone.id, drone.category, drone.carries, action, item)
         if why is None:
-            await self._pass(drone, BUILT_IN[job.action].seconds)
+            yield from self._pass(drone, BUILT_IN[action].seconds)
             why = f"{drone.id} could not do it" if drone.drawn.action else None
         if why is not None:
-            raise failed(f"{job.action} failed", why, drone.location)
-        if job.action in (PICK, RELEASE):
-            drone.carries = job.item if job.action == PICK else None
-        return self._world.gives(job.action, job.parameters, drone.location, self._kernel.now)
+            raise failed(f"{action} failed", why, drone.location)
+        if action in (PICK, RELEASE):
+            drone.carries = item if action == PICK else None
+        now = self._clock.now
+        return value_data(self._world.gives(action, order["parameters"], drone.location, now))
 
-    def break_off(self, drone: str) -> None:
-        """Stop what a drone does, and hover."""
-        one = self.drones[drone]
-        if one.job is not None:
-            one.job.cancel()
-        if one.over is not None:
-            one.halt()
-            one.over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
-
-    async def hold(self, drone: str) -> None:
+    def _hold(self, drone: IdealDrone, _: object) -> Steps:
         """Hover until a fault occurs or it is cancelled."""
-        one = self.drones[drone]
-        one.check()
-        if one.drawn.action:
-            raise failed("the action failed", f"{drone} could not do it", one.location)
-        await self._pass(one, inf)
+        drone.check()
+        if drone.drawn.action:
+            raise failed("the action failed", f"{drone.id} could not do it", drone.location)
+        yield from self._pass(drone, inf)
 
-    async def read(self, drone: str, name: str) -> float:
-        """Return the value that was written under this name, or else what is measured here."""
-        one = self.drones[drone]
-        one.check()
-        measured = self._world.measure(name, one.location, self._kernel.now)
-        return one.settings.get(name, measured)
+    def _asked(self, drone: IdealDrone, order: Mapping[str, Any]) -> object:
+        """Return the value that was written under a name, or else what is measured here."""
+        drone.check()
+        name = order["name"]
+        if order["do"] == "write":
+            drone.settings[name] = order["value"]
+            return None
+        measured = self._world.measure(name, drone.location, self._clock.now)
+        return drone.settings.get(name, measured)
 
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Store a value under this name."""
-        self.drones[drone].check()
-        self.drones[drone].settings[name] = value
+    def _home(self, drone: IdealDrone, _: object) -> Steps:
+        """Take off, if it stands, and fly to its dock."""
+        drone.begin(Drawn())
+        yield from self._follow(drone, [(*drone.location[:2], self._airspace.cruise_height)])
+        here, (x, y, _z) = drone.location, drone.home
+        for point in permitted_way(self._airspace, drone.id, here, (x, y, here[2])):
+            yield from self._move(drone, point, drone.category.speed)
+        yield from self._land(drone)
 
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off to a height; does nothing for a drone that flies."""
-        one = self.drones[drone]
-        one.begin(Drawn())
-        await self._follow(one, [(*one.location[:2], height)])
-
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        await self._move(self.drones[drone], target, self.drones[drone].category.speed)
-
-    async def land(self, drone: str) -> None:
+    def _land(self, drone: IdealDrone, _: object = None) -> Steps:
         """Land here; does nothing for a drone that stands on the ground."""
-        one = self.drones[drone]
-        one.check()
-        if not one.landed:
-            await self._move(one, (*one.location[:2], 0.0), CLIMB_SPEED)
-            one.touch_down(self._kernel.now)
+        drone.check()
+        if not drone.landed:
+            yield from self._move(drone, (*drone.location[:2], 0.0), CLIMB_SPEED)
+            drone.touch_down(self._clock.now)
 
-    async def recover(self, drone: str) -> bool:
+    def _recover(self, drone: IdealDrone, _: object) -> Work:
         """Bring a drone home after a failed flight, landed; False: it has crashed, and is lost."""
-        one = self.drones[drone]
-        if one.failure is Failure.LINK:
-            await self._wait(one, one.reachable_at)
-        if one.failure is Failure.CRASH:
+        if drone.failure is Failure.LINK:
+            yield from self._wait(drone.reachable_at)
+        if drone.failure is Failure.CRASH:
             return False
-        if one.failure is Failure.LINK:
-            one.down = None  # the link is back
+        if drone.failure is Failure.LINK:
+            drone.down = None  # the link is back
         try:
-            await self._fly_home(one)
+            yield from self._fly_home(drone)
         except FlightFailed:  # someone carries it home
-            await self._wait(one, self._kernel.now + CARRYING_HOME)
-            one.dock()
-        one.carries = None
+            yield from self._wait(self._clock.now + CARRYING_HOME)
+            drone.dock()
+        drone.carries = None
         return True
 
-    async def _fly_home(self, drone: IdealDrone) -> None:
+    def _fly_home(self, drone: IdealDrone) -> Steps:
         drone.begin(Drawn())
         if not (drone.landed and docked(drone.location, drone.home)):
             start = self._above(drone)
             way = way_from(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
-            await self._follow(drone, [start, *way])
-            await self.land(drone.id)
+            yield from self._follow(drone, [start, *way])
+            yield from self._land(drone)
 
     def _above(self, drone: IdealDrone) -> Point:
         x, y, z = drone.location
         return x, y, self._airspace.cruise_height if drone.landed else z
 
-    async def _follow(self, drone: IdealDrone, way: Sequence[Point]) -> None:
+    def _follow(self, drone: IdealDrone, way: Sequence[Point]) -> Steps:
         """Fly a route whose first point is above the drone's place on the ground, or where it hovers."""
         if drone.landed:
             drone.lift_off()
-            await self._move(drone, way[0], CLIMB_SPEED)
+            yield from self._move(drone, way[0], CLIMB_SPEED)
         for point in way[1:]:
-            await self._move(drone, point, drone.category.speed)
+            yield from self._move(drone, point, drone.category.speed)
 
-    async def _move(self, drone: IdealDrone, target: Point, speed: float) -> None:
+    def _move(self, drone: IdealDrone, target: Point, speed: float) -> Steps:
         drone.check()  # a fault at take-off leaves it on the ground
-        now, start = self._kernel.now, drone.location
+        now, start = self._clock.now, drone.location
         seconds = dist(start, target) / speed
         drone.turn(Leg(start, target, now, now + seconds), now)
-        await self._pass(drone, seconds)
+        yield from self._pass(drone, seconds)
 
-    async def _pass(self, drone: IdealDrone, seconds: float) -> None:
-        await self._wait(drone, min(self._kernel.now + seconds, drone.next_due[0]))
+    def _pass(self, drone: IdealDrone, seconds: float) -> Steps:
+        yield from self._wait(min(self._clock.now + seconds, drone.next_due[0]))
         drone.check()
 
-    async def _wait(self, drone: IdealDrone, until: float) -> None:
-        if until <= self._kernel.now:
-            return
-        drone.over = over = Future[None]()
-        timer = self._kernel.at(until, EventKind.FLIGHT, drone.key, partial(over.set, None))
-        try:
-            await over
-        finally:
-            timer.cancel()
-            drone.over = None
-            if not over.is_set:  # it was cancelled
-                drone.halt()
+    def _wait(self, until: float) -> Steps:
+        if until > self._clock.now:
+            yield until
+
+
+def _failure(order: int, error: FlightFailed) -> dict[str, Any]:
+    return {"failed": order, "failure": error.failure.name, "reason": str(error)}
+
+
+_WORK = {
+    "fly": IdealDrones._fly,
+    "hold": IdealDrones._hold,
+    "home": IdealDrones._home,
+    "land": IdealDrones._land,
+    "recover": IdealDrones._recover,
+}

@@ -6,10 +6,12 @@ hours, as a plan may last for months.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from math import inf
+from typing import TYPE_CHECKING, Any, Protocol
 
+from ..brain import Brain
 from ..domain.airspace import Airspace
 from ..domain.errors import BadInput
 from ..domain.fleet_data import DroneData, FleetData
@@ -17,13 +19,14 @@ from ..domain.model import Drone, Mission
 from ..domain.status import DroneStatus, Status
 from ..domain.text import counted, duration, quoted
 from ..domain.trace import Event
-from ..flow.engine import Listener, Session
-from ..time.virtual import Stuck, VirtualTime
-from .ideal import IdealNavigation
+from ..flow.standing import drones_of, fleet_data, mission_data, take_over
+from .ideal import IdealDrones
 
 if TYPE_CHECKING:
     from ..domain.app import App
     from .faults import Faults
+
+Listener = Callable[[Event], object]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,27 +87,88 @@ def simulate(
 
     Without such a time it is given up if missions fly again and again without success.
     """
-    kernel, bound = VirtualTime(), Bound(missions)
-    navigation = IdealNavigation(kernel, app, fleet, faults, seed)
-    events: list[Event] = []
+    bound, events = Bound(missions), list[Event]()
 
     def listen(event: Event) -> None:
         events.append(event)
         if on_event is not None:
             on_event(event)
         if until is None and (enough := bound.look(event)) is not None:
-            kernel.crash(enough)
+            raise enough
 
-    session = Session(app, fleet, kernel, navigation, [listen])
-    ended, given_up = see_through(session, kernel, missions, bound, until)
-    return SimulationResult(
-        duration=ended,
-        missions=tuple(missions),
-        drones=session.drones,
-        flown={drone.id: drone.flown for drone in navigation.drones.values()},
-        events=tuple(events),
-        given_up=given_up,
-    )
+    flown = Alone(app, fleet, faults, seed, listen)
+    ended, given_up = see_through(flown, app.name, missions, bound, until)
+    return flown.outcome(missions, events, ended, given_up)
+
+
+class Alone:
+    """A brain and ideal drones, in virtual time."""
+
+    def __init__(
+        self, app: App, fleet: FleetData, faults: Faults, seed: int, listener: Listener
+    ) -> None:
+        self.now = 0.0
+        self._app, self._fleet, self._listener = app, fleet, listener
+        self._drones = IdealDrones(app, fleet, faults, seed, self)
+        self.brain = Brain(app, fleet_data(fleet), space=fleet.airspace)
+
+    def begin(self, missions: Sequence[Mission[Any]]) -> None:
+        """Begin missions at this instant."""
+        self._tell({})
+        self.brain.begin([mission_data(self._app, one) for one in missions], self.now)
+        self._listen()
+
+    def run(self, until: float | None) -> bool:
+        """Fly until everything has ended, or until a time; return whether it has ended."""
+        brain, drones = self.brain, self._drones
+        while brain.over is None:
+            for order in brain.orders():
+                drones.obey(order)
+            due = brain.due
+            when = min(drones.due, inf if due is None else due)
+            if when == inf:
+                raise Stuck("nothing will ever happen again")
+            if until is not None and when > until:
+                self.now = until
+                return False
+            self.now = when
+            if drones.due <= when:
+                self._tell(drones.advance())
+            else:
+                self._tell({})
+                brain.advance(when)
+            self._listen()
+        return True
+
+    def close(self) -> None:
+        """End everything where it is."""
+        self.brain.close()
+
+    def _tell(self, message: dict[str, Any]) -> None:
+        if news := self._drones.news():
+            message["telemetry"] = news
+        if message:
+            self.brain.tell(message, self.now)
+
+    def _listen(self) -> None:
+        for event in self.brain.events():
+            self._listener(event)
+
+    def outcome(
+        self, missions: Sequence[Mission[Any]], events: Sequence[Event], ended: float, given_up: str
+    ) -> SimulationResult:
+        """Return the outcome of the missions, which are brought up to date."""
+        telemetry, flown = self.brain.telemetry, self._drones.drones
+        standing = self.brain.standing()
+        take_over(self._app, missions, standing["missions"])
+        return SimulationResult(
+            duration=ended,
+            missions=tuple(missions),
+            drones=drones_of(self._app, self._fleet, standing, telemetry),
+            flown={drone.id: drone.flown for drone in flown.values()},
+            events=tuple(events),
+            given_up=given_up,
+        )
 
 
 FLIGHTS = 1_000
@@ -155,9 +219,36 @@ class Bound:
         return f"nothing has set out for {IDLE / 86_400:.0f} days, and missions are not at their end; {MORE}"
 
 
+class Stuck(RuntimeError):
+    """Nothing will ever happen again, and missions still wait."""
+
+
+class Simulated(Protocol):
+    """A brain with what flies its drones, in virtual time."""
+
+    brain: Brain
+
+    @property
+    def now(self) -> float:
+        """The time, in seconds since the start."""
+        ...
+
+    def begin(self, missions: Sequence[Mission[Any]]) -> None:
+        """Begin missions at this instant."""
+        ...
+
+    def run(self, until: float | None) -> bool:
+        """Fly until everything has ended, or until a time; return whether it has ended."""
+        ...
+
+    def close(self) -> None:
+        """End everything where it is."""
+        ...
+
+
 def see_through(
-    session: Session,
-    kernel: VirtualTime,
+    flown: Simulated,
+    name: str,
     missions: Sequence[Mission[Any]],
     bound: Bound,
     until: float | None,
@@ -166,26 +257,25 @@ def see_through(
 
     Return when that was, and why it was given up, if it was: without such a time a bound holds.
     """
-    over = session.start(missions)
     last = bound.last + IDLE if until is None else until
     try:
-        while not kernel.run(over, last) and until is None:
+        flown.begin(missions)
+        while not flown.run(last) and until is None:
             if bound.last + IDLE <= last:
                 raise Enough(bound.idle())
             last = bound.last + IDLE
-        return (over.result() if over.is_set else kernel.now), ""
+        return (flown.now if flown.brain.over is None else flown.brain.over), ""
     except Enough as enough:
-        return kernel.now, str(enough)
+        return flown.now, str(enough)
     except Stuck:
-        queue, name = session.core.queue, session.core.app.name
-        if not queue.waiting:
+        if not (waiting := flown.brain.standing()["waiting"]):
             raise
         raise BadInput(
-            f"{name}: the simulation stops at {duration(kernel.now)}: missions wait for ever, "
-            f"because the policy gives them none of the drones ({queue.summary()})"
+            f"{name}: the simulation stops at {duration(flown.now)}: missions wait for ever, "
+            f"because the policy gives them none of the drones ({waiting})"
         ) from None
     finally:
-        kernel.close()
+        flown.close()
 
 
 def outcome_data(name: str, seed: int, outcome: SimulationResult) -> dict[str, object]:

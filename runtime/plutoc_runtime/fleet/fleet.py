@@ -9,7 +9,6 @@ from collections.abc import Callable, Coroutine, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..domain.airspace import permitted_way
 from ..domain.errors import FlightFailed
 from ..domain.model import AfterTrip
 from ..domain.status import DroneStatus
@@ -19,7 +18,6 @@ from ..time.kernel import FLEET, EventKind, Kernel, Key, Task
 from .reach import docked
 
 if TYPE_CHECKING:
-    from ..domain.airspace import Airspace
     from ..domain.model import Drone
     from ..domain.trace import Trace
     from .navigation import Navigation
@@ -33,14 +31,13 @@ class Fleet:
         self,
         kernel: Kernel,
         trace: Trace,
-        airspace: Airspace,
         navigation: Navigation[Any],
         drones: Sequence[Drone],
         queue: Queue,
         after_trip: AfterTrip,
     ) -> None:
         self.drones, self.queue = tuple(drones), queue
-        self._kernel, self._trace, self._airspace = kernel, trace, airspace
+        self._kernel, self._trace = kernel, trace
         self._navigation, self._after_trip = navigation, after_trip
         self._stays = after_trip is AfterTrip.STAY
         self.errands: dict[Drone, Task[None]] = {}
@@ -167,12 +164,7 @@ class Fleet:
 
     async def _return(self, drone: Drone) -> None:
         try:
-            await self._navigation.takeoff(drone.id, self._airspace.cruise_height)
-            x, y, _ = drone.home
-            home = (x, y, drone.location[2])
-            for point in permitted_way(self._airspace, drone.id, drone.location, home):
-                await self._navigation.go_to(drone.id, point)
-            await self._navigation.land(drone.id)
+            await self._navigation.home(drone.id)
         except FlightFailed as error:
             await self._bring_back(drone, str(error))
         else:

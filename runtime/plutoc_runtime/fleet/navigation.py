@@ -1,8 +1,8 @@
 """How drones are flown: the protocol between the fleet and what moves its drones (thesis 4.4).
 
-Metres, seconds. A trip is one job, given once and reported once. Returning, landing and recovering
-are single commands, which return when they are done: on arrival, when landed; they raise
-`FlightFailed` when the drone cannot finish. A cancelled command leaves the drone hovering where it
+Metres, seconds. A trip is one job, given once and reported once. Returning home, landing and recovering
+are single commands, which return when they are done: when landed; they raise `FlightFailed` when the
+drone cannot finish. A cancelled command leaves the drone hovering where it
 is. The protocol knows no missions: a job's id only identifies a flight.
 """
 
@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 if TYPE_CHECKING:
-    from ..domain.model import Point, Telemetry
+    from ..domain.model import Telemetry
 
 
 J_contra = TypeVar("J_contra", contravariant=True)
@@ -54,12 +54,8 @@ class Navigation(Protocol[J_contra]):
         """Set a parameter of a hovering drone."""
         ...
 
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off to a height; does nothing for a drone that flies."""
-        ...
-
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
+    async def home(self, drone: str) -> None:
+        """Fly to its dock on the way that it finds, and land there."""
         ...
 
     async def land(self, drone: str) -> None:

@@ -39,10 +39,12 @@ class Engine:
         self.done: Future[None] = Future()
         """Set when the last mission has ended."""
 
-    def start(self, missions: Sequence[Mission[Any]]) -> None:
+    def start(self, missions: Sequence[Mission[Any]]) -> list[MissionState]:
         """Start the missions, all at the same instant."""
-        for mission in missions:
-            self._enter(self.new_state(mission), UNEXECUTED)
+        states = [self.new_state(mission) for mission in missions]
+        for state in states:
+            self._enter(state, UNEXECUTED)
+        return states
 
     def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the initial state of a mission."""
@@ -125,6 +127,7 @@ class Engine:
         if state.carrier is not None:
             fleet.recover(state.carrier)  # what it carries must be taken off
         state.allocated = state.carrier = state.carries = None
+        state.ended = True
         self._core.transitions.end(mission, status, reason)
         self.look_for_the_end()
 
@@ -172,9 +175,7 @@ class Session:
             results=results,
             transitions=Transitions(kernel, trace, results),
             queue=queue,
-            fleet=kind_of_fleet(
-                kernel, trace, fleet.airspace, navigation, self.drones, queue, fleet.after_trip
-            ),
+            fleet=kind_of_fleet(kernel, trace, navigation, self.drones, queue, fleet.after_trip),
             recorder=recorder,
             fail_later=fail_later,
         )
@@ -188,15 +189,20 @@ class Session:
         The task ends when every drone has landed as well.
         """
         self.set_out(missions)
+        return self.see_through_task()
+
+    def see_through_task(self) -> Task[float]:
+        """Return a task that runs `see_through`."""
         return self._kernel.spawn(self.see_through(), FLEET, "the session")
 
-    def set_out(self, missions: Sequence[Mission[Any]]) -> None:
+    def set_out(self, missions: Sequence[Mission[Any]]) -> list[MissionState]:
         """Start the missions."""
         # All this lives until the end: the garbage collector need not traverse it each time, neither
         # while the missions start nor afterwards.
         freeze()
-        self.engine.start(missions)
+        states = self.engine.start(missions)
         freeze()
+        return states
 
     async def see_through(self) -> float:
         """Wait until every mission has ended and every drone has landed; return when the last one ended."""

@@ -127,6 +127,7 @@ class MissionState:
     """Every delay that is over."""
     first_start: float | None = None
     """When its first trip passed a clock."""
+    ended: bool = False
     doom: str | None = None
     """Why it must end at once: a failure that no retry can repair."""
 

@@ -328,8 +328,11 @@ class Kernel:
             heappop(heap)
         return heap[0][0] if heap else None
 
-    def drain(self) -> None:
-        """Process all events of this instant in order, also those that they cause."""
+    def drain(self, stop: Sequence[object] = ()) -> None:
+        """Process all events of this instant in order, also those that they cause.
+
+        As soon as `stop` has an element and no coroutine is ready, the rest is left to a later call.
+        """
         heap, ready, now = self._heap, self.ready, self.now
         while not self.over:
             if ready:
@@ -337,6 +340,8 @@ class Kernel:
                 if turn == task.turn:
                     task.turn = 0
                     task.step()
+            elif stop:
+                return
             elif heap and heap[0][0] <= now and (heap[0][1] < _LAST or self.last is None):
                 heappop(heap)[4]()
             elif self.last is not None:

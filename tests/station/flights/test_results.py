@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from pluto_fleet.journal.values import value_data
+from plutoc_runtime.hooks.values import value_data
 from pluto_fleet.station.feed import FACTS, Feed
 from plutoc_runtime.alone.world import UNITS
 from plutoc_runtime.domain.actions import BUILT_IN, Parameter

@@ -1,4 +1,4 @@
-"""Missions, trips and results as plain data for the journal, and back."""
+"""Missions, trips and results as plain data, and back."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.fields import Entity
-from plutoc_runtime.domain.mission_data import MOST_BITS, Data, fields_of, trip_data
-from plutoc_runtime.domain.model import NOTHING, Item, Photo
-from plutoc_runtime.domain.status import TripStatus
-from plutoc_runtime.domain.text import shown
-from plutoc_runtime.hooks.keepable import are_named, keepable
+from ..domain.fields import Entity
+from ..domain.mission_data import MOST_BITS, Data, fields_of, trip_data
+from ..domain.model import NOTHING, Item, Photo
+from ..domain.status import TripStatus
+from ..domain.text import shown
+from .keepable import are_named, keepable
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission, Point, Trip
+    from ..domain.app import App
+    from ..domain.model import Mission, Point, Trip
 
 
 def mission_data(app: App, mission: Mission[Any]) -> Data:

@@ -1,0 +1,113 @@
+"""What is known of the drones: told as motion, so that it is exact at any instant between two messages."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import dist, inf
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ..domain.model import Point
+    from ..domain.trace import Clock
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A straight leg between two points, with the times at its ends."""
+
+    start: Point
+    end: Point
+    leaves: float
+    arrives: float
+
+    def at(self, now: float) -> Point:
+        """Return the position at a time; before and after the leg, nothing moves.
+
+        A leg of no duration may be asked for a moment before it: sums of floats are not exact.
+        """
+        if now >= self.arrives or self.arrives <= self.leaves:
+            return self.end
+        if now <= self.leaves:
+            return self.start
+        part = (now - self.leaves) / (self.arrives - self.leaves)
+        (ax, ay, az), (bx, by, bz) = self.start, self.end
+        return ax + part * (bx - ax), ay + part * (by - ay), az + part * (bz - az)
+
+    def length(self, now: float) -> float:
+        """Return the metres flown at a time."""
+        return dist(self.start, self.at(now))
+
+
+def resting(place: Point, now: float) -> Leg:
+    """Return a leg that stays in one place."""
+    return Leg(place, place, now, now)
+
+
+@dataclass(frozen=True, slots=True)
+class Charge:
+    """A battery: its level at a time, from 0 to 1, and its change per second."""
+
+    level: float
+    since: float
+    rate: float = 0.0
+
+    def at(self, now: float) -> float:
+        """Return the level at a time."""
+        if not self.rate or now <= self.since:
+            return self.level
+        level = self.level + self.rate * (now - self.since)
+        return min(1.0, level) if level > 0.0 else 0.0
+
+    @property
+    def empty_at(self) -> float:
+        """When it will be empty; infinite: never."""
+        return self.since - self.level / self.rate if self.rate < 0 else inf
+
+    def changing(self, now: float, rate: float) -> Charge:
+        """Return the battery with another rate from now on."""
+        return Charge(self.at(now), now, rate)
+
+
+class KnownState:
+    """The state of one drone, as it was told last: the drone's `Telemetry`."""
+
+    __slots__ = ("_charge", "_clock", "_leg", "landed")
+
+    silence = 0.0
+
+    def __init__(self, clock: Clock, home: Point) -> None:
+        self._clock = clock
+        self._leg, self._charge = resting(home, 0.0), Charge(0.0, 0.0)
+        self.landed = True
+        """Whether it stands on the ground."""
+
+    @property
+    def location(self) -> Point:
+        """Where it is."""
+        return self._leg.at(self._clock.now)
+
+    @property
+    def battery_level(self) -> float:
+        """The charge of its battery, from 0 to 1."""
+        return self._charge.at(self._clock.now)
+
+    def take(self, told: Mapping[str, Any]) -> None:
+        """Take over a message about it; what the message does not say stays as it was."""
+        now = self._clock.now
+        match told:
+            case {"leg": [start, end, leaves, arrives]}:
+                self._leg = Leg(_point(start), _point(end), leaves, arrives)
+            case {"at": place}:
+                self._leg = resting(_point(place), now)
+        match told:
+            case {"battery": [level, since, rate]}:
+                self._charge = Charge(level, since, rate)
+            case {"battery": level}:
+                self._charge = Charge(level, now)
+        self.landed = told.get("landed", self.landed)
+
+
+def _point(told: Sequence[float]) -> Point:
+    x, y, z = told
+    return x, y, z

@@ -1,0 +1,152 @@
+"""Missions as plain data: those that begin, and where each stands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+from ..domain.fields import Entity
+from ..domain.mission_data import Data, fields_of, trip_data
+from ..domain.model import Drone
+from ..domain.status import DroneStatus, Status, TripStatus
+from ..hooks import values
+from ..hooks.values import item_data, trip_of
+
+if TYPE_CHECKING:
+    from ..domain.app import App
+    from ..domain.fleet_data import FleetData
+    from ..domain.model import Mission, Telemetry, Trip
+    from .mission import MissionState
+
+
+def mission_of(app: App, data: Mapping[str, Any], index: int) -> Mission[Any]:
+    """Return a new mission; what the app does not know is left out."""
+    trips = [
+        trip_of(app, {"name": f"{place}", "index": place - 1, **_known(app, Entity.TRIP, one)})
+        for place, one in enumerate(data["trips"], 1)
+    ]
+    index, fields = data.get("index", index), _known(app, Entity.MISSION, data).get("fields", {})
+    return app.mission(name=data.get("name", f"{index + 1}"), trips=trips, index=index, **fields)
+
+
+def _known(app: App, entity: Entity, data: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the data without fields that the app does not have."""
+    names = {field.name for field in app.fields if field.on is entity}
+    given = data.get("fields", {})
+    return {**data, "fields": {name: value for name, value in given.items() if name in names}}
+
+
+def standing_of(app: App, state: MissionState) -> Data:
+    """Return where a mission stands."""
+    mission, flight = state.mission, state.flight
+    return {
+        "index": mission.index,
+        "fields": fields_of(app, Entity.MISSION, mission),
+        "status": mission.status.value,
+        "reason": mission.reason,
+        "round": mission.round,
+        "attempts": mission.attempts,
+        "todo": [_trip(app, trip) for trip in mission.trips],
+        "done": [_trip(app, trip) for trip in mission.completed_trips],
+        "at": state.at,
+        "delay": state.delay and [list(state.delay[0]), state.delay[1], state.delay[2]],
+        "waited": sorted(map(list, state.waited or ())),
+        "first_start": state.first_start,
+        "last_action_end": state.last_action_end,
+        "flight": (
+            None
+            if flight is None
+            else {
+                "trip": flight.trip.name,
+                "drone": flight.drone,
+                "since": flight.launched_at,
+                "retry": flight.retry,
+                "outcome": flight.result().value if flight.is_set else None,
+            }
+        ),
+        "carrier": None if state.carrier is None else state.carrier.id,
+        "carries": item_data(state.carries),
+        "interrupted": state.interrupted,
+        "ended": state.ended,
+    }
+
+
+def _trip(app: App, trip: Trip) -> Data:
+    data = trip_data(app, trip)
+    facts = (
+        ("reason", trip.reason or None),
+        ("start_time", trip.start_time),
+        ("end_time", trip.end_time),
+    )
+    return data | {name: value for name, value in facts if value is not None}
+
+
+def drone_standing(drone: Drone) -> Data:
+    """Return where a drone stands, and what it has flown."""
+    return {
+        "status": drone.status.value,
+        "at": list(drone.location),
+        "battery": drone.battery_level,
+        "landed": drone.telemetry.landed,
+        "trips": drone.trips,
+    }
+
+
+# For those who simulate: missions and drones as objects
+
+
+def fleet_data(fleet: FleetData) -> Data:
+    """Return what a brain needs to know of a fleet."""
+    drones = [{"id": one.id, "category": one.category, "home": one.home} for one in fleet.drones]
+    return {
+        "drones": drones,
+        "after_trip": fleet.after_trip.value,
+        "max_airborne": fleet.max_airborne,
+    }
+
+
+def mission_data(app: App, mission: Mission[Any]) -> Data:
+    """Return a mission to begin."""
+    return {"name": mission.name, **values.mission_data(app, mission)}
+
+
+def take_over(
+    app: App, missions: Sequence[Mission[Any]], standing: Mapping[str, Mapping[str, Any]]
+) -> None:
+    """Bring missions up to date with where they stand in their brain."""
+    for mission in missions:
+        record = standing[mission.name]
+        known = {trip.name: trip for trip in (*mission.trips, *mission.completed_trips)}
+        mission.status, mission.reason = Status(record["status"]), record["reason"]
+        mission.round, mission.attempts = record["round"], record["attempts"]
+        for name, value in record["fields"].items():
+            setattr(mission, name, value)
+        for which, status in (("todo", TripStatus.WAITING), ("done", TripStatus.COMPLETED)):
+            trips = []
+            for data in record[which]:
+                now = trip_of(app, data, status)
+                trip = known.setdefault(now.name, now)
+                for one in fields(now):
+                    setattr(trip, one.name, getattr(now, one.name))
+                trips.append(trip)
+            setattr(mission, "trips" if which == "todo" else "completed_trips", trips)
+
+
+def drones_of(
+    app: App, fleet: FleetData, standing: Mapping[str, Any], telemetry: Callable[[str], Telemetry]
+) -> tuple[Drone, ...]:
+    """Return the drones of a fleet as they stand."""
+    categories = {category.name: category for category in app.categories}
+    return tuple(
+        Drone(
+            id=one.id,
+            category=categories[one.category],
+            home=one.home,
+            telemetry=telemetry(one.id),
+            status=DroneStatus(standing["drones"][one.id]["status"]),
+            trips=standing["drones"][one.id]["trips"],
+            index=index,
+        )
+        for index, one in enumerate(fleet.drones)
+    )
