@@ -8,6 +8,7 @@ and mappings, except for the app, the space and the hooks. Seconds since the app
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from .domain.fleet_data import DroneData, FleetData
@@ -15,7 +16,7 @@ from .domain.model import AfterTrip
 from .flow.engine import Session
 from .flow.standing import drone_standing, mission_of, standing_of
 from .orders import Order, Orders
-from .time.virtual import VirtualTime
+from .time.told import AT_ONCE, HookRunner, ToldTime
 
 if TYPE_CHECKING:
     from .domain.app import App
@@ -44,13 +45,15 @@ class Space(Protocol):
 class Brain:
     """One running app. It does nothing by itself and waits for nobody."""
 
-    def __init__(self, app: App, fleet: Mapping[str, Any], *, space: Any) -> None:
+    def __init__(
+        self, app: App, fleet: Mapping[str, Any], *, space: Any, hooks: HookRunner | None = None
+    ) -> None:
         """`fleet` has the `drones` (`id`, `category`, `home`), and perhaps `after_trip`, `max_airborne`.
 
-        With `silent` in it nothing is kept for `events`.
+        With `silent` in it nothing is kept for `events`. Without `hooks` they are called at once.
         """
         drones = [_drone(one, app) for one in fleet["drones"]]
-        self._app, self._kernel = app, VirtualTime()
+        self._app, self._kernel = app, ToldTime(hooks, fleet.get("midnight", 0.0))
         self._orders = Orders(self._kernel, {drone.id: drone for drone in drones})
         self._events: list[Event] = []
         self._session = Session(
@@ -70,38 +73,41 @@ class Brain:
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
         """Begin missions: each has `trips`, and perhaps `name`, `index` and `fields`."""
-        self._kernel.now = now
+        self._kernel.call(now, AT_ONCE, partial(self._begin, missions))
+
+    def _begin(self, missions: Sequence[Mapping[str, Any]]) -> None:
         first = len(self._states)
         begun = [mission_of(self._app, one, first + i) for i, one in enumerate(missions)]
         self._states.update((state.mission.name, state) for state in self._session.set_out(begun))
         if self._whole is None:
             self._whole = self._session.see_through_task()
-        self._run(_AT_ONCE)
 
     def tell(self, message: Mapping[str, Any], now: float) -> None:
         """Take over what has happened outside; what is unknown is ignored.
 
         `{"done": id, "value": …}` or `{"failed": id, "failure": …, "reason": …}` for an order,
-        `{"telemetry": {drone: {"leg" or "at", "battery", "landed"}}}` for drones.
+        `{"telemetry": {drone: {"leg" or "at", "battery", "landed"}}}` for drones, `{"hook": number}`
+        for a hook that took its time.
         """
-        self._kernel.now = now
-        for drone, told in message.get("telemetry", _NOTHING).items():
-            if drone in self._orders.drones:
-                self._orders.drones[drone].take(told)
-        if "done" in message:
-            self._orders.done(message["done"], message.get("value"))
-        elif "failed" in message:
-            self._orders.failed(
-                message["failed"], message.get("failure"), message.get("reason", "")
-            )
-        else:
-            return
-        self._run(_AT_ONCE)
+        if "telemetry" in message:
+            self._kernel.now = now
+            for drone, told in message["telemetry"].items():
+                if drone in self._orders.drones:
+                    self._orders.drones[drone].take(told)
+        match message:
+            case {"done": order}:
+                call = partial(self._orders.done, order, message.get("value"))
+            case {"failed": order}:
+                call = partial(self._orders.failed, order, message)
+            case {"hook": number}:
+                call = partial(self._kernel.hook_ended, number)
+            case _:
+                return
+        self._kernel.call(now, AT_ONCE, call)
 
     def advance(self, now: float) -> None:
         """Let everything happen that is due, up to the first orders: take those, and call it again."""
-        self._kernel.now = now
-        self._run(self._orders.pending)
+        self._kernel.call(now, self._orders.pending)
 
     @property
     def due(self) -> float | None:
@@ -142,19 +148,8 @@ class Brain:
         """End everything where it is; nothing may be called after that."""
         self._kernel.close()
 
-    def _run(self, stop: Sequence[object]) -> None:
-        kernel = self._kernel
-        kernel.drain(stop)
-        if kernel.crashed is not None:
-            raise kernel.crashed
-
 
 def _drone(data: Mapping[str, Any], app: App) -> DroneData:
     x, y, *z = data["home"]
     category = data.get("category", app.categories[0].name)
     return DroneData(id=data["id"], category=category, home=(x, y, z[0] if z else 0.0))
-
-
-_AT_ONCE = (None,)
-"""Runs the coroutines that are ready, and nothing that waits for its time."""
-_NOTHING: Mapping[str, Any] = {}

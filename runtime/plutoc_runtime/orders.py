@@ -50,12 +50,12 @@ class Orders:
         if answer is not None:
             answer(value_of(value))
 
-    def failed(self, order: int, failure: object, reason: object) -> None:
-        """Called when an order failed."""
+    def failed(self, order: int, why: Mapping[str, Any]) -> None:
+        """Called when an order failed, with the `failure` and the `reason`."""
         answer = self._answers.pop(order, None)
         if answer is not None:
-            known = Failure.__members__.get(str(failure), Failure.UNKNOWN)
-            answer(FlightFailed(known, str(reason)))
+            failure = Failure.__members__.get(str(why.get("failure")), Failure.UNKNOWN)
+            answer(FlightFailed(failure, str(why.get("reason", ""))))
 
     # The navigation protocol
 

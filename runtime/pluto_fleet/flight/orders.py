@@ -43,14 +43,10 @@ class OrderedJob:
 class Dispatcher:
     """Gives a link the orders of a brain."""
 
-    def __init__(
-        self,
-        kernel: Kernel,
-        link: CommandLink,
-        keys: Mapping[str, Key],
-        tell: Callable[[Message], object],
-    ) -> None:
-        self._kernel, self._link, self._keys, self._tell = kernel, link, keys, tell
+    def __init__(self, kernel: Kernel, link: CommandLink, keys: Mapping[str, Key]) -> None:
+        self._kernel, self._link, self._keys = kernel, link, keys
+        self.tell: Callable[[Message], object] = _ignore
+        """Called with what came of an order."""
         self._under_way: dict[int, Task[Any]] = {}
 
     def obey(self, order: Order) -> None:
@@ -91,15 +87,15 @@ class Dispatcher:
                 raise ValueError(f"a brain ordered {do!r}, which this library does not know")
 
     def _reported(self, number: int, result: object) -> None:
-        self._tell(_outcome(number, result))
+        self.tell(_outcome(number, result))
 
     def _ended(self, number: int, task: Task[Any]) -> None:
         if self._under_way.pop(number, None) is not task:
             return  # it was cancelled
         if task.error is None:
-            self._tell({"done": number, "value": task.result()})
+            self.tell({"done": number, "value": task.result()})
         elif isinstance(task.error, FlightFailed):
-            self._tell(_outcome(number, task.error))
+            self.tell(_outcome(number, task.error))
         elif not isinstance(task.error, Cancelled):
             self._kernel.crash(task.error)
 
@@ -108,3 +104,7 @@ def _outcome(number: int, result: object) -> Message:
     if isinstance(result, FlightFailed):
         return {"failed": number, "failure": result.failure.name, "reason": str(result)}
     return {"done": number, "value": value_data(result)}
+
+
+def _ignore(_: object) -> None:
+    """Nobody listens yet."""

@@ -20,6 +20,7 @@ from ..domain.status import DroneStatus, Status
 from ..domain.text import counted, duration, quoted
 from ..domain.trace import Event
 from ..flow.standing import drones_of, fleet_data, mission_data, take_over
+from ..time.virtual import Stuck
 from .ideal import IdealDrones
 
 if TYPE_CHECKING:
@@ -97,7 +98,8 @@ def simulate(
             raise enough
 
     flown = Alone(app, fleet, faults, seed, listen)
-    ended, given_up = see_through(flown, app.name, missions, bound, until)
+    flown.begin(missions)
+    ended, given_up = see_through(flown, flown.run, app.name, bound, until)
     return flown.outcome(missions, events, ended, given_up)
 
 
@@ -219,10 +221,6 @@ class Bound:
         return f"nothing has set out for {IDLE / 86_400:.0f} days, and missions are not at their end; {MORE}"
 
 
-class Stuck(RuntimeError):
-    """Nothing will ever happen again, and missions still wait."""
-
-
 class Simulated(Protocol):
     """A brain with what flies its drones, in virtual time."""
 
@@ -233,14 +231,6 @@ class Simulated(Protocol):
         """The time, in seconds since the start."""
         ...
 
-    def begin(self, missions: Sequence[Mission[Any]]) -> None:
-        """Begin missions at this instant."""
-        ...
-
-    def run(self, until: float | None) -> bool:
-        """Fly until everything has ended, or until a time; return whether it has ended."""
-        ...
-
     def close(self) -> None:
         """End everything where it is."""
         ...
@@ -248,19 +238,18 @@ class Simulated(Protocol):
 
 def see_through(
     flown: Simulated,
+    run: Callable[[float | None], bool],
     name: str,
-    missions: Sequence[Mission[Any]],
     bound: Bound,
     until: float | None,
 ) -> tuple[float, str]:
-    """Fly the missions until the last one has ended or a time is reached.
+    """Fly the missions that have begun until the last one has ended or a time is reached.
 
     Return when that was, and why it was given up, if it was: without such a time a bound holds.
     """
     last = bound.last + IDLE if until is None else until
     try:
-        flown.begin(missions)
-        while not flown.run(last) and until is None:
+        while not run(last) and until is None:
             if bound.last + IDLE <= last:
                 raise Enough(bound.idle())
             last = bound.last + IDLE

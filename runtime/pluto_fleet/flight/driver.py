@@ -1,0 +1,93 @@
+"""Driving a brain on a kernel, virtual or real: its orders go to a gateway, and what comes of them back."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Mapping
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import FLEET, EventKind
+
+if TYPE_CHECKING:
+    from plutoc_runtime.brain import Brain
+    from plutoc_runtime.domain.trace import Event
+    from plutoc_runtime.time.kernel import Kernel
+
+Message = dict[str, Any]
+Order = Mapping[str, Any]
+
+
+class Driver:
+    """Calls a brain when something has happened or is due, and passes on what it says."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        brain: Brain,
+        *,
+        obey: Callable[[Order], object],
+        motions: Callable[[], Mapping[str, Any]],
+        hear: Callable[[Event], object],
+    ) -> None:
+        """`motions` returns the telemetry of the drones that have changed since its last call."""
+        self._kernel, self._brain = kernel, brain
+        self._obey, self._motions, self._hear = obey, motions, hear
+        self._told: deque[Message] = deque()
+        self._busy = False
+        self._armed_for = inf
+        """For when the next call of the brain is scheduled."""
+        self.done: Future[float] = Future()
+        """Set to the time at which the last mission ended, once every drone has landed as well."""
+
+    def tell(self, message: Message) -> None:
+        """Tell the brain something, now or as soon as it has done what it is doing."""
+        self._told.append(message)
+        self.pump()
+
+    def call(self, call: Callable[[float], object]) -> None:
+        """Call the brain with the time, and pass on what it says."""
+        self._look()
+        call(self._kernel.now)
+        self.pump()
+
+    def pump(self) -> None:
+        """Pass on what the brain says, and tell it what there is to tell, until there is nothing more."""
+        if self._busy:
+            return
+        brain, told = self._brain, self._told
+        self._busy = True
+        try:
+            while True:
+                for event in brain.events():
+                    self._hear(event)
+                for order in brain.orders():
+                    self._obey(order)
+                if not told:
+                    break
+                message = told.popleft()
+                if motions := self._motions():
+                    message["telemetry"] = motions
+                brain.tell(message, self._kernel.now)
+        finally:
+            self._busy = False
+        over, due = brain.over, brain.due
+        if over is not None:
+            self.done.set(over)
+        elif due is not None and due < self._armed_for:
+            self._armed_for = due
+            # after all else of that instant: it is all that is known then
+            self._kernel.schedule(due, EventKind.ALLOCATE, FLEET, self._advance)
+
+    def _advance(self) -> None:
+        self._armed_for, now = inf, self._kernel.now
+        due = self._brain.due
+        if due is not None and due <= now:
+            self._look()
+            self._brain.advance(now)
+        self.pump()
+
+    def _look(self) -> None:
+        if motions := self._motions():
+            self._brain.tell({"telemetry": motions}, self._kernel.now)

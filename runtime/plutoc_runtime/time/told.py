@@ -1,0 +1,126 @@
+"""The time of a brain: it is told what time it is, and whoever tells it also runs its hooks."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Sequence
+from functools import partial
+from typing import Protocol, TypeVar
+
+from .future import Future, Watcher
+from .kernel import Call, EventKind, Key
+from .virtual import VirtualTime
+
+T = TypeVar("T")
+
+AT_ONCE = (None,)
+"""Runs the coroutines that are ready, and nothing that waits for its time."""
+
+
+class HookRunner(Protocol):
+    """Runs the app's hooks, which may take their time."""
+
+    def now(self) -> float:
+        """Return the seconds since the app's start, also between two calls of the brain."""
+        ...
+
+    def start(self, number: int, hook: Callable[..., object], call: Callable[[], object]) -> bool:
+        """Call a hook; return whether it has ended. If not, the brain is told `{"hook": number}` later."""
+        ...
+
+    def result(self, number: int) -> object:
+        """Return what a hook that has ended returned, or raise what it raised; asked once."""
+        ...
+
+    def cancel(self, number: int) -> None:
+        """Cancel a hook: its result is not wanted any more."""
+        ...
+
+    def offer(self, watch: Callable[[Watcher], object]) -> Awaitable[object]:
+        """Return what a hook can await; `watch` has it called when the hook shall go on."""
+        ...
+
+    def stirred(self) -> None:
+        """Called when a hook has changed, between two calls of the brain, what is due or ordered."""
+        ...
+
+
+class ToldTime(VirtualTime):
+    """The kernel of a brain. Without a runner hooks are called at once, in virtual time."""
+
+    def __init__(self, runner: HookRunner | None = None, midnight: float = 0.0) -> None:
+        """`midnight`: the seconds between the midnight before the start and the start."""
+        super().__init__()
+        self._runner, self._midnight = runner, midnight
+        self._inside = False
+        self._hooks: dict[int, Future[None]] = {}
+        """The hooks that take their time, by their numbers."""
+        self._calls = 0
+
+    def call(self, now: float, stop: Sequence[object], *calls: Callable[[], object]) -> None:
+        """Make calls at a time, and process what follows; raise the error with which a task crashed."""
+        self.now, self._inside = now, True
+        try:
+            for call in calls:
+                call()
+            self.drain(stop)
+        finally:
+            self._inside = False
+        if self.crashed is not None:
+            raise self.crashed
+
+    def time(self) -> float:
+        """Return the seconds since the start; between two calls of the brain it goes on."""
+        runner = self._runner
+        return self.now if self._inside or runner is None else max(self.now, runner.now())
+
+    @property
+    def time_of_day(self) -> float:
+        """Seconds since midnight."""
+        return (self._midnight + self.now) % 86_400
+
+    def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
+        """Schedule a call; hooks may do so between two calls of the brain."""
+        if self._inside or self._runner is None:
+            super().schedule(when, kind, key, call)
+        else:
+            self.now = self.time()
+            super().schedule(when, kind, key, call)
+            self._runner.stirred()
+
+    def post(self, call: Callable[..., object], *args: object) -> None:
+        """Make a call within the kernel, for a hook that runs outside of it."""
+        if self._inside or self._runner is None:
+            call(*args)
+        else:
+            self.call(self.time(), AT_ONCE, partial(call, *args))
+            self._runner.stirred()
+
+    async def call_hook(
+        self, hook: Callable[..., object], /, *args: object, **named: object
+    ) -> object:
+        """Call one of the app's hooks, `def` or `async def`, and return its result."""
+        runner = self._runner
+        if runner is None:
+            return await super().call_hook(hook, *args, **named)
+        self._calls = number = self._calls + 1
+        if not runner.start(number, hook, partial(hook, *args, **named)):
+            ended = self._hooks[number] = Future[None]()
+            try:
+                await ended
+            finally:
+                del self._hooks[number]
+                if not ended.is_set:
+                    runner.cancel(number)
+        return runner.result(number)
+
+    def hook_ended(self, number: int) -> None:
+        """Called when a hook that took its time has ended."""
+        if number in self._hooks:
+            self._hooks[number].set(None)
+
+    async def offer(self, future: Future[T]) -> T:
+        """Return what a hook may await for this future."""
+        if self._runner is None:
+            return await future
+        await self._runner.offer(future.watch)
+        return future.result()
