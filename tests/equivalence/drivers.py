@@ -10,6 +10,7 @@ from selectors import DefaultSelector, SelectorKey
 from typing import TYPE_CHECKING, Any, TypeVarTuple
 
 from pluto_fleet.flight.simulate import Simulation
+from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain.errors import BadInput
@@ -90,17 +91,25 @@ def in_real_time(
 
     async def flown() -> SimulationResult:
         kernel = _Midnight()
-        simulation = Simulation(app, fleet, kernel, seed, faults, on_event)
+        events: list[Event] = []
+
+        def hear(event: Event) -> None:
+            events.append(event)
+            if on_event is not None:
+                on_event(event)
+
+        hooks = RealHooks(kernel)
+        simulation = Simulation(app, fleet, kernel, seed, faults, hear, hooks=hooks)
         try:
             async with asyncio.timeout(until):
-                ended = await kernel.run(simulation.session.start(missions))
+                ended = await kernel.run(simulation.start(missions))
         except TimeoutError:
             ended = kernel.now
         except asyncio.CancelledError:
             raise BadInput("missions wait for ever") from None
         finally:
-            kernel.close()
-        return simulation.outcome(missions, ended)
+            simulation.close()
+        return simulation.outcome(missions, events, ended, "")
 
     loop = _Jumping()
     try:

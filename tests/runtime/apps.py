@@ -27,6 +27,7 @@ from plutoc_runtime.domain import model
 from plutoc_runtime.domain.actions import BUILT_IN, Action
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.model import AfterTrip, Category, Item, Point
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.trace import Event
@@ -61,6 +62,21 @@ class Mission(model.Mission[Trip]):
     evaluator: str | None = None
 
 
+FIELDS = tuple(
+    Field(name=name, on=on, type=type_, label=name, default=default)
+    for name, on, type_, default in (
+        ("at", Entity.MISSION, FieldType.TIME_OF_DAY, None),
+        ("every", Entity.MISSION, FieldType.TIME, None),
+        ("safe_time", Entity.MISSION, FieldType.TIME, None),
+        ("repeat", Entity.MISSION, FieldType.ROUNDS, 0),
+        ("evaluator", Entity.MISSION, FieldType.EVALUATOR, None),
+        ("delay", Entity.TRIP, FieldType.TIME, None),
+        ("priority", Entity.TRIP, FieldType.INT, 0),
+        ("gap", Entity.TRIP, FieldType.TIME, None),
+    )
+)
+
+
 def app(
     flow: Callable[[Run[Mission]], Coroutine[Any, Any, Status]],
     *,
@@ -75,7 +91,7 @@ def app(
         flow=flow,
         mission=Mission,
         trip=Trip,
-        fields=(),
+        fields=FIELDS,
         categories=tuple(categories),
         actions={**BUILT_IN, **{action.name: action for action in actions}},
         evaluators=evaluators or {},

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import Simulation
+from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.alone.simulate import SimulationResult
@@ -25,11 +26,17 @@ def fly(
 
     async def flown() -> SimulationResult:
         kernel = RealTime()
-        simulation = Simulation(app, fleet, kernel, 0, Faults(), listener)
+        events: list[Event] = []
+
+        def hear(event: Event) -> None:
+            events.append(event)
+            listener(event)
+
+        simulation = Simulation(app, fleet, kernel, 0, Faults(), hear, hooks=RealHooks(kernel))
         try:
-            ended = await kernel.run(simulation.session.start(missions))
+            ended = await kernel.run(simulation.start(missions))
         finally:
-            kernel.close()
-        return simulation.outcome(missions, ended)
+            simulation.close()
+        return simulation.outcome(missions, events, ended, "")
 
     return asyncio.run(flown())

@@ -12,7 +12,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.journal.fold import Records
-from plutoc_runtime.hooks.values import value_data, value_of
 from plutoc_runtime.domain.errors import ActionFailed
 from plutoc_runtime.domain.model import Mission, Photo
 from plutoc_runtime.domain.status import Status
@@ -21,6 +20,7 @@ from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.verdict import Verdict
 from plutoc_runtime.hooks.context import Context
 from plutoc_runtime.hooks.keepable import keepable
+from plutoc_runtime.hooks.values import value_data, value_of
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 

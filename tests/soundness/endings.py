@@ -18,6 +18,7 @@ from typing import Any
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import Simulation, simulate
+from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
@@ -152,14 +153,15 @@ def _really(
     async def flown() -> None:
         kernel = RealTime()
         fleet = _fleet(app, Airspace(cruise_height=0.003))
-        simulation = Simulation(app, fleet, kernel, seed, _faults(seed), hear)
+        hooks = RealHooks(kernel)
+        simulation = Simulation(app, fleet, kernel, seed, _faults(seed), hear, hooks=hooks)
         try:
             async with asyncio.timeout(REAL):
-                await kernel.run(simulation.session.start(missions))
+                await kernel.run(simulation.start(missions))
         except TimeoutError:
             pass  # what still flies is told from what hangs by its launches
         finally:
-            kernel.close()
+            simulation.close()
 
     asyncio.run(flown())
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
+from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
+from ..domain.guard import unless_by_a_person
 from ..domain.mission_data import Data, fields_of, trip_data
 from ..domain.model import Drone
 from ..domain.status import DroneStatus, Status, TripStatus
@@ -47,8 +50,8 @@ def standing_of(app: App, state: MissionState) -> Data:
         "reason": mission.reason,
         "round": mission.round,
         "attempts": mission.attempts,
-        "todo": [_trip(app, trip) for trip in mission.trips],
-        "done": [_trip(app, trip) for trip in mission.completed_trips],
+        "todo": _trips(app, mission.trips),
+        "done": _trips(app, mission.completed_trips),
         "at": state.at,
         "delay": state.delay and [list(state.delay[0]), state.delay[1], state.delay[2]],
         "waited": sorted(map(list, state.waited or ())),
@@ -70,6 +73,19 @@ def standing_of(app: App, state: MissionState) -> Data:
         "interrupted": state.interrupted,
         "ended": state.ended,
     }
+
+
+def _trips(app: App, trips: Sequence[Trip]) -> list[Data]:
+    """Return trips as plain data; none, if a hook has left nonsense there and ended its mission."""
+    try:
+        return [_trip(app, trip) for trip in trips if _is_sound(app, trip)]
+    except ANY_ERROR as error:
+        unless_by_a_person(error)
+        return []
+
+
+def _is_sound(app: App, trip: Trip) -> bool:
+    return trip.action in app.actions and len(trip.target) == 3 and all(map(isfinite, trip.target))
 
 
 def _trip(app: App, trip: Trip) -> Data:

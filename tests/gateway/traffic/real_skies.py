@@ -11,10 +11,10 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.simulation.body import Body, SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.fleet.telemetry import Leg
 from plutoc_runtime.alone.world import World
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Point
+from plutoc_runtime.fleet.telemetry import Leg
 from plutoc_runtime.time.kernel import Kernel
 from tests.gateway.traffic.skies import ENDURING, Sky
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from pluto_fleet.flight.live_fleet import live_fleet
 from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons, why_no_drone
-from plutoc_runtime.fleet.telemetry import Charge
 from plutoc_runtime.domain.model import Category, Item
 from plutoc_runtime.domain.status import DroneStatus
+from plutoc_runtime.fleet.telemetry import Charge
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 
