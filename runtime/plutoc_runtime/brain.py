@@ -13,8 +13,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from .domain.fleet_data import DroneData, FleetData
 from .domain.model import AfterTrip
+from .flow.control import Control
 from .flow.engine import Session
+from .flow.recording import Recording
+from .flow.restore import Restorer
 from .flow.standing import drone_standing, mission_of, standing_of
+from .hooks.values import value_data
 from .orders import Order, Orders
 from .time.told import AT_ONCE, HookRunner, ToldTime
 
@@ -50,12 +54,18 @@ class Brain:
     ) -> None:
         """`fleet` has the `drones` (`id`, `category`, `home`), and perhaps `after_trip`, `max_airborne`.
 
-        With `silent` in it nothing is kept for `events`. Without `hooks` they are called at once.
+        With `recorded` in it, the events say all from which a later brain can go on; no drone is free
+        before `go_on` has said how it is, and the brain must be told what is `durable`. With `silent`
+        nothing is kept for `events`. Without `hooks` they are called at once.
         """
         drones = [_drone(one, app) for one in fleet["drones"]]
         self._app, self._kernel = app, ToldTime(hooks, fleet.get("midnight", 0.0))
         self._orders = Orders(self._kernel, {drone.id: drone for drone in drones})
         self._events: list[Event] = []
+        self._states: dict[str, MissionState] = {}
+        recorded = fleet.get("recorded", False)
+        self._recording = Recording(app, self._states, self._events)
+        hear = self._recording.hear if recorded else self._events.append
         self._session = Session(
             app,
             FleetData(
@@ -66,9 +76,12 @@ class Brain:
             ),
             self._kernel,
             self._orders,
-            () if fleet.get("silent") else (self._events.append,),
+            () if fleet.get("silent") else (hear,),
+            self._recording.on_record if recorded else None,
         )
-        self._states: dict[str, MissionState] = {}
+        self._recording.results = self._session.core.results
+        self._restorer = Restorer(self._session.core, self._session.engine, self._states)
+        self._control = Control(self._session, self._states, self._restorer, self._orders.probed)
         self._whole: Task[float] | None = None
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
@@ -79,15 +92,48 @@ class Brain:
         first = len(self._states)
         begun = [mission_of(self._app, one, first + i) for i, one in enumerate(missions)]
         self._states.update((state.mission.name, state) for state in self._session.set_out(begun))
-        if self._whole is None:
+        self._see_through()
+
+    def _see_through(self) -> None:
+        if self._whole is None or self._whole.is_set:
             self._whole = self._session.see_through_task()
+
+    def go_on(self, standing: Mapping[str, Any], drones: Mapping[str, Any], now: float) -> None:
+        """Resume missions from their records, after any end, or after one was paused.
+
+        `standing` has the `missions` by name, as in `standing()`, the `results` so far, how many trips
+        each drone has `flown`, and which drones are `lost` or `retired`. `drones` are the reports of
+        those that no mission may need: `reached`, `landed`, `carrying`, `problems`.
+        """
+        self._kernel.call(now, AT_ONCE, partial(self._go_on, standing, drones))
+
+    def _go_on(self, standing: Mapping[str, Any], drones: Mapping[str, Any]) -> None:
+        fleet = self._session.core.fleet
+        for drone in fleet.drones:
+            if drone.id in standing.get("retired", ()):
+                fleet.retired.add(drone)
+            if drone.id in standing.get("lost", ()):
+                fleet.lost[drone] = str(standing["lost"][drone.id])
+        self._restorer.go_on(standing, drones)
+        self._see_through()
+
+    def command(self, request: Mapping[str, Any], now: float) -> str:
+        """Do what a person wants; raise `BadInput` with the reason why it cannot be done.
+
+        `{"command": "pause" or "cancel", "mission": …}`: take it out of its graph, to `go_on` later, or
+        never; `skip` a trip that is not the next one; `prioritise` one; `retire` or `bring-back` a drone;
+        `probe` whether a flight's action was done: the answer is an order to note what was `probed`.
+        """
+        said: list[str] = []
+        self._kernel.call(now, AT_ONCE, lambda: said.append(self._control.perform(request)))
+        return said[0]
 
     def tell(self, message: Mapping[str, Any], now: float) -> None:
         """Take over what has happened outside; what is unknown is ignored.
 
         `{"done": id, "value": …}` or `{"failed": id, "failure": …, "reason": …}` for an order,
         `{"telemetry": {drone: {"leg" or "at", "battery", "landed"}}}` for drones, `{"hook": number}`
-        for a hook that took its time.
+        for a hook that took its time, `{"durable": count}` for events that are on the disk.
         """
         if "telemetry" in message:
             self._kernel.now = now
@@ -101,6 +147,8 @@ class Brain:
                 call = partial(self._orders.failed, order, message)
             case {"hook": number}:
                 call = partial(self._kernel.hook_ended, number)
+            case {"durable": number}:
+                call = partial(self._recording.durable, number)
             case _:
                 return
         self._kernel.call(now, AT_ONCE, call)
@@ -125,14 +173,33 @@ class Brain:
         return events
 
     def standing(self) -> Mapping[str, Any]:
-        """Return where every mission and every drone stands."""
+        """Return where every mission and every drone stands, and all results."""
+        core = self._session.core
         return {
             "missions": {name: standing_of(self._app, one) for name, one in self._states.items()},
-            "drones": {drone.id: drone_standing(drone) for drone in self._session.drones},
-            "waiting": (
-                self._session.core.queue.summary() if self._session.core.queue.waiting else ""
-            ),
+            "drones": self.drones(),
+            "results": [
+                [
+                    one.mission.name,
+                    one.trip and one.trip.name,
+                    one.round,
+                    one.attempt,
+                    value_data(one.value),
+                ]
+                for one in core.results.so_far()
+            ],
+            "waiting": core.queue.summary() if core.queue.waiting else "",
         }
+
+    def drones(self) -> Mapping[str, Any]:
+        """Return where every drone stands."""
+        why = self._session.core.fleet.unready
+        return {one.id: drone_standing(one, why.get(one, "")) for one in self._session.drones}
+
+    @property
+    def living(self) -> int:
+        """How many missions are on their way through their graphs."""
+        return self._session.engine.living
 
     @property
     def over(self) -> float | None:
@@ -143,6 +210,16 @@ class Brain:
     def telemetry(self, drone: str) -> KnownState:
         """Return what is known of a drone; it stays current."""
         return self._orders.drones[drone]
+
+    @property
+    def session(self) -> Session:
+        """What is inside: for a station, until it reads all that it shows from `standing`."""
+        return self._session
+
+    @property
+    def states(self) -> Mapping[str, MissionState]:
+        """The missions inside, by name: for a station, as above."""
+        return self._states
 
     def close(self) -> None:
         """End everything where it is; nothing may be called after that."""

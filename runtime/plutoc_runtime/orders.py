@@ -1,7 +1,9 @@
 """What the brain says shall be done: commands for drones become orders, and what is told of them is their answer.
 
-An order is a mapping with an `id`, what to `do`, and the `drone`. The orders: `fly` a trip's flight,
-`break_off`, `hold` (hover), `read` and `write` (a value of a hovering drone), `home`, `land`, `recover`,
+An order is a mapping with an `id`, what to `do`, and the `drone`. The orders: `fly` a trip's flight, `attach`
+(report the end of a flight that began before an interruption), `break_off` (with `settle`, report then what
+came of the flight of that order), `hold` (hover), `read` and `write` (a value of a hovering drone), `home`,
+`land`, `recover`, `mended` (a person has repaired it), `probed` (note whether a flight's action was done),
 and `cancel` (another `order`).
 """
 
@@ -34,6 +36,8 @@ class Orders:
         self.drones = {drone: KnownState(clock, data.home) for drone, data in drones.items()}
         self._answers: dict[int, Answer] = {}
         """What to call with the outcome of each order that is under way, by its id."""
+        self._flying: dict[str, int] = {}
+        """The latest order to fly of each drone."""
         self._count = 0
 
     def take(self) -> list[Order]:
@@ -69,10 +73,32 @@ class Orders:
         order["flight"], order["stops"], order["seconds"] = flight.id, flight.stops, flight.seconds
         order["action"], order["parameters"] = flight.action, flight.parameters
         order["item"] = item_data(flight.item)
+        self._flying[flight.flier.id] = order["id"]
+
+    def attach(self, flight: Flight, report: Answer) -> None:
+        """Order the report of a flight that began before an interruption."""
+        order = self._give("attach", flight.flier.id, report)
+        order["flight"] = flight.id
+        self._flying[flight.flier.id] = order["id"]
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover."""
+        self._answers.pop(self._flying.pop(drone, 0), None)
         self._give("break_off", drone, None)
+
+    def settle(self, flight: Flight) -> None:
+        """Stop a flight; what came of it is the answer to the order to fly."""
+        order = self._give("break_off", flight.flier.id, None)
+        order["settle"], order["flight"] = self._flying.get(flight.flier.id), flight.id
+
+    def probed(self, drone: str, flight: str, answer: bool | None) -> None:
+        """Order to note whether the action of a flight was done; None: the app cannot tell."""
+        order = self._give("probed", drone, None)
+        order["flight"], order["value"] = flight, answer
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone."""
+        self._give("mended", drone, None)
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes."""
@@ -94,9 +120,10 @@ class Orders:
         """Land here."""
         await self._ask("land", drone)
 
-    async def recover(self, drone: str) -> bool:
-        """Bring a drone home after a failed flight, landed; False: it is lost."""
-        return bool(await self._ask("recover", drone))
+    async def recover(self, drone: str) -> str | None:
+        """Bring a drone home after a failed flight, landed; else return why it is lost."""
+        home = await self._ask("recover", drone)
+        return None if home is True else str(home or "")
 
     def _give(self, do: str, drone: str, answer: Answer | None) -> Order:
         self._count = number = self._count + 1

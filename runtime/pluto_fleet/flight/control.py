@@ -6,51 +6,35 @@ done. Nothing here waits before the drones are told.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.status import DroneStatus, Status
+from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.text import counted, quoted
+from plutoc_runtime.flow.control import PRIORITY
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Task, mission_key
+from plutoc_runtime.time.kernel import FLEET, Task
 
-from ..jobs.reports import Down
-from ..journal.recorder import Recorder
-from . import interventions
-from .live_engine import live_engine
-from .live_fleet import live_fleet
-from .reconcile import (
-    Outcome,
-    doubt,
-    find_outcome,
-    fly_again,
-    fly_on,
-    resume_status,
-    settle_doubt,
-    was_done,
-)
+from ..jobs.reports import Down, reported_result
+from .mission_status import aside, in_order
+from .reconcile import PROBED, Outcome, ended, id_of, in_flight, outcome_of, question, trip_of
+from .recovery import ANSWERS as DONE_OR_NOT
+from .recovery import CANCELLED, for_brain
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Drone, Trip
-    from plutoc_runtime.flow.engine import Session
-    from plutoc_runtime.flow.mission import MissionState
-    from plutoc_runtime.trips.flight import Flight
-
-    from ..jobs.job import CommandLink
     from ..journal.fold import Record
+    from .recorded_flight import RecordedFlight
 
-    Then = Callable[[MissionState], None]
-
-CANCELLED = "cancelled by hand"
+Then = Callable[[str, "Record"], None]
 
 
 class Control:
     """The commands of one running app."""
 
-    def __init__(self, session: Session, link: CommandLink) -> None:
-        self._link, self._core, self._engine = link, session.core, live_engine(session)
+    def __init__(self, run: RecordedFlight) -> None:
+        self._run, self._link = run, run.link
         self.stopped: Future[Down] = Future()
         """Set when everything was stopped and all drones are down."""
         self.whole: Task[float] | None = None
@@ -58,23 +42,25 @@ class Control:
         self._stops: Task[None] | None = None
         self._steps_out: dict[str, Task[None]] = {}
         """The tasks of missions whose flights are being aborted."""
+        self._probes: dict[str, Future[bool | None]] = {}
+        """The flights whose outcomes the app is asked for, by their ids."""
+        self._untold: list[tuple[int, list[Any]]] = []
+        """Results that the brain does not know yet, with their numbers."""
 
     def stop(self, how: Down) -> str:
         """Suspend every mission and bring all drones down; all can be resumed later."""
-        core = self._core
         if self._stops is None and self.whole is not None and self.whole.is_set:
             return "all missions have ended, and all drones are down"
         if self._stops is None:
-            self._engine.halt()
-            live_fleet(core).halt()
+            self._run.halt()
             for work in self._steps_out.values():
                 work.cancel()
             if self.whole is not None:
                 self.whole.cancel()  # it may still be querying drones: nothing may begin after that
-            core.trace.note("stopped", how=how.value)
+            self._run.note("stopped", how=how.value)
         else:
             self._stops.cancel()
-        self._stops = core.kernel.spawn(self._bring_down(how), FLEET, "everything stops")
+        self._stops = self._run.kernel.spawn(self._bring_down(how), FLEET, "everything stops")
         return "stopping: " + _HOW[how]
 
     async def _bring_down(self, how: Down) -> None:
@@ -83,224 +69,290 @@ class Control:
 
     def pause(self, mission: str | None = None) -> str:
         """Suspend a mission, or all, until it is told to go on."""
-        states = self._those(mission, lambda status: status not in _ASIDE, "can be paused")
-        for state in states:
-            self._step_out(state, self._paused)
-        return f"{_named(states)}: paused"
+        those = self._those(mission, lambda status: status not in _ASIDE, "can be paused")
+        for name, record in those:
+            self._step_out(name, record, self._paused)
+        return f"{_named(those)}: paused"
 
     def go_on(self, mission: str | None = None) -> str:
         """Resume a paused mission, or all paused ones."""
-        states = self._those(mission, lambda status: status is Status.PAUSED, "is paused")
-        for state in states:
-            self._refuse_while_it_steps_out(state)
-        for state in states:
-            self._resume(state)
-        return f"{_named(states)}: going on"
+        those = self._those(mission, lambda status: status is Status.PAUSED, "is paused")
+        for name, _ in those:
+            self._refuse_while_it_steps_out(name)
+        for name, record in those:
+            self._resume(name, record)
+        return f"{_named(those)}: going on"
 
     def skip(self, mission: str, trip: str | None = None) -> str:
         """Skip a trip, the next one or the one named; if it flies, its drone comes home."""
-        state = self._state(mission)
-        if state.mission.status in (Status.UNCERTAIN, Status.HELD):
+        record = self._record(mission)
+        if self._status(mission, record) in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
-        unwanted = _trip_to_skip(state, trip)
-        if unwanted is state.mission.trips[0]:  # it may fly, or be waited for
-            self._step_out(state, partial(self._skip, unwanted))
+        unwanted = _trip_to_skip(mission, record, trip)
+        if unwanted is record["todo"][0]:  # it may fly, or be waited for
+            self._step_out(mission, record, partial(self._skip, unwanted["name"]))
         else:
-            interventions.skip(self._core, state.mission, unwanted)
-        return f"mission {quoted(mission)}: trip {quoted(unwanted.name)} is skipped"
+            self._command("skip", mission=mission, trip=unwanted["name"])
+            self._run.note("trip.skipped", mission=mission, trip=unwanted["name"])
+        return f"mission {quoted(mission)}: trip {quoted(unwanted['name'])} is skipped"
 
     def cancel(self, mission: str | None = None) -> str:
         """End a mission, or all, for good: CANCELLED."""
-        states = self._those(mission, lambda _: True, "can be cancelled")
-        for state in states:
-            self._cancel(state)
-        return f"{_named(states)}: cancelled"
+        those = self._those(mission, lambda _: True, "can be cancelled")
+        for name, _ in those:
+            self._cancel(name)
+        return f"{_named(those)}: cancelled"
 
     def decide(self, mission: str, answer: str) -> str:
         """Answer an open question: `done`, `not-done`, `go-on` or `cancel`."""
-        state = self._state(mission)
-        status = state.mission.status
+        record = self._record(mission)
+        status = self._status(mission, record)
         fitting = ANSWERS.get(status, ())
         if answer not in fitting:
             asked = f"fitting answers are {', '.join(fitting)}" if fitting else "it asks nothing"
             raise BadInput(f"mission {quoted(mission)} is {status.value}: {asked}")
-        if answer == "go-on" and not (state.mission.trips or state.mission.completed_trips):
+        if answer == "go-on" and not (record["todo"] or record["done"]):
             raise BadInput(f"mission {quoted(mission)} cannot go on in this app: cancel it")
-        interventions.decide(self._core, state.mission, answer)
+        self._run.note("mission.decided", mission=mission, answer=answer)
         if answer == "cancel":
-            self._cancel(state)
+            self._cancel(mission)
         elif answer == "go-on":
-            points = self._core.app.resumes
-            state.at = state.at if state.at in points else next(iter(points), None)
-            self._step_out(state, self._resume)
+            self._step_out(mission, record, self._resume)
         else:
-            settle_doubt(state, self._engine, self._link, answer == "done")
+            self._settle(mission, record, DONE_OR_NOT[answer])
+            self._go_on(mission, record)
         return f"mission {quoted(mission)}: {answer}"
 
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
         """Change the priority of a trip that has not been flown."""
-        state = self._state(mission)
-        if not any(field.name == interventions.PRIORITY for field in self._core.app.fields):
+        record = self._record(mission)
+        if not any(field.name == PRIORITY for field in self._run.app.fields):
             raise BadInput("the trips of this app have no priority")
-        wanted = _trip_to_do(state, trip)
-        interventions.prioritise(self._core, state.mission, wanted, priority)
-        self._core.queue.prioritise(wanted, priority)
+        _trip_to_do(mission, record, trip)
+        self._run.note("trip.prioritised", mission=mission, trip=trip, priority=priority)
+        self._command("prioritise", mission=mission, trip=trip, priority=priority)
         return f"mission {quoted(mission)}: trip {quoted(trip)} has priority {priority}"
 
     def retire(self, drone: str) -> str:
         """Allocate a drone to no further trip, until it is brought back."""
-        who = self._drone(drone)
-        if who in live_fleet(self._core).retired:
+        known = self._drone(drone)
+        if drone in self._run.records.retired:
             return f"{drone} is retired already"
-        self._core.trace.note("drone.retired", drone=drone)
-        flies = who.status is DroneStatus.BUSY
-        live_fleet(self._core).retire(who)
-        return f"{drone} is retired" + (", once its trip is over" if flies else "")
+        self._run.note("drone.retired", drone=drone)
+        self._command("retire", drone=drone)
+        return f"{drone} is retired" + (
+            ", once its trip is over" if known["status"] == "BUSY" else ""
+        )
 
     def bring_back(self, drone: str) -> str:
         """Make a drone available again that was retired, or lost and repaired since."""
-        who, fleet = self._drone(drone), live_fleet(self._core)
-        lost = who.status is DroneStatus.LOST
-        asked = lost or who in fleet.unready
-        if not asked and who not in fleet.retired:
+        known = self._drone(drone)
+        lost = known["status"] == "LOST"
+        asked = lost or bool(known.get("unready"))
+        if not asked and drone not in self._run.records.retired:
             return f"{drone} is neither retired nor lost"
-        self._core.trace.note("drone.brought_back", drone=drone, lost=lost)
-        fleet.bring_back(who)
+        self._run.note("drone.brought_back", drone=drone, lost=lost)
+        self._command("bring-back", drone=drone)
         return f"{drone} is asked whether it is well" if asked else f"{drone} is back"
 
     def remember(self, id: str, command: str) -> None:
         """Record that a command is carried out, so that it is never carried out twice."""
-        self._core.trace.note("commanded", id=id, command=command)
+        self._run.note("commanded", id=id, command=command)
 
     async def carried_out(self) -> None:
         """Wait until a command has taken effect and is durable."""
         for work in list(self._steps_out.values()):
             await work.ended()
-        recorder = self._core.recorder
-        if recorder is not None:
-            await recorder.on_record()
+        await self._run.recorder.on_record()
+
+    @property
+    def waits(self) -> bool:
+        """Whether missions that are in no graph keep the app running."""
+        if self._steps_out:
+            return True
+        waiting = [aside(record) for record in self._run.records.missions.values()]
+        paused = any(one is not None and one[0] is Status.PAUSED for one in waiting)
+        return paused or (self._run.patient and any(one is not None for one in waiting))
+
+    def _command(self, command: str, **request: Any) -> None:
+        self._run.driver.call(partial(self._run.brain.command, {"command": command, **request}))
 
     # Suspending one mission, and resuming it
 
-    def _step_out(self, state: MissionState, then: Then) -> None:
+    def _step_out(self, name: str, record: Record, then: Then) -> None:
         """Suspend a mission; continue when the outcome of its flight is known."""
-        mission, flight = state.mission, state.in_flight
-        self._refuse_while_it_steps_out(state)
-        if flight is None:
-            flown = self._record(state)["flight"]
-            state.goes_on = bool(flown and flown["outcome"] and not flown["heard"])
-            self._engine.set_aside(state)
-            then(state)
+        self._refuse_while_it_steps_out(name)
+        flight = in_flight(record)
+        if aside(record) is None:
+            self._command("pause", mission=name)
+        if flight is None or aside(record) is not None:
+            then(name, record)
             return
-        self._engine.set_aside(state)
-        mission.status = Status.PAUSED
-        state.break_off(flight)
-        self._steps_out[mission.name] = self._core.kernel.spawn(
-            self._broken_off(state, flight, then),
-            mission_key(mission.index),
-            f"{mission.name} is interrupted",
+        self._steps_out[name] = self._run.kernel.spawn(
+            self._broken_off(name, record, then), FLEET, f"{name} is interrupted"
         )
 
-    def _refuse_while_it_steps_out(self, state: MissionState) -> None:
-        name = state.mission.name
+    def _refuse_while_it_steps_out(self, name: str) -> None:
         if name in self._steps_out:
             raise BadInput(
                 f"mission {quoted(name)} is just being interrupted: its drone is asked what it has "
                 "done; try again in a moment"
             )
 
-    async def _broken_off(self, state: MissionState, flight: Flight, then: Then) -> None:
-        """Abort a flight, and find out its outcome from the ledger and the drone."""
-        fleet_report = await self._link.fleet_report()
-        entry = fleet_report.jobs.get(flight.id)
-        begun = bool(self._record(state)["flight"]["begun"])
-        what = await find_outcome(self._core, flight, entry, begun)
-        del self._steps_out[state.mission.name]
-        if not self._engine.is_aside(state):
-            return  # it has ended meanwhile
-        if flight.is_set:
-            state.goes_on = True
-            then(state)
-            return
+    async def _broken_off(self, name: str, record: Record, then: Then) -> None:
+        """Find out the outcome of a flight from the ledger and the drone."""
+        flight = record["flight"]
+        entry = (await self._link.fleet_report()).jobs.get(id_of(name, flight))
+        what = outcome_of(entry, self._run.repeat_of(record), bool(flight["begun"]))
         if what is Outcome.UNKNOWN:
-            doubt(state, flight)
-            if flight.trip.item is None:
-                self._core.fleet.recover(flight.flier)
-            self._engine.look_for_the_end()
+            what = await self.probe(name, record)
+        del self._steps_out[name]
+        if record["ended"]:
+            return  # it has ended meanwhile
+        if what is Outcome.UNKNOWN:
+            self.doubt(name, record)
+            self._run.look_for_the_end()
             return
         if what is Outcome.FLIES_ON and entry is not None:  # it has just ended
-            fly_on(state, flight, self._link, entry)
-            if state.doom is not None:
-                return  # for good
+            self._take_result(name, ended(name, flight, reported_result(entry)))
         else:
-            if what is Outcome.DONE:
-                was_done(state, flight)
-            else:
-                fly_again(state, flight, self._link)
-            if flight.flier is state.carrier:
-                state.keep_carrier(flight.flier)
-            else:
-                self._core.fleet.recover(flight.flier)
-        then(state)
+            self._settle(name, record, what)
+        if not record["ended"]:
+            then(name, record)
+        self._run.look_for_the_end()
 
-    def _paused(self, state: MissionState) -> None:
-        interventions.pause(self._core, state.mission)
+    def _settle(self, name: str, record: Record, what: Outcome) -> None:
+        """Record whether the action of an interrupted flight was done."""
+        flight = record["flight"]
+        if what is Outcome.DONE:
+            self._take_result(name, ended(name, flight))
+        else:
+            self._link.forget(
+                id_of(name, flight)
+            )  # it is to be flown, even if its id is known already
+            self._run.note("trip.interrupted", mission=name, trip=flight["trip"])
 
-    def _resume(self, state: MissionState) -> None:
-        flight = state.flight if state.goes_on else None
-        status = resume_status(state) if flight is None else flight.result()
-        interventions.resume(self._core, state.mission, status)
-        delay = self._record(state)["delay"]
-        if state.delay is not None and delay is not None:
-            state.delay = state.delay[0], delay[1], delay[2]  # it has not waited meanwhile
-        self._engine.resume(state, resume_status(state))
+    def _take_result(self, name: str, event: dict[str, Any]) -> None:
+        """Record the end of a flight that the brain has not seen; a failed one loses what is aboard."""
+        record = self._run.records.missions[name]
+        carries = record["carries"]
+        if event["event"] == "trip.failed" and carries is not None:
+            event["reason"] = reason = f"{event['reason']}, with {carries['name']} aboard"
+            self._run.take(event)
+            self._command("cancel", mission=name, status=Status.FAILED.value, reason=reason)
+            return
+        number = len(self._run.records.results)
+        self._run.take(event)
+        if event["event"] == "trip.completed":
+            self._untold.append((number, self._run.records.results[number]))
 
-    def _skip(self, unwanted: Trip, state: MissionState) -> None:
-        mission = state.mission
-        was_paused = self._record(state)["paused"] is not None
-        if unwanted in mission.trips:
-            interventions.skip(self._core, mission, unwanted)
-            state.goes_on = False
-        if not mission.trips and not state.goes_on:
-            self._engine.end(state, Status.COMPLETED, "")
+    def _paused(self, name: str, _: Record) -> None:
+        self._run.note("mission.paused", mission=name)
+
+    def _resume(self, name: str, record: Record) -> None:
+        flight = record["flight"]
+        heard = flight is None or flight["outcome"] is None or flight["heard"]
+        begun = record["attempts"] or record["interrupted"]
+        usual = Status.STANDBY.value if begun else Status.UNEXECUTED.value
+        status = usual if heard else flight["outcome"]
+        self._run.note("mission.resumed", mission=name, status=status)
+        self._go_on(name, record)
+
+    def _go_on(self, name: str, record: Record) -> None:
+        """Give a suspended mission back to the brain."""
+        untold = [(number, one) for number, one in self._untold if one[0] == name]
+        self._untold = [(number, one) for number, one in self._untold if one[0] != name]
+        standing = {
+            "missions": {name: for_brain(self._run.app, record)},
+            "results": [one for _, one in untold],
+            "first_result": untold[0][0] if untold else 0,
+        }
+        self._run.driver.call(partial(self._run.brain.go_on, standing, {}))
+
+    def _skip(self, unwanted: str, name: str, record: Record) -> None:
+        was_paused = record["paused"] is not None
+        if any(trip["name"] == unwanted for trip in record["todo"]):
+            self._run.note("trip.skipped", mission=name, trip=unwanted)
+        flight = record["flight"]
+        heard = flight is None or flight["outcome"] is None or flight["heard"]
+        if not record["todo"] and heard:
+            self._command("cancel", mission=name, status=Status.COMPLETED.value, reason="")
         elif not was_paused:
-            self._resume(state)
+            self._resume(name, record)
 
-    def _cancel(self, state: MissionState) -> None:
-        work = self._steps_out.pop(state.mission.name, None)
+    def _cancel(self, name: str) -> None:
+        work = self._steps_out.pop(name, None)
         if work is not None:
             work.cancel()
-        self._engine.set_aside(state)
-        flight = state.in_flight
-        if flight is not None and state.mission.status is Status.UNCERTAIN:
-            state.flight = None  # its drone may be flying for another mission by now
-            if flight.trip.item is not None:
-                self._core.fleet.recover(flight.flier)
-                state.carrier = None
-        self._engine.end(state, Status.CANCELLED, CANCELLED)
+        self._command("cancel", mission=name, status=Status.CANCELLED.value, reason=CANCELLED)
+        self._run.look_for_the_end()
+
+    # What only the app, or a person, can tell
+
+    async def probe(self, name: str, record: Record) -> Outcome:
+        """Ask the app's own hook, if there is one, whether the action of a flight was done."""
+        answer: Future[bool | None] = Future()
+        id = id_of(name, record["flight"])
+        self._probes[id] = answer
+        self._command("probe", mission=name, record=for_brain(self._run.app, record))
+        return PROBED[await answer]
+
+    def probed(self, flight: str, answer: bool | None) -> None:
+        """Called with what the app's hook says."""
+        asked = self._probes.pop(flight, None)
+        if asked is not None:
+            asked.set(answer)
+
+    def doubt(self, name: str, record: Record) -> None:
+        """Record that only the user can say whether the action of a suspended mission was done."""
+        flight, trip = record["flight"], trip_of(record, record["flight"])
+        assert trip is not None
+        why = question(trip, flight["drone"])
+        self._run.note(
+            "mission.uncertain", mission=name, trip=trip["name"], drone=flight["drone"], reason=why
+        )
+
+    def doubt_in_flight(self, name: str, id: str) -> None:
+        """Suspend a mission whose flight was called off, and whose action may be done."""
+        record = self._run.records.missions[name]
+        flight = in_flight(record)
+        if flight is None or id_of(name, flight) != id or aside(record) is not None:
+            return  # it has ended, or its mission was suspended
+        if name in self._steps_out or record["ended"]:
+            return
+        self._command("pause", mission=name)
+        self.doubt(name, record)
+        self._run.look_for_the_end()
 
     # Which missions and drones
 
-    def _drone(self, id: str) -> Drone:
+    def _drone(self, id: str) -> Mapping[str, Any]:
         self._refuse_after_stop()
-        for drone in self._core.fleet.drones:
-            if drone.id == id:
-                return drone
-        names = ", ".join(quoted(drone.id) for drone in self._core.fleet.drones)
+        drones = self._run.brain.drones()
+        if id in drones:
+            found: Mapping[str, Any] = drones[id]
+            return found
+        names = ", ".join(quoted(drone) for drone in drones)
         raise BadInput(f"no drone {quoted(id)} is in the fleet; there are: {names}")
 
-    def _record(self, state: MissionState) -> Record:
-        recorder = self._core.recorder
-        assert isinstance(recorder, Recorder)
-        return recorder.records.missions[state.mission.name]
+    def _under_way(self) -> list[tuple[str, Record]]:
+        known = in_order(self._run.records) if self._run.is_set_out else []
+        return [(name, record) for name, record in known if not record["ended"]]
 
-    def _state(self, mission: str) -> MissionState:
+    def _record(self, mission: str) -> Record:
         self._refuse_after_stop()
-        for state in self._engine.states:
-            if state.mission.name == mission:
-                return state
-        names = ", ".join(quoted(state.mission.name) for state in self._engine.states)
+        living = self._under_way()
+        for name, record in living:
+            if name == mission:
+                return record
+        names = ", ".join(quoted(name) for name, _ in living)
         raise BadInput(f"no mission {quoted(mission)} is under way; there are: {names or 'none'}")
+
+    def _status(self, name: str, record: Record) -> Status:
+        if name in self._steps_out:
+            return Status.PAUSED
+        waits = aside(record)
+        return Status(record["status"]) if waits is None else waits[0]
 
     def _refuse_after_stop(self) -> None:
         if self._stops is not None:
@@ -308,48 +360,46 @@ class Control:
 
     def _those(
         self, mission: str | None, fits: Callable[[Status], bool], what: str
-    ) -> Sequence[MissionState]:
+    ) -> Sequence[tuple[str, Record]]:
         self._refuse_after_stop()
         if mission is not None:
-            state = self._state(mission)
-            if not fits(state.mission.status):
-                raise BadInput(f"mission {quoted(mission)} is {state.mission.status.value}")
-            return (state,)
-        states = [state for state in self._engine.states if fits(state.mission.status)]
-        if not states:
+            record = self._record(mission)
+            status = self._status(mission, record)
+            if not fits(status):
+                raise BadInput(f"mission {quoted(mission)} is {status.value}")
+            return ((mission, record),)
+        those = [(name, one) for name, one in self._under_way() if fits(self._status(name, one))]
+        if not those:
             raise BadInput(f"no mission {what}")
-        return states
+        return those
 
 
-def _trip_to_skip(state: MissionState, name: str | None) -> Trip:
+def _trip_to_skip(mission: str, record: Record, name: str | None) -> Record:
     """Return the trip to skip; raise `BadInput` if it cannot be skipped."""
-    mission = state.mission
-    who = f"mission {quoted(mission.name)}"
-    if not mission.trips:
+    who = f"mission {quoted(mission)}"
+    if not record["todo"]:
         raise BadInput(f"{who} has no trip left to skip")
-    unwanted = mission.trips[0] if name is None else _trip_to_do(state, name)
-    if unwanted.item is not None:
+    unwanted: Record = record["todo"][0] if name is None else _trip_to_do(mission, record, name)
+    if unwanted.get("item") is not None:
         raise BadInput(
-            f"{who}: trip {quoted(unwanted.name)} picks or releases {unwanted.item.name}, and what "
-            "is picked must be released: cancel the mission instead"
+            f"{who}: trip {quoted(unwanted['name'])} picks or releases {unwanted['item']['name']}, and "
+            "what is picked must be released: cancel the mission instead"
         )
     return unwanted
 
 
-def _trip_to_do(state: MissionState, name: str) -> Trip:
-    trips: dict[str, Trip] = {trip.name: trip for trip in state.mission.trips}
+def _trip_to_do(mission: str, record: Record, name: str) -> Record:
+    trips: dict[str, Record] = {trip["name"]: trip for trip in record["todo"]}
     if name not in trips:
         left = ", ".join(quoted(one) for one in trips) or "none"
-        raise BadInput(
-            f"mission {quoted(state.mission.name)} has no trip {quoted(name)} to do; it has {left}"
-        )
+        raise BadInput(f"mission {quoted(mission)} has no trip {quoted(name)} to do; it has {left}")
     return trips[name]
 
 
-def _named(states: Sequence[MissionState]) -> str:
-    if len(states) == 1:
-        return f"mission {quoted(states[0].mission.name)}"
-    return counted(len(states), "mission")
+def _named(those: Sequence[tuple[str, Record]]) -> str:
+    if len(those) == 1:
+        return f"mission {quoted(those[0][0])}"
+    return counted(len(those), "mission")
 
 
 _ASIDE = (Status.PAUSED, Status.UNCERTAIN, Status.HELD)

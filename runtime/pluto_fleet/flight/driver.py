@@ -38,6 +38,10 @@ class Driver:
         self._busy = False
         self._armed_for = inf
         """For when the next call of the brain is scheduled."""
+        self.halted = False
+        """Whether the brain is not called any more."""
+        self.pumped: Callable[[], object] = _nothing
+        """Called when the brain has been told, and has said, all that there was."""
         self.done: Future[float] = Future()
         """Set to the time at which the last mission ended, once every drone has landed as well."""
 
@@ -48,13 +52,18 @@ class Driver:
 
     def call(self, call: Callable[[float], object]) -> None:
         """Call the brain with the time, and pass on what it says."""
-        self._look()
-        call(self._kernel.now)
-        self.pump()
+        if not self.halted:
+            self._look()
+            call(self._kernel.now)
+            self.pump()
+
+    def halt(self) -> None:
+        """Call the brain no more, and obey it no more."""
+        self.halted = True
 
     def pump(self) -> None:
         """Pass on what the brain says, and tell it what there is to tell, until there is nothing more."""
-        if self._busy:
+        if self._busy or self.halted:
             return
         brain, told = self._brain, self._told
         self._busy = True
@@ -64,7 +73,7 @@ class Driver:
                     self._hear(event)
                 for order in brain.orders():
                     self._obey(order)
-                if not told:
+                if not told or self.halted:
                     break
                 message = told.popleft()
                 if motions := self._motions():
@@ -72,16 +81,21 @@ class Driver:
                 brain.tell(message, self._kernel.now)
         finally:
             self._busy = False
+        if self.halted:
+            return
+        self.pumped()
         over, due = brain.over, brain.due
         if over is not None:
             self.done.set(over)
         elif due is not None and due < self._armed_for:
             self._armed_for = due
             # after all else of that instant: it is all that is known then
-            self._kernel.schedule(due, EventKind.ALLOCATE, FLEET, self._advance)
+            self._kernel.at(due, EventKind.ALLOCATE, FLEET, self._advance)
 
     def _advance(self) -> None:
         self._armed_for, now = inf, self._kernel.now
+        if self.halted:
+            return
         due = self._brain.due
         if due is not None and due <= now:
             self._look()
@@ -91,3 +105,7 @@ class Driver:
     def _look(self) -> None:
         if motions := self._motions():
             self._brain.tell({"telemetry": motions}, self._kernel.now)
+
+
+def _nothing() -> None:
+    """Nobody waits for that."""

@@ -20,11 +20,10 @@ from plutoc_runtime.time.kernel import FLEET
 from ..jobs.reports import Down
 from ..journal.errors import JournalError
 from ..journal.writer import Writer
+from ..process.hook_runner import RealHooks
 from ..process.realtime import RealTime
 from .commands import hear_commands, perform, stop_in
 from .config import End, FlightResult
-from .live_engine import live_engine
-from .live_fleet import live_fleet
 from .recorded_flight import RecordedFlight
 
 if TYPE_CHECKING:
@@ -75,6 +74,7 @@ class LiveFlight:
         self._link = link = await setting.connect(kernel, self._store.epoch, lost)
         if self._watcher is not None:
             link.on_telemetry(self._watcher)
+        hooks = RealHooks(kernel)
         self.life = life = RecordedFlight(
             setting.app,
             setting.fleet,
@@ -85,9 +85,11 @@ class LiveFlight:
             epoch=self._store.epoch,
             listeners=(self._count,),
             watcher=setting.tell,
+            hooks=hooks,
+            midnight=(kernel.time_of_day - kernel.time()) % 86_400,
         )
-        live_engine(life.session).patient = setting.patient
-        live_fleet(life.session.core).carried_home = setting.sim
+        hooks.ended, hooks.stir = life.hook_ended, life.driver.pump
+        life.patient, life.carried_home = setting.patient, setting.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         async with hear_commands(setting.note, self.answer):
@@ -107,7 +109,7 @@ class LiveFlight:
         return FlightResult(
             end=end,
             missions=life.missions,
-            drones=life.session.drones,
+            drones=life.drones,
             records=self._records,
         )
 
@@ -136,6 +138,8 @@ class LiveFlight:
 
     async def close(self) -> None:
         """End this run; the drones hover, or continue their jobs."""
+        if self.life is not None:
+            self.life.close()
         self._kernel.close()
         self._writer.close()
         if self._link is not None:

@@ -55,8 +55,12 @@ class Dispatcher:
         match order["do"]:
             case "fly":
                 self._link.fly(OrderedJob(order), partial(self._reported, number))
+            case "attach":
+                self._link.attach(order["flight"], partial(self._reported, number))
             case "break_off":
                 self._link.break_off(drone)
+            case "mended":
+                self._link.mended(drone)
             case "cancel":
                 task = self._under_way.pop(order["order"], None)
                 if task is not None:
@@ -82,12 +86,19 @@ class Dispatcher:
             case "land":
                 return link.land(drone)
             case "recover":
-                return link.recover(drone)
+                return self._recovered(drone)
             case do:
                 raise ValueError(f"a brain ordered {do!r}, which this library does not know")
 
+    async def _recovered(self, drone: str) -> bool | str:
+        """Bring a drone home; if it is lost, return what it says of that itself."""
+        if await self._link.recover(drone):
+            return True
+        report = await self._link.drone_report(drone)
+        return "; ".join(report.problems)
+
     def _reported(self, number: int, result: object) -> None:
-        self.tell(_outcome(number, result))
+        self.tell(outcome(number, result))
 
     def _ended(self, number: int, task: Task[Any]) -> None:
         if self._under_way.pop(number, None) is not task:
@@ -95,12 +106,13 @@ class Dispatcher:
         if task.error is None:
             self.tell({"done": number, "value": task.result()})
         elif isinstance(task.error, FlightFailed):
-            self.tell(_outcome(number, task.error))
+            self.tell(outcome(number, task.error))
         elif not isinstance(task.error, Cancelled):
             self._kernel.crash(task.error)
 
 
-def _outcome(number: int, result: object) -> Message:
+def outcome(number: int, result: object) -> Message:
+    """Return what a brain is told of an order."""
     if isinstance(result, FlightFailed):
         return {"failed": number, "failure": result.failure.name, "reason": str(result)}
     return {"done": number, "value": value_data(result)}

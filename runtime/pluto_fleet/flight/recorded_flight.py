@@ -6,38 +6,47 @@ begins with the journal's records and a report of the drones, however the last o
 
 from __future__ import annotations
 
-from collections.abc import Coroutine, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime.brain import Brain
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import of, quoted
-from plutoc_runtime.flow.engine import Listener, Session
+from plutoc_runtime.domain.text import of, place, quoted
+from plutoc_runtime.flow.standing import drones_of, fleet_data, mission_data, update
+from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
 from ..files.reading import shortened
-from ..journal.durable_link import DurableLink
+from ..jobs.reports import reported_result
 from ..journal.recorder import Recorder, Sink
 from ..process.signal_guard import guard_hooks
-from .abort import DeferredAbort
 from .control import Control
-from .live_engine import LiveEngine, live_engine
-from .live_fleet import LiveFleet, live_fleet
-from .recovery import go_on
+from .driver import Driver, Message, Order
+from .mission_status import in_order
+from .orders import Dispatcher, outcome
+from .reconcile import Outcome, outcome_of
+from .recovery import Recovery
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
+    from plutoc_runtime.domain.model import Drone, Mission
     from plutoc_runtime.domain.trace import Event
+    from plutoc_runtime.time.told import HookRunner
 
     from ..files.fleet import FleetFile
     from ..jobs.job import CommandLink
     from ..jobs.reports import FleetReport
     from ..journal.fold import Records
 
+Listener = Callable[["Event"], object]
+
+HELPLESS = 12.0
+"""Seconds after which a drone on the ground would have begun to fly home, if it could."""
+
 
 class RecordedFlight:
-    """A session whose events are durable before they have any effect outside."""
+    """A brain whose events are durable before they have any effect outside."""
 
     def __init__(
         self,
@@ -51,115 +60,296 @@ class RecordedFlight:
         epoch: int,
         listeners: Sequence[Listener] = (),
         watcher: Listener | None = None,
+        hooks: HookRunner | None = None,
+        midnight: float = 0.0,
     ) -> None:
-        """`watcher` is called with an event only when it is durable, `listeners` at once."""
+        """`watcher` is called with an event only when it is durable, `listeners` at once.
+
+        `midnight`: the seconds between the midnight before the app's start and the start.
+        """
         guard_hooks()
-        self._kernel, self._link, self._epoch = kernel, link, epoch
-        self.recorder = Recorder(app, kernel, sink, records)
-        navigation = DurableLink(link, self.recorder)
-        heard: list[Listener] = [self.recorder.take, self._forget, *listeners]
-        if watcher is not None:
-            heard.append(partial(self._when_durable, watcher))
-        self.session = Session(
+        self.app, self.fleet, self.kernel, self.link = app, fleet, kernel, link
+        self.recorder = Recorder(kernel, sink, records)
+        self.brain = Brain(
             app,
-            fleet,
-            kernel,
-            navigation,
-            heard,
-            self.recorder,
-            DeferredAbort(link),
-            LiveFleet,
-            LiveEngine,
+            {**fleet_data(fleet), "recorded": True, "midnight": midnight},
+            space=fleet.airspace,
+            hooks=hooks,
         )
-        self.control = Control(self.session, link)
-        self._retired: Sequence[str] = records.retired
-        self._mended: Sequence[str] = records.mended
-        self._lost: Mapping[str, Any] = records.lost
-        self.missions: tuple[Mission[Any], ...] = ()
-        """All missions, also those that ended in earlier runs."""
+        self._epoch, self._listeners, self._watcher = epoch, tuple(listeners), watcher
+        keys = {drone.id: FLEET + 1 + index for index, drone in enumerate(fleet.drones)}
+        self._dispatcher = Dispatcher(kernel, link, keys)
+        self.driver = Driver(
+            kernel, self.brain, obey=self._obey, motions=self._news, hear=self._hear
+        )
+        self._dispatcher.tell = self.driver.tell
+        self.driver.pumped = self.look_for_the_end
+        self._seen: dict[str, tuple[object, ...]] = {}
+        """The telemetry that the brain was told last, by drone."""
+        self._heard = 0
+        """How many events the brain has said."""
+        self._held: dict[str, Order] = {}
+        """The flights that wait for the journal, by drone."""
+        self.carried_home = True
+        """Whether drones that need a person are waited for when all missions have ended."""
+        self.patient = False
+        """Whether the flight goes on while missions wait for the user's decision."""
+        self._over: Future[float] = Future()
+        self._ended_at: float | None = None
+        self._stands_since: dict[str, float] = {}
+        self._helpless: Task[None] | None = None
+        self.is_set_out = False
+        """Whether the brain has its missions."""
+        self.control = Control(self)
 
-    def _forget(self, event: Event) -> None:
-        """Remove from the gateway's ledger what is durable in the journal."""
-        if event["event"] in ("trip.completed", "trip.failed"):
-            mission, trip = event["mission"], event["trip"]
-            id = f"{mission}/{trip}/{event['round']}/{event['attempt']}"
-            self.recorder.when_durable(partial(self._link.forget, id))
+    @property
+    def records(self) -> Records:
+        """Where everything stands."""
+        return self.recorder.records
 
-    def _when_durable(self, watcher: Listener, event: Event) -> None:
-        if event["event"] == "trip.completed":
-            records = self.recorder.records
-            trip = records.flown_last(str(event["mission"]))
-            event = {**event, "result": records.results[-1][-1], "did": trip}
-        self.recorder.when_durable(partial(watcher, event))
+    @property
+    def missions(self) -> tuple[Mission[Any], ...]:
+        """All missions as they stand, also those that ended in earlier runs; none before they are known."""
+        return self._as_missions() if self.is_set_out else ()
+
+    def _as_missions(self) -> tuple[Mission[Any], ...]:
+        missions = []
+        for name, record in in_order(self.records):
+            mission = self.app.mission(name=name, trips=[], index=record["index"])
+            if record["held"] is None:  # else it may not fit the app
+                update(self.app, mission, record)
+            missions.append(mission)
+        return tuple(missions)
+
+    @property
+    def drones(self) -> tuple[Drone, ...]:
+        """The drones as they stand."""
+        return drones_of(self.app, self.fleet, self.brain.drones(), self.link.telemetry)
+
+    # Starting and resuming
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
-        """Fly these missions from the beginning; the task is as that of `Session.start`."""
+        """Fly these missions from the beginning; the task returns when the last one ended."""
         return self._set_out(self._started(missions))
 
     def go_on(self, planned: Sequence[Mission[Any]]) -> Task[float]:
         """Resume from the records; if the journal has no mission yet, fly the planned ones."""
-        if not self.recorder.records.missions:
+        if not self.records.missions:
             return self.start(planned)
         return self._set_out(self._went_on())
 
     def add(self, missions: Sequence[Mission[Any]]) -> None:
         """Start more missions while others fly; raise `BadInput` if they cannot be flown."""
-        if not self.missions:
+        if not self.is_set_out:
             raise BadInput("the drones are just being asked where they are: try again in a moment")
-        for name in {one.name for one in self.missions} & {one.name for one in missions}:
-            raise BadInput(f"a mission {quoted(name)} has been started already: rename the new one")
-        first = 1 + max(mission.index for mission in self.missions)
+        known = self.records.missions
+        for mission in missions:
+            if mission.name in known:
+                name = quoted(mission.name)
+                raise BadInput(f"a mission {name} has been started already: rename the new one")
+        first = 1 + max(record["index"] for record in known.values())
         for index, mission in enumerate(missions, start=first):
             mission.index = index
-        self.missions += tuple(missions)
-        live_engine(self.session).add(missions)
+        self._begin(missions)
+
+    def _begin(self, missions: Sequence[Mission[Any]]) -> None:
+        data = [mission_data(self.app, one) for one in missions]
+        self.driver.call(partial(self.brain.begin, data))
 
     def _set_out(self, whole: Coroutine[Any, Any, float]) -> Task[float]:
-        self.control.whole = task = self._kernel.spawn(whole, FLEET, "the session")
+        self.control.whole = task = self.kernel.spawn(whole, FLEET, "the session")
         return task
 
     async def _started(self, missions: Sequence[Mission[Any]]) -> float:
-        core = self.session.core
-        fleet_report = await self._link.fleet_report()
-        if fleet_report.drones.keys().isdisjoint(self._mended):  # else one of them is queried again
-            _refuse_if_none_is_ready(
-                fleet_report, {name: one["reason"] for name, one in self._lost.items()}
-            )
-        core.trace.note("brain.began", epoch=self._epoch)
-        self._retire()
-        for drone in core.fleet.drones:
-            live_fleet(core).take_up(drone, fleet_report.drones[drone.id])
-        self.session.set_out(missions)
-        self.missions = tuple(missions)
-        return await self.session.see_through()
+        records = self.records
+        fleet_report = await self.link.fleet_report()
+        if fleet_report.drones.keys().isdisjoint(
+            records.mended
+        ):  # else one of them is queried again
+            lost = {name: one["reason"] for name, one in records.lost.items()}
+            _refuse_if_none_is_ready(fleet_report, lost)
+        self.note("brain.began", epoch=self._epoch)
+        recovery = Recovery(self, fleet_report)
+        recovery.ask_the_mended()
+        self.driver.call(partial(self.brain.go_on, recovery.standing(), recovery.drones))
+        self._begin(missions)
+        self.is_set_out = True
+        return await self._over
 
     async def _went_on(self) -> float:
-        session, records = self.session, self.recorder.records
-        fleet_report = await self._link.fleet_report()
-        session.core.trace.note("brain.began", epoch=self._epoch)
-        self._retire()
-        missions = await go_on(
-            session.core, live_engine(session), self._link, fleet_report, records
-        )
-        self.missions = tuple(missions)
-        return await session.see_through()
+        fleet_report = await self.link.fleet_report()
+        self.note("brain.began", epoch=self._epoch)
+        recovery = Recovery(self, fleet_report)
+        recovery.ask_the_mended()
+        await recovery.find_out()
+        recovery.settle()
+        self.driver.call(partial(self.brain.go_on, recovery.standing(), recovery.drones))
+        self.is_set_out = True
+        self.look_for_the_end()
+        return await self._over
 
-    def _retire(self) -> None:
-        """Do not allocate drones that were retired or lost in an earlier run.
+    def halt(self) -> None:
+        """Let the brain do nothing more: a later run goes on from the records."""
+        self.driver.halt()
+        self.brain.close()
+        self._held.clear()
 
-        Those that were repaired and not back when it ended are queried again.
-        """
-        fleet = live_fleet(self.session.core)
-        fleet.retired.update(drone for drone in fleet.drones if drone.id in self._retired)
-        fleet.lost.update(
-            {
-                drone: self._lost[drone.id]["reason"]
-                for drone in fleet.drones
-                if drone.id in self._lost
+    def close(self) -> None:
+        """End this run where it is."""
+        self.driver.halt()
+        self.brain.close()
+
+    # The end
+
+    def look_for_the_end(self) -> None:
+        """End the run if every mission has ended and every drone is down; missions may wait for people."""
+        if self._over.is_set or not self.is_set_out or self.driver.halted:
+            return
+        if self.brain.living or self.control.waits:
+            self._ended_at = None
+        elif self._ended_at is None:
+            self._ended_at = self.kernel.now
+        if self._ended_at is None:
+            return
+        if self.brain.over is not None:
+            self._over.set(self._ended_at)
+        elif not self.carried_home and self._helpless is None:
+            self._helpless = self.kernel.spawn(
+                self._wait_for_people(), FLEET, "drones need a person"
+            )
+
+    async def _wait_for_people(self) -> None:
+        """End the run, too, if all that keeps it are drones that stand on the ground and need a person."""
+        since: dict[str, float] = {}
+        while self._ended_at is not None and not self._over.is_set:
+            now, drones = self.kernel.now, self.brain.drones()
+            under_way = {id for id, one in drones.items() if one["status"] in _UNDER_WAY}
+            for id in drones:
+                stands = drones[id]["status"] == "RECOVERING" and drones[id]["landed"]
+                if id in under_way and stands:
+                    since.setdefault(id, now)
+                else:
+                    since.pop(id, None)
+            if under_way and all(now - since.get(id, now) >= HELPLESS for id in under_way):
+                for id in drones:
+                    if id in under_way:
+                        where = place(drones[id]["at"])
+                        text = f"{id} stands at {where} and needs a person: go and look"
+                        self.note("log", mission=None, text=text)
+                self._over.set(self._ended_at)
+                break
+            await self.kernel.sleep(1.0)
+        self._helpless = None
+
+    # What happens
+
+    def note(self, event: str, **facts: object) -> None:
+        """Record an event of this run that the brain does not know."""
+        self.take({"event": event, **facts})
+
+    def take(self, event: Event) -> None:
+        """Record such an event, given as a mapping."""
+        self._take({"t": round(self.kernel.now, 6), **event})
+
+    def _hear(self, event: Event) -> None:
+        self._heard += 1
+        self._take(event)
+        self.recorder.when_durable(partial(self._tell_durable, self._heard))
+
+    def hook_ended(self, number: int) -> None:
+        """Called within the kernel when a hook that took its time has ended."""
+        self.driver.tell({"hook": number})
+
+    def _tell_durable(self, number: int) -> None:
+        self.driver.tell({"durable": number})
+
+    def _take(self, event: Event) -> None:
+        if not self.recorder.take(event):
+            return
+        if event["event"] in ("trip.completed", "trip.failed"):
+            # it is durable in the journal: the gateway's ledger need not remember it
+            mission, trip = event["mission"], event["trip"]
+            id = f"{mission}/{trip}/{event['round']}/{event['attempt']}"
+            self.recorder.when_durable(partial(self.link.forget, id))
+        for listener in self._listeners:
+            listener(event)
+        if self._watcher is not None:
+            if event["event"] == "trip.completed":
+                event = {**event, "did": self.records.flown_last(str(event["mission"]))}
+            self.recorder.when_durable(partial(self._watcher, event))
+
+    # What the brain orders
+
+    def _obey(self, order: Order) -> None:
+        """Carry out an order; a flight only once its launch is durable."""
+        drone = order["drone"]
+        match order["do"]:
+            case "fly":
+                self._held[drone] = order
+                self.recorder.when_durable(partial(self._let_fly, order))
+            case "break_off":
+                held = self._held.pop(drone, None)
+                self.link.break_off(drone)
+                if order.get("settle") is not None:
+                    self.kernel.spawn(
+                        self._settle(order, held is not None),
+                        FLEET,
+                        f"{order['flight']} is called off",
+                    )
+            case "probed":
+                self.control.probed(order["flight"], order["value"])
+            case _:
+                self._dispatcher.obey(order)
+
+    def _let_fly(self, order: Order) -> None:
+        if self._held.get(order["drone"]) is order:
+            del self._held[order["drone"]]
+            self._dispatcher.obey(order)
+
+    async def _settle(self, order: Order, was_held: bool) -> None:
+        """Report what came of a flight that was called off: its action may be done by now."""
+        number, id = order["settle"], order["flight"]
+        entry = None if was_held else (await self.link.fleet_report()).jobs.get(id)
+        mission = id.rsplit("/", 3)[0]
+        record = self.records.missions[mission]
+        what = outcome_of(entry, self.repeat_of(record), begun=False)
+        if what is Outcome.UNKNOWN:
+            self.control.doubt_in_flight(mission, id)
+        elif what is Outcome.FLIES_ON and entry is not None:
+            if entry.flies:
+                self.link.attach(id, lambda result: self.driver.tell(outcome(number, result)))
+            else:
+                self.driver.tell(outcome(number, reported_result(entry)))
+        else:
+            failed: Message = {
+                "failed": number,
+                "failure": "REFUSED",
+                "reason": "it was broken off",
             }
-        )
-        for drone in self._mended:
-            self._link.mended(drone)
+            self.driver.tell(failed)
+
+    def repeat_of(self, record: Mapping[str, Any]) -> str:
+        """Return whether the action of a mission's flight may be repeated: `safe`, `once` or `ask`."""
+        flight = record["flight"]
+        for which in ("todo", "done", "gone"):
+            for trip in record[which]:
+                if trip["name"] == flight["trip"] and trip["action"] in self.app.actions:
+                    return self.app.actions[trip["action"]].repeat
+        return "ask"
+
+    def _news(self) -> Mapping[str, Any]:
+        """Return the telemetry of the drones that has changed since the brain was told."""
+        news = {}
+        for entry in self.fleet.drones:
+            known = self.link.telemetry(entry.id)
+            now = (known.location, known.battery_level, known.landed)
+            if self._seen.get(entry.id) != now:
+                self._seen[entry.id] = now
+                news[entry.id] = {"at": now[0], "battery": now[1], "landed": now[2]}
+        return news
+
+
+_UNDER_WAY = ("RETURNING", "RECOVERING", "BUSY")
 
 
 def _refuse_if_none_is_ready(fleet_report: FleetReport, lost: Mapping[str, str]) -> None:

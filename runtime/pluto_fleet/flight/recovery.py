@@ -1,191 +1,214 @@
-"""Resuming missions from the records of an earlier run and a report of the drones."""
+"""Resuming from the records of an earlier run and a report of the drones, in plain data.
+
+Every flight that had not ended is settled first: its outcome is an event, as if it had been seen. Then the
+records say how each mission goes on.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.trips.flight import Flight
 
-from . import interventions
-from .control import CANCELLED
-from .live_fleet import live_fleet
-from .reconcile import (
-    Outcome,
-    doubt,
-    find_outcome,
-    fly_again,
-    fly_on,
-    resume_status,
-    settle_doubt,
-    was_done,
-)
-from .restore import Rebuilt, last_flight, rebuilt, remember, restore_results
+from .mission_status import in_order
+from .reconcile import Outcome, ended, id_of, in_flight, outcome_of, reported
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Drone, Mission
-    from plutoc_runtime.flow.mission import Core, MissionState
+    from plutoc_runtime.domain.app import App
 
-    from ..jobs.job import CommandLink
-    from ..jobs.reports import FleetReport
-    from ..journal.fold import Records
-    from .live_engine import LiveEngine
+    from ..jobs.reports import DroneReport, FleetReport
+    from ..journal.fold import Record
+    from .recorded_flight import RecordedFlight
 
+CANCELLED = "cancelled by hand"
 
-async def go_on(
-    core: Core, engine: LiveEngine, link: CommandLink, fleet_report: FleetReport, records: Records
-) -> list[Mission[Any]]:
-    """Resume everything where it was interrupted; return all missions, also those that have ended."""
-    by_index = sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
-    missions = {name: rebuilt(core, name, record) for name, record in by_index}
-    restore_results(core, records, missions)
-    drones = {drone.id: drone for drone in core.fleet.drones}
-    for drone in drones.values():
-        drone.trips = records.flown.get(drone.id, 0)
-    revivals = [
-        _Revival(core, engine, link, fleet_report, one, drones)
-        for one in missions.values()
-        if not one.record["ended"]
-    ]
-    for (
-        revival
-    ) in revivals:  # this may take a while, and nothing begins before all outcomes are known
-        await revival.find_out()
-    engaged: set[Drone] = set()
-    for revival in revivals:
-        revival.revive(engaged)
-    at_work = {entry.drone for entry in fleet_report.jobs.values() if entry.flies}
-    for drone in drones.values():
-        if drone not in engaged:
-            found = fleet_report.drones[drone.id]
-            if drone.id in at_work:  # the earlier run could not abort its job any more
-                link.break_off(drone.id)
-                found = replace(found, landed=False)  # it may take off before it receives that
-            live_fleet(core).take_up(drone, found)
-    engine.look_for_the_end()
-    return [one.mission for one in missions.values()]
+ANSWERS = {"done": Outcome.DONE, "not-done": Outcome.NOT_DONE}
+"""What a person's answer says of an action."""
 
 
-class _Revival:
-    """Resumes one mission."""
+class Recovery:
+    """Settles what an earlier run has left, and says how a brain goes on."""
 
-    def __init__(
-        self,
-        core: Core,
-        engine: LiveEngine,
-        link: CommandLink,
-        fleet_report: FleetReport,
-        one: Rebuilt,
-        drones: Mapping[str, Drone],
-    ) -> None:
-        self._core, self._engine, self._link, self._fleet_report = core, engine, link, fleet_report
-        self._mission, self._record, self._unfit = one.mission, one.record, one.unfit
-        self._state: MissionState = engine.new_state(one.mission)
-        remember(self._state, one.record, drones)
-        self._flight: Flight | None = last_flight(self._state, one, drones)
-        self._fate: Outcome | None = None
+    def __init__(self, run: RecordedFlight, fleet_report: FleetReport) -> None:
+        self._run, self._report = run, fleet_report
+        self._app, self._link, self._records = run.app, run.link, run.records
+        self._outcomes: dict[str, Outcome] = {}
+        """What came of the missions' flights that had not ended."""
+        self._suspended: set[str] = set()
+        self._unfit: dict[str, str] = {}
+        """Why missions do not fit the present app."""
+        self._reports: dict[str, Mapping[str, Any]] = {}
+        """What was reported of flights that ended after the earlier run, by mission."""
+
+    def ask_the_mended(self) -> None:
+        """Ask those drones anew that were repaired, and not back when the earlier run ended."""
+        for drone in self._records.mended:
+            self._link.mended(drone)
 
     async def find_out(self) -> None:
-        """Find out the outcome of a flight that had not ended."""
-        flight, record = self._flight, self._record
-        if flight is not None and not flight.is_set and self._why_held() is None:
-            entry, begun = self._fleet_report.jobs.get(flight.id), bool(record["flight"]["begun"])
-            self._fate = await find_outcome(self._core, flight, entry, begun)
+        """Find out the outcome of each flight that had not ended.
 
-    def revive(self, engaged: set[Drone]) -> None:
-        """Resume the mission, or say why it waits for the user; add the drones that it uses."""
-        state, record, engine = self._state, self._record, self._engine
-        why_held = self._why_held()
-        if record["answer"] == "cancel":
-            engine.set_aside(state)
-            state.flight = state.carrier = None
-            engine.end(state, Status.CANCELLED, CANCELLED)
-        elif why_held is not None:
-            self._call_off()
-            self._check_carrier(engaged)
-            engine.set_aside(state)
-            interventions.hold(self._core, self._mission, why_held)
-        else:
-            if state.at is not None and state.at not in self._core.app.resumes:
-                state.at = self._core.app.resumes[0]  # the user has said so
-            if self._fate is None:
-                self._check_carrier(engaged)
-                self._resume()
+        This may take a while, and nothing begins before all outcomes are known.
+        """
+        for name, record in self._living():
+            self._unfit.update({name: why} if (why := unfit(self._app, record)) else {})
+            flight = in_flight(record)
+            if flight is not None and self._why_held(name, record) is None:
+                entry = self._report.jobs.get(id_of(name, flight))
+                what = outcome_of(entry, self._run.repeat_of(record), bool(flight["begun"]))
+                if what is Outcome.UNKNOWN:
+                    what = await self._run.control.probe(name, record)
+                self._outcomes[name] = what
+
+    def settle(self) -> None:
+        """Record what came of every mission's flight, and how the mission goes on."""
+        for name, record in self._living():
+            why = self._why_held(name, record)
+            if record["answer"] == "cancel":
+                self._end(name, Status.CANCELLED, CANCELLED)
+            elif why is not None:
+                self._call_off(record)
+                self._check_carrier(name, record)
+                if not record["ended"]:
+                    self._run.note("mission.held", mission=name, reason=why)
+                    self._suspended.add(name)
+            elif name in self._outcomes:
+                self._settle_flight(name, record, self._outcomes[name])
             else:
-                self._settle(self._fate, engaged)
+                self._check_carrier(name, record)
+                self._resume(name, record)
 
-    def _settle(self, what: Outcome, engaged: set[Drone]) -> None:
-        """Settle a flight that had not ended, and resume."""
-        state, flight, link = self._state, self._flight, self._link
-        assert flight is not None
-        entry = self._fleet_report.jobs.get(flight.id)
+    def _living(self) -> list[tuple[str, Record]]:
+        return [(name, record) for name, record in in_order(self._records) if not record["ended"]]
+
+    def _settle_flight(self, name: str, record: Record, what: Outcome) -> None:
+        flight = record["flight"]
+        entry = self._report.jobs.get(id_of(name, flight))
         if what is Outcome.FLIES_ON and entry is not None:
-            engaged.add(flight.flier)
-            fly_on(state, flight, link, entry)
-            self._resume()
+            if not entry.flies:
+                self._reports[name] = reported(entry)
+            self._resume(name, record)
             return
         if what is Outcome.UNKNOWN:
-            if flight.trip.item is not None:
-                engaged.add(flight.flier)
-            answer = self._record["answer"] if self._record["question"] else None
-            if answer in _ANSWERS:
-                settle_doubt(state, self._engine, link, _ANSWERS[answer])
-            else:
-                self._engine.set_aside(state)
-                doubt(state, flight)
-            return
-        link.break_off(flight.drone)
+            answer = record["answer"] if record["question"] else None
+            if answer not in ANSWERS:
+                self._run.control.doubt(name, record)
+                self._suspended.add(name)
+                return
+            what = ANSWERS[answer]
+        else:
+            self._link.break_off(flight["drone"])
         if what is Outcome.DONE:
-            was_done(state, flight)
+            self._run.take(ended(name, flight))
         else:
-            fly_again(state, flight, link)
-        if state.carrier is not None:
-            engaged.add(state.carrier)
-            state.keep_carrier(state.carrier)
-        self._resume()
+            self._link.forget(
+                id_of(name, flight)
+            )  # it is to be flown, even if its id is known already
+            self._run.note("trip.interrupted", mission=name, trip=flight["trip"])
+        self._resume(name, record)
 
-    def _resume(self) -> None:
-        state, mission = self._state, self._mission
-        if state.doom is not None:
-            self._engine.set_aside(state)  # to be ended at once
-        elif self._record["paused"] is not None:
-            self._engine.set_aside(state)
-            interventions.pause(self._core, mission)
-        else:
-            status = resume_status(state)
-            if not state.goes_on:
-                mission.status, mission.reason = status, ""
-            self._engine.resume(state, status)
+    def _resume(self, name: str, record: Record) -> None:
+        if record["paused"] is not None and not record["ended"]:
+            self._run.note("mission.paused", mission=name)
+            self._suspended.add(name)
 
-    def _check_carrier(self, engaged: set[Drone]) -> None:
+    def _check_carrier(self, name: str, record: Record) -> None:
         """Check that the mission's item is still aboard its drone."""
-        state = self._state
-        drone, item = state.carrier, state.carries
-        if drone is None or item is None:
+        if record["carrier"] is None or record["carries"] is None:
             return
-        found = self._fleet_report.drones[drone.id]
-        if found.reached and found.carrying != item.name:
-            state.carrier = state.carries = None
-            state.end(f"{item.name} is not aboard {drone.id} any more")
-        else:
-            engaged.add(drone)
-            state.keep_carrier(drone)
+        found, item = self._report.drones[record["carrier"]], record["carries"]["name"]
+        if found.reached and found.carrying != item:
+            self._end(name, Status.FAILED, f"{item} is not aboard {found.drone} any more")
 
-    def _why_held(self) -> str | None:
-        if self._unfit is not None:
-            return self._unfit
-        at, points = self._record["at"], self._core.app.resumes
-        if at is None or at in points or (at == self._record["accepted"] and points):
+    def _end(self, name: str, status: Status, reason: str) -> None:
+        self._run.note("mission.ended", mission=name, status=status.value, reason=reason)
+
+    def _why_held(self, name: str, record: Record) -> str | None:
+        if name in self._unfit:
+            return self._unfit[name]
+        at, points = record["at"], self._app.resumes
+        if at is None or at in points or (at == record["accepted"] and points):
             return None
         return f"it stopped at block {at}, which the app has no more as a place to go on"
 
-    def _call_off(self) -> None:
-        flown = self._record["flight"]
+    def _call_off(self, record: Record) -> None:
+        flown = record["flight"]
         if flown is not None and flown["outcome"] is None and not flown["heard"]:
             self._link.break_off(flown["drone"])
 
+    # For the brain
 
-_ANSWERS = {"done": True, "not-done": False}
-"""The user's answers, by whether the action was done."""
+    def standing(self) -> Mapping[str, Any]:
+        """Return how everything stands."""
+        records = self._records
+        return {
+            "missions": {name: self._record(name) for name in records.missions},
+            "results": records.results,
+            "flown": records.flown,
+            "lost": {drone: one["reason"] for drone, one in records.lost.items()},
+            "retired": records.retired,
+        }
+
+    def _record(self, name: str) -> Record:
+        record = self._records.missions[name]
+        if name in self._unfit:
+            return {"index": record["index"], "status": "HELD", "suspended": True}
+        record = for_brain(self._app, record)
+        if name in self._suspended:
+            record["suspended"] = True
+        elif name in self._reports:
+            record["flight"] = {**record["flight"], "report": self._reports[name]}
+        return record
+
+    @property
+    def drones(self) -> Mapping[str, Mapping[str, Any]]:
+        """The reports of the drones; those that fly for nobody are called off."""
+        wanted = {
+            self._records.missions[name]["flight"]["drone"]
+            for name, what in self._outcomes.items()
+            if what is Outcome.FLIES_ON and name not in self._suspended
+        }
+        at_work = {entry.drone for entry in self._report.jobs.values() if entry.flies} - wanted
+        told = {}
+        for drone, report in self._report.drones.items():
+            told[drone] = _as_data(report)
+            if drone in at_work:  # the earlier run could not abort its job any more
+                self._link.break_off(drone)
+                told[drone]["landed"] = False  # it may take off before it receives that
+        return told
+
+
+def for_brain(app: App, record: Record) -> Record:
+    """Return a mission's record to go on from; a block that the app has no more is replaced."""
+    at = record["at"]
+    if at is not None and at not in app.resumes and app.resumes:
+        at = app.resumes[0]  # the user has said so
+    return {**record, "at": at}
+
+
+def _as_data(report: DroneReport) -> dict[str, Any]:
+    return {
+        "reached": report.reached,
+        "landed": report.landed,
+        "carrying": report.carrying,
+        "problems": list(report.problems),
+    }
+
+
+def unfit(app: App, record: Record) -> str | None:
+    """Return why a mission does not fit the app, or None."""
+    for trip in (*record["todo"], *record["done"], *record["gone"]):
+        if trip["action"] not in app.actions:
+            return f"its trip {trip['name']} needs the action {trip['action']}, which the app has no more"
+    known = {entity: {f.name for f in app.fields if f.on is entity} for entity in Entity}
+    trips = (*record["todo"], *record["done"], *record["gone"])
+    for fields, entity in (
+        (record["fields"], Entity.MISSION),
+        *((trip.get("fields", {}), Entity.TRIP) for trip in trips),
+    ):
+        for name in fields:
+            if name not in known[entity]:
+                return f"it does not fit into the app as it is now: there is no field {name}"
+    return None

@@ -115,7 +115,9 @@ class Simulation:
         return SimulationResult(
             duration=ended,
             missions=tuple(missions),
-            drones=drones_of(self._app, self._fleet, standing, self._navigation.bodies.__getitem__),
+            drones=drones_of(
+                self._app, self._fleet, standing["drones"], self._navigation.bodies.__getitem__
+            ),
             flown={one.id: self._navigation.flown(one.id) for one in self._drones},
             events=tuple(events),
             given_up=given_up,

@@ -6,11 +6,10 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Protocol
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.fleet.navigation import Navigation
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Item, Point
+    from plutoc_runtime.domain.model import Item, Point, Telemetry
 
     from .reports import Down, DroneReport, FleetReport
 
@@ -65,8 +64,57 @@ class Job(Protocol):
         ...
 
 
-class CommandLink(Navigation[Job], Protocol):
-    """A navigation that remembers every job, as long as this brain is the one in command."""
+class CommandLink(Protocol):
+    """How a brain commands its drones, by their ids, as long as it is the one in command.
+
+    Metres, seconds. A trip is one job, given once and reported once, and remembered. Other commands
+    return when they are done, and raise `FlightFailed` when the drone cannot finish. A cancelled command
+    leaves the drone hovering where it is.
+    """
+
+    def telemetry(self, drone: str) -> Telemetry:
+        """Return a drone's telemetry, an object that is always current."""
+        ...
+
+    def fly(self, job: Job, report: Report) -> None:
+        """Take off, fly to the job's stops and do its action.
+
+        `report` is called once, and never from within this call, with the action's result or the
+        `FlightFailed` that ended it; with no action to do, with None on arrival. It is called within
+        the kernel: from one of its events or coroutines, or by `kernel.post(report, result)`.
+        """
+        ...
+
+    def break_off(self, drone: str) -> None:
+        """Stop what a drone does, and hover.
+
+        Nothing of its job is reported any more; a single command raises `FlightFailed`.
+        """
+        ...
+
+    async def hold(self, drone: str) -> None:
+        """Hover while an action of the app's own is done, until cancelled."""
+        ...
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return the value of a hovering drone's sensor or variable."""
+        ...
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set a parameter of a hovering drone."""
+        ...
+
+    async def home(self, drone: str) -> None:
+        """Fly to its dock, and land there."""
+        ...
+
+    async def land(self, drone: str) -> None:
+        """Land here."""
+        ...
+
+    async def recover(self, drone: str) -> bool:
+        """Bring a drone home after a failed flight, landed; False: it is lost."""
+        ...
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it can be recovered once more."""

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.status import Status, TripStatus
 from plutoc_runtime.domain.text import cut_off
+from plutoc_runtime.flow.control import PRIORITY
 from plutoc_runtime.flow.location import declaration_above
 
 from ..flight.control import ANSWERS
-from ..flight.interventions import PRIORITY
 from ..flight.mission_status import aside
 from ..gateway.wire import STALE_AFTER
 
@@ -118,8 +118,8 @@ def mission_row(
     }
 
 
-def recorded_row(name: str, record: Record) -> Row:
-    """Return the row of a mission from its journal's record."""
+def recorded_row(name: str, record: Record, *, lives: bool = False) -> Row:
+    """Return the row of a mission from its journal's record; `lives`: its app is running."""
     done, todo = record["done"], record["todo"]
     status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
     if status is Status.RUNNING or (status in ENDED and not record["ended"]):
@@ -137,23 +137,28 @@ def recorded_row(name: str, record: Record) -> Row:
         "total": len(done) + len(todo),
         "drone": None,
         "at": at,
-        "wait": "",
+        "wait": _WAITS.get(status, "") if lives else "",
         "until": None,
         "attempt": todo[0].get("attempt", 1) if todo else 1,
         "attempts": record["attempts"],
         "round": record["round"],
-        "question": None,
+        "question": _question(status, reason) if lives else None,
     }
 
 
 def drone_row(
-    drone: Drone, mission: str | None, retired: bool, why: str = "", status: str = ""
+    drone: Drone,
+    silence: float,
+    mission: str | None,
+    retired: bool,
+    why: str = "",
+    status: str = "",
 ) -> Row:
     """Return the row of a drone, rounded to centimetres and thousandths.
 
-    `why` is why it may not fly; `status` replaces its own status if that would mislead.
+    `silence`: the seconds since it was heard last; `why`: why it may not fly; `status` replaces its
+    own status if that would mislead.
     """
-    silence = drone.telemetry.silence
     heard = isfinite(silence)
     return _drone_row(
         drone.id,
@@ -253,10 +258,6 @@ def _why_it_waits(
     fleet: Callable[[Trip], str],
 ) -> str:
     mission = state.mission
-    if mission.status is Status.PAUSED:
-        return "paused"
-    if mission.status in ANSWERS:
-        return "waits for your decision"
     if state.in_flight is not None or state.task is None:
         return ""
     if until is not None:
@@ -267,6 +268,9 @@ def _why_it_waits(
     if at and mission.status in ENDED:
         return f"waits for what {at[0]} says"
     return ""
+
+
+_WAITS = {Status.PAUSED: "paused", **dict.fromkeys(ANSWERS, "waits for your decision")}
 
 
 def _question(status: Status, text: str) -> Row | None:

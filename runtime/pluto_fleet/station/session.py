@@ -18,10 +18,8 @@ from plutoc_runtime.alone.world import UNITS
 from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
 
 from ..flight.config import End, Stops
-from ..flight.live_engine import live_engine
-from ..flight.live_fleet import live_fleet
 from ..flight.lives import FlightObserver, FlightSetup, run_flight
-from ..flight.mission_status import records_in
+from ..flight.mission_status import aside, in_order, records_in
 from ..journal.fold import Records
 from ..journal.lock import holder
 from ..journal.place import written
@@ -131,8 +129,8 @@ class FlightSession:
     @property
     def names(self) -> set[str]:
         """The names of its missions."""
-        if self.life is not None and self.life.missions:
-            return {mission.name for mission in self.life.missions}
+        if self.life is not None and self.life.is_set_out:
+            return {*self.life.records.missions}
         known = self.records.missions if self.records is not None else {}
         return {*known} or {mission.name for mission in self.flight.missions}
 
@@ -206,7 +204,7 @@ class FlightSession:
     def now(self) -> float:
         """Seconds since its beginning, in its own time."""
         if self.life is not None:
-            return self.life.session.core.kernel.time()
+            return self.life.kernel.time()
         known = self.records.time if self.records is not None else 0.0
         return max(
             known, self._left_at
@@ -235,14 +233,17 @@ class FlightSession:
 
     def _see_missions(self, number: int) -> bool:
         life, put, changed = self.life, self.missions.put, False
-        if life is not None and life.missions:
-            states = {state.mission.name: state for state in live_engine(life.session).states}
-            now, app, fleet = self.now, self.flight.app, live_fleet(life.session.core)
+        if life is not None and life.is_set_out:
+            now, app, fleet = self.now, self.flight.app, life.brain.session.core.fleet
             self._waiting.look(fleet)
             why = partial(self._waiting.why, fleet)
-            for mission in life.missions:
-                row = rows.mission_row(app, mission, states.get(mission.name), now, why)
-                changed |= put(mission.name, row, number)
+            for name, record in in_order(life.records):
+                state = life.brain.states.get(name)
+                if state is None or state.task is None or aside(record) is not None:
+                    row = rows.recorded_row(name, record, lives=True)
+                else:
+                    row = rows.mission_row(app, state.mission, state, now, why)
+                changed |= put(name, row, number)
         elif self.records is not None:
             for name, record in self.records.missions.items():
                 changed |= put(name, rows.recorded_row(name, record), number)
@@ -256,9 +257,18 @@ class FlightSession:
         return changed
 
     def _drones_now(self, life: RecordedFlight) -> Iterator[rows.Row]:
-        work = rows.mission_of_each(live_engine(life.session).states)
-        fleet = live_fleet(life.session.core)
-        for drone in life.session.drones:
+        states = life.brain.states.values()
+        work = rows.mission_of_each(state for state in states if not state.ended)
+        session = life.brain.session
+        fleet = session.core.fleet
+        for drone in session.drones:
             low = self._waiting.why_low(fleet, drone)
             why, status = low or fleet.unready.get(drone, ""), "LOW" if low else ""
-            yield rows.drone_row(drone, work.get(drone.id), drone in fleet.retired, why, status)
+            yield rows.drone_row(
+                drone,
+                life.link.telemetry(drone.id).silence,
+                work.get(drone.id),
+                drone in fleet.retired,
+                why,
+                status,
+            )

@@ -145,7 +145,7 @@ def _busy(session: FlightSession | None) -> str:
         return ""
     if session.life is None:
         return "looking for the drones"
-    return "" if session.life.missions else "asking the drones where they are"
+    return "" if session.life.is_set_out else "asking the drones where they are"
 
 
 def _listed(texts: Iterable[str]) -> str:

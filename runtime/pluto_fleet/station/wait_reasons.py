@@ -15,9 +15,8 @@ from plutoc_runtime.domain.text import percent
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Drone, Trip
+    from plutoc_runtime.fleet.fleet import Fleet
     from plutoc_runtime.fleet.queue import Request
-
-    from ..flight.live_fleet import LiveFleet
 
 LOOK_EVERY = 3.0
 """Seconds after which a reason is updated."""
@@ -44,7 +43,7 @@ class WaitReasons:
         self._known: dict[int, tuple[float, str]] = {}
         self._left = MISSIONS_A_LOOK
 
-    def look(self, fleet: LiveFleet) -> None:
+    def look(self, fleet: Fleet) -> None:
         """Begin a sample of all missions and drones."""
         now, self._left = self._clock(), MISSIONS_A_LOOK
         if now - self._looked >= LOOK_EVERY:
@@ -55,7 +54,7 @@ class WaitReasons:
                 trip: said for trip, said in self._known.items() if trip in self._requests
             }
 
-    def why(self, fleet: LiveFleet, trip: Trip) -> str:
+    def why(self, fleet: Fleet, trip: Trip) -> str:
         """Return why no drone flies a trip yet; empty: not known yet."""
         now = self._clock()
         since, said = self._known.get(id(trip), (-LOOK_EVERY, ""))
@@ -66,7 +65,7 @@ class WaitReasons:
             self._known[id(trip)] = now, said
         return said
 
-    def why_low(self, fleet: LiveFleet, drone: Drone) -> str:
+    def why_low(self, fleet: Fleet, drone: Drone) -> str:
         """Return why a free drone is not ready; empty: it is."""
         if drone.status is not DroneStatus.FREE:
             return ""
@@ -75,7 +74,7 @@ class WaitReasons:
         return "its battery has little more than its reserve" if fleet.is_low(drone) else ""
 
 
-def why_no_drone(fleet: LiveFleet, request: Request) -> str:
+def why_no_drone(fleet: Fleet, request: Request) -> str:
     """Return what keeps each drone of the fleet from flying a waiting trip."""
     queue, able = fleet.queue, 0
     low: list[tuple[float, float, float]] = []

@@ -10,22 +10,23 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
 
+from ..flight.mission_status import aside
 from ..flight.recorded_flight import RecordedFlight
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
 from .case import BY_HAND, DEATHS, STOPS, Strike, StrikeKind, fresh
 from .invariants import ENDS
 from .record import MissionMemory, TrialResult, forgotten, memory_of
-from .unreliable import UnreliableLink, UnreliableTime
+from .unreliable import UnreliableHooks, UnreliableLink, UnreliableTime
 from .world import TrialWorld
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.trace import Event
 
-    from ..journal.fold import Records
+    from ..journal.fold import Record, Records
     from .case import Case
 
 HEARTBEAT_WITHIN = 3.0
@@ -53,7 +54,10 @@ class TrialLife:
         self.run, case = run, run.case
         now = max(run.world.now + run.skew, records.time)
         self.skew = run.skew = now - run.world.now
-        self.kernel = UnreliableTime(now, case.weather, run.chance, run.fired, self.hook_returned)
+        self.kernel = UnreliableTime(now, case.weather, run.chance, run.fired)
+        hooks = UnreliableHooks(
+            self.kernel, case.weather, run.chance, run.fired, self.hook_returned
+        )
         link = run.gateway.link(run.lives, self.lost)
         self.wire = UnreliableLink(
             link, run.gateway, self.kernel, case.weather.slow, run.fired, self.sent
@@ -73,7 +77,9 @@ class TrialLife:
             self,
             records,
             epoch=run.lives,
+            hooks=hooks,
         )
+        hooks.ended = self.life.hook_ended
         self.life.control.stopped.watch(self.stopped)
         self.task = self.life.go_on(planned)
         self.due: list[Callable[[], object]] = []
@@ -169,17 +175,24 @@ class TrialLife:
         """Note at the end of this run what the next one must restore."""
         for _, _, events in self.unwritten:
             self.forget(events)
-        for name, mission in self.life.recorder.missions.items():
+        for name, record in self.standing().items():
             if name in self.unknown:
                 self.run.record.known.pop(name, None)
             else:
-                self.run.record.known[name] = memory_of(self.run.app, mission)
+                self.run.record.known[name] = memory_of(record)
+
+    def standing(self) -> Mapping[str, Record]:
+        """Return where each mission stands: by the brain, or by the journal if it is in no graph."""
+        records, brain = self.life.records.missions, self.life.brain
+        stand = brain.standing()["missions"]
+        inside = {name for name in stand if name in records and aside(records[name]) is None}
+        return {**records, **{name: stand[name] for name in inside}} if stand else {}
 
     def look_back(self, events: list[Event]) -> None:
         """Report what this run has not restored of the last one."""
-        now = {mission.name: mission for mission in self.life.missions}
-        if not now:
+        if not self.life.is_set_out:
             return
+        now = self.standing()
         before, self.before = self.before, {}
         since: dict[str, list[Event]] = {}
         for event in events:
@@ -189,10 +202,10 @@ class TrialLife:
             if name not in now:
                 found.append(f"{name} was forgotten")
             elif self.run.record.ends.get(name) not in ENDS:
-                after = memory_of(self.run.app, now[name])
+                after = memory_of(now[name])
                 said = forgotten(name, known, after, since.get(name, ()))
                 found += [f"{self.kernel.now:g} s: {sentence}" for sentence in said]
-        results = len(self.life.session.core.results.so_far())
+        results = len(self.life.brain.standing()["results"])
         if results < self.run.record.once.done:
             found.append(f"{self.run.record.once.done} results were there, {results} are left")
 
@@ -307,6 +320,7 @@ class TrialLife:
         if self.kernel.dead:
             return
         self.kernel.over = self.kernel.dead = True
+        self.life.close()
         self.kernel.close()
 
 

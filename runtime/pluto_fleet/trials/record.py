@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.alone.simulate import Bound
-from plutoc_runtime.domain.fields import Entity
 
-from ..journal.fold import Records
+from ..journal.fold import Record, Records
 from .invariants import ENDS, Invariants, items_of
 from .rules import at, listed
 from .unreliable import BrokenHook
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from random import Random
 
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission, Trip
     from plutoc_runtime.domain.trace import Event
 
     from .case import Case
@@ -128,16 +126,16 @@ class MissionMemory:
     """By name: the attempt, and the trip's fields."""
 
 
-def memory_of(app: App, mission: Mission[Any]) -> MissionMemory:
-    """Return the state of a mission."""
+def memory_of(record: Record) -> MissionMemory:
+    """Return the state of a mission, by its record."""
     return MissionMemory(
-        mission.round,
-        mission.attempts,
-        tuple(trip.name for trip in mission.completed_trips),
-        _fields(app, Entity.MISSION, mission),
+        record["round"],
+        record["attempts"],
+        tuple(trip["name"] for trip in record["done"]),
+        _fields(record),
         {
-            trip.name: (trip.attempt, *_fields(app, Entity.TRIP, trip))
-            for trip in (*mission.trips, *mission.completed_trips)
+            trip["name"]: (trip.get("attempt", 1), *_fields(trip))
+            for trip in (*record["todo"], *record["done"])
         },
     )
 
@@ -171,8 +169,8 @@ def forgotten(
 _CHANGES = ("trip.reset", "trip.skipped", "mission.repeated", "mission.extended", "mission.changed")
 
 
-def _fields(app: App, entity: Entity, of: Mission[Any] | Trip) -> tuple[object, ...]:
-    return tuple(getattr(of, field.name) for field in app.fields if field.on is entity)
+def _fields(of: Record) -> tuple[object, ...]:
+    return tuple(sorted(of.get("fields", {}).items()))
 
 
 def _shown(facts: Sequence[object]) -> str:

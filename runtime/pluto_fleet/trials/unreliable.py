@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Coroutine
 from functools import partial
+from inspect import iscoroutine
 from random import Random
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from plutoc_runtime.domain.errors import Cancelled, FlightFailed
+from plutoc_runtime.domain.guard import guarded
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, EventKind, Key, Task, Timer
 from plutoc_runtime.time.virtual import VirtualTime
@@ -34,7 +36,7 @@ class BrokenHook(RuntimeError):
 
 
 class UnreliableTime(VirtualTime):
-    """Virtual time for one brain, with late wake-ups and failing hooks."""
+    """Virtual time for one brain, with late wake-ups."""
 
     def __init__(
         self,
@@ -42,12 +44,11 @@ class UnreliableTime(VirtualTime):
         weather: Weather,
         chance: Random,
         fired: Counter[str],
-        done: Callable[[Callable[..., object], tuple[object, ...]], object],
     ) -> None:
         super().__init__()
         self.now = now
         self.dead = False
-        self._weather, self._chance, self._fired, self._done = weather, chance, fired, done
+        self._weather, self._chance, self._fired = weather, chance, fired
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
         """Start a coroutine; not in a dead brain."""
@@ -64,19 +65,82 @@ class UnreliableTime(VirtualTime):
             when += self._chance.random() * 0.5
         return super().at(when, kind, key, call)
 
-    async def call_hook(
-        self, hook: Callable[..., object], /, *args: object, **named: object
-    ) -> object:
-        """Call a hook, or make it fail."""
+
+class UnreliableHooks:
+    """Runs a trial's hooks: at once, or they block, or raise an error."""
+
+    def __init__(
+        self,
+        kernel: UnreliableTime,
+        weather: Weather,
+        chance: Random,
+        fired: Counter[str],
+        done: Callable[[Callable[..., object], tuple[object, ...]], object],
+    ) -> None:
+        self._kernel, self._weather, self._chance = kernel, weather, chance
+        self._fired, self._done = fired, done
+        self.ended: Callable[[int], object] = _nothing
+        """Called with the number of a hook that has blocked for long enough."""
+        self._calls: dict[int, Callable[[], object]] = {}
+
+    def now(self) -> float:
+        """Return the brain's time."""
+        return self._kernel.now
+
+    def start(self, number: int, hook: Callable[..., object], call: Callable[[], object]) -> bool:
+        """Call a hook, or make it fail; return whether it has ended."""
         if self._weather.hook and self._chance.random() < self._weather.hook:
             self._fired["hook raising"] += 1
-            raise BrokenHook("by chance")
+            self._calls[number] = _broken
+            return True
+        assert isinstance(call, partial)
+        self._calls[number] = partial(self._call, hook, call)
         if self._weather.block and self._chance.random() < self._weather.block:
             self._fired["hook blocking"] += 1
-            await self.sleep(_HOOK_BLOCKS_FOR)
-        result = await super().call_hook(hook, *args, **named)
+            late = self._kernel.now + _HOOK_BLOCKS_FOR
+            self._kernel.at(late, EventKind.CLOCK, FLEET, partial(self._has_blocked, number))
+            return False
+        return True
+
+    def result(self, number: int) -> object:
+        """Call a hook that was to begin now."""
+        return self._calls.pop(number)()
+
+    def cancel(self, number: int) -> None:
+        """Forget a hook that blocks."""
+        self._calls.pop(number, None)
+
+    def offer(self, _: object) -> None:
+        """Hooks are coroutines of the brain."""
+
+    def stirred(self) -> None:
+        """They do nothing between two calls of the brain."""
+
+    def _has_blocked(self, number: int) -> None:
+        if number in self._calls:
+            self.ended(number)
+
+    def _call(self, hook: Callable[..., object], call: partial[object]) -> object:
+        result = guarded(call)
+        if not iscoroutine(result):
+            self._done(hook, call.args)
+            return result
+        return self._awaited(hook, call.args, result)
+
+    async def _awaited(
+        self, hook: Callable[..., object], args: tuple[object, ...], result: Any
+    ) -> object:
+        value: object = await result
         self._done(hook, args)
-        return result
+        return value
+
+
+def _broken() -> NoReturn:
+    raise BrokenHook("by chance")
+
+
+def _nothing(_: object) -> None:
+    """Nobody listens yet."""
 
 
 class UnreliableLink(Link):

@@ -166,7 +166,7 @@ class Alone:
         return SimulationResult(
             duration=ended,
             missions=tuple(missions),
-            drones=drones_of(self._app, self._fleet, standing, telemetry),
+            drones=drones_of(self._app, self._fleet, standing["drones"], telemetry),
             flown={drone.id: drone.flown for drone in flown.values()},
             events=tuple(events),
             given_up=given_up,

@@ -5,7 +5,7 @@ The only place where a drone's status changes, except at its allocation.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -46,6 +46,10 @@ class Fleet:
         """Set at the next change of any drone, if something waits for it."""
         self.unready: dict[Drone, str] = {}
         """Drones that are lost, or not ready to fly, and why."""
+        self.retired: set[Drone] = set()
+        """Drones that are not allocated until they are brought back."""
+        self.lost: dict[Drone, str] = {}
+        """Drones that were lost in an earlier run, and not brought back since."""
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
@@ -73,7 +77,10 @@ class Fleet:
     def dismiss(self, drone: Drone) -> None:
         """Take a drone back whose trip has ended well."""
         telemetry = drone.telemetry
-        if (
+        if drone in self.retired:
+            if not self._rests(drone):
+                self.send_home(drone)
+        elif (
             telemetry.landed
             and telemetry.battery_level > drone.category.reserve
             and (self._stays or docked(telemetry.location, drone.home))
@@ -173,16 +180,81 @@ class Fleet:
     async def _bring_back(self, drone: Drone, reason: str) -> None:
         """Bring a drone home after a failed flight, or give it up as lost."""
         self._become(drone, DroneStatus.RECOVERING)
-        if await self._navigation.recover(drone.id):
+        why = await self._navigation.recover(drone.id)
+        if why is None:
             self.unready.pop(drone, None)
             await self._settle(drone)
         else:
-            self.unready[drone] = await self._why_lost(drone, reason)
-            self._become(drone, DroneStatus.LOST)
+            self._lose(drone, why or cut_off(printable(reason), LONGEST) or _NOT_HOME)
 
-    async def _why_lost(self, drone: Drone, reason: str) -> str:
-        """Return the reason for which a drone is lost after a failed flight."""
-        return cut_off(printable(reason), LONGEST) or "it could not be brought home"
+    def _lose(self, drone: Drone, reason: str) -> None:
+        self.unready[drone] = reason
+        self._become(drone, DroneStatus.LOST)
+
+    # After an interruption, and when people look after drones
+
+    def take_up(self, drone: Drone, report: Mapping[str, Any]) -> None:
+        """Take over a drone that no mission needs now, when an app starts or resumes.
+
+        It is allocated only once it is on the ground, healthy, with nothing aboard; a lost one only
+        once it has been repaired, even if it reports to be healthy.
+        """
+        reached, landed = report.get("reached", True), report.get("landed", True)
+        if drone in self.lost:
+            if reached and not landed:  # it comes home, and stays lost
+                self._send(drone, DroneStatus.RECOVERING, self._bring_down, "comes down")
+            else:
+                self._lose(drone, self.lost[drone])
+            return
+        why = self._not_ready(drone, "; ".join(report.get("problems", ())))
+        well = reached and landed and not why and report.get("carrying") is None
+        if not (well and self._rests(drone)):
+            self.recover(drone, why or f"{drone.id} does not answer")
+            if why and landed:
+                self.unready[drone] = why
+
+    async def _bring_down(self, drone: Drone) -> None:
+        await self._navigation.recover(drone.id)
+        self._lose(drone, self.lost[drone])
+
+    def _not_ready(self, drone: Drone, why: str) -> str:
+        """Note why a drone may not fly, if it says why, and return that."""
+        why = cut_off(printable(why), LONGEST)
+        if why and self._trace.live:
+            self._trace.note("drone.not_ready", drone=drone.id, reason=why)
+        return why
+
+    def flies_on(self, drone: Drone) -> None:
+        """Take over a drone that has been flying for a mission since before an interruption."""
+        self._become(drone, DroneStatus.BUSY)
+
+    def retire(self, drone: Drone) -> None:
+        """Allocate this drone to no further mission; its current trip goes on to its end."""
+        self.retired.add(drone)
+        if drone.status in (_FREE, DroneStatus.CHARGING) and not self._rests(drone):
+            self.send_home(drone)
+
+    def bring_back(self, drone: Drone) -> None:
+        """Make a retired drone available again; a lost one once it has come home."""
+        self.retired.discard(drone)
+        self.lost.pop(drone, None)
+        if drone.status is DroneStatus.LOST or drone in self.unready:
+            self._navigation.mended(drone.id)  # its errand may be waiting for this
+        if drone.status is DroneStatus.LOST:
+            self._send(drone, DroneStatus.RECOVERING, self._come_back, "comes back")
+        elif drone.status is DroneStatus.OFFLINE and not self._rests(drone):
+            self.send_home(drone)
+
+    async def _come_back(self, drone: Drone) -> None:
+        """Bring a repaired drone home, or say why that failed."""
+        self._become(drone, DroneStatus.RECOVERING)
+        why = await self._navigation.recover(drone.id)
+        if why is None:
+            await self._settle(drone)
+        else:
+            self._lose(drone, self._not_ready(drone, why) or _NOT_REACHED)
+
+    # On the ground
 
     async def _settle(self, drone: Drone) -> None:
         """Free a healthy drone on the ground if its battery allows it, or charge it."""
@@ -191,7 +263,12 @@ class Fleet:
             await self._return(drone)
 
     def _rests(self, drone: Drone) -> bool:
-        """Free it, or charge it first; return False if it must go home for that."""
+        """Free it, or charge it first; return False if it must go home for that, as if it is retired."""
+        if drone in self.retired:
+            docked_ = self._is_docked(drone)
+            if docked_:
+                self._become(drone, DroneStatus.OFFLINE)
+            return docked_
         missing = drone.category.reserve - drone.battery_level
         if missing < 0:
             self._become(drone, _FREE)
@@ -239,6 +316,10 @@ _FREE = DroneStatus.FREE
 
 _LOOK_AGAIN = 10.0
 """Seconds between two checks of a battery that should be charged by now."""
+
+_NOT_HOME = "it could not be brought home"
+_NOT_REACHED = "it was brought back, and could not be reached"
+"""Why a drone is lost, if it gives no reason."""
 
 LONGEST = 500
 """Characters of the reason why a drone is lost."""

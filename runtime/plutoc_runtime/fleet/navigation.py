@@ -36,10 +36,15 @@ class Navigation(Protocol[J_contra]):
         ...
 
     def break_off(self, drone: str) -> None:
-        """Stop what a drone does, and hover.
+        """Stop what a drone does, and hover; nothing of its job is reported any more."""
+        ...
 
-        Nothing of its job is reported any more; a single command raises `FlightFailed`.
-        """
+    def settle(self, job: J_contra) -> None:
+        """Stop a job, and report it once it is known whether its action was done before."""
+        ...
+
+    def attach(self, job: J_contra, report: Callable[[object], None]) -> None:
+        """Register for the report of a job that was given before an interruption."""
         ...
 
     async def hold(self, drone: str) -> None:
@@ -62,6 +67,10 @@ class Navigation(Protocol[J_contra]):
         """Land here."""
         ...
 
-    async def recover(self, drone: str) -> bool:
-        """Bring a drone home after a failed flight, landed; False: it is lost."""
+    async def recover(self, drone: str) -> str | None:
+        """Bring a drone home after a failed flight, landed; else it is lost: return what it says of that."""
+        ...
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it can be recovered once more."""
         ...

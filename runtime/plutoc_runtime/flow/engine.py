@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from gc import freeze
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +19,7 @@ from ..time.future import Future
 from ..time.kernel import FLEET, Kernel, Task, mission_key
 from ..trips.transitions import Transitions
 from .location import as_crash, blame, blamed
-from .mission import Core, FailLater, MissionState, Recorder
+from .mission import Core, MissionState
 from .run import Run
 
 if TYPE_CHECKING:
@@ -34,32 +34,34 @@ class Engine:
 
     def __init__(self, core: Core) -> None:
         self._core = core
-        self._living = 0
+        self.living = 0
         """How many missions have not ended."""
         self.done: Future[None] = Future()
-        """Set when the last mission has ended."""
+        """Set when the last mission has ended, or was suspended."""
+        self.suspended: dict[str, MissionState] = {}
+        """The missions that were taken out of their graphs, by name."""
 
     def start(self, missions: Sequence[Mission[Any]]) -> list[MissionState]:
         """Start the missions, all at the same instant."""
         states = [self.new_state(mission) for mission in missions]
         for state in states:
-            self._enter(state, UNEXECUTED)
+            self.enter(state, UNEXECUTED)
         return states
 
     def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the initial state of a mission."""
-        if self._core.recorder is not None:
-            self._core.recorder.missions[mission.name] = mission
         return MissionState(self._core, mission, self)
 
-    def _enter(self, state: MissionState, status: Status) -> None:
+    def enter(self, state: MissionState, status: Status) -> None:
         """Start a mission's flow, at its beginning or at the block where it resumes."""
+        if self.done.is_set:
+            self.done = Future()
         core, mission, key = self._core, state.mission, mission_key(state.mission.index)
         run = Run(mission, state, key)
         run.at, run.status = state.at, status
         run.task = state.task = task = core.kernel.spawn(core.app.flow(run), key, mission.name)
         task.over = state
-        self._living += 1
+        self.living += 1
 
     def doomed(self, state: MissionState) -> None:
         """Cancel a mission that must end, once the coroutine that found out has finished its turn."""
@@ -72,10 +74,44 @@ class Engine:
         """Cancel it in a task of its own, before coroutines that are woken later at this instant."""
         if state.task is not None:
             state.task.cancel()
+        elif self.suspended.pop(state.mission.name, None) is state:
+            self._end(state, FAILED, state.doom or "it was called off")
+
+    def suspend(self, state: MissionState) -> None:
+        """Take a mission out of its graph; its flight is broken off, and what has its item waits there."""
+        self._leave(state)
+        self.suspended[state.mission.name] = state
+        flight = state.in_flight
+        if flight is not None:
+            state.break_off(flight)
+            state.flight = None  # what came of it is found out elsewhere
+            if flight.trip.item is not None:
+                state.carrier = flight.flier
+            if state.carrier is None:
+                self._core.fleet.recover(flight.flier)
+            else:
+                state.keep_carrier(state.carrier)
+        if state.allocated is not None and state.allocated is not state.carrier:
+            self._core.fleet.never_flew(state.allocated)
+        state.allocated = None
+        self.look_for_the_end()
+
+    def cancel(self, state: MissionState, status: Status, reason: str) -> None:
+        """End a mission, wherever it is."""
+        self.suspended.pop(state.mission.name, None)
+        self._leave(state)
+        self._end(state, status, reason)
+
+    def _leave(self, state: MissionState) -> None:
+        task, state.task = state.task, None
+        if task is not None:
+            self.living -= 1
+            task.over = None
+            task.cancel()
 
     def ended(self, state: MissionState, task: Task[Status]) -> None:
         """End a mission by the outcome of its coroutine."""
-        self._living -= 1
+        self.living -= 1
         error, reason = task.error, ""
         if error is None:
             status = task.result()
@@ -113,7 +149,7 @@ class Engine:
 
     def look_for_the_end(self) -> None:
         """Set `done` if every mission has ended."""
-        if not self._living:
+        if not self.living:
             self.done.set(None)
 
     def _end(self, state: MissionState, status: Status, reason: str) -> None:
@@ -145,13 +181,10 @@ class Session:
         kernel: Kernel,
         navigation: Navigation[Flight],
         listeners: Sequence[Listener],
-        recorder: Recorder | None = None,
-        fail_later: FailLater | None = None,
-        kind_of_fleet: type[Fleet] = Fleet,
-        kind_of_engine: type[Engine] = Engine,
+        on_record: Callable[[], Awaitable[None]] | None = None,
     ) -> None:
         self._kernel = kernel
-        known = DroneStatus.FREE if recorder is None else DroneStatus.OFFLINE
+        known = DroneStatus.FREE if on_record is None else DroneStatus.OFFLINE
         categories = {category.name: category for category in app.categories}
         self.drones = tuple(
             Drone(
@@ -175,13 +208,10 @@ class Session:
             results=results,
             transitions=Transitions(kernel, trace, results),
             queue=queue,
-            fleet=kind_of_fleet(kernel, trace, navigation, self.drones, queue, fleet.after_trip),
-            recorder=recorder,
-            fail_later=fail_later,
+            fleet=Fleet(kernel, trace, navigation, self.drones, queue, fleet.after_trip),
+            on_record=on_record,
         )
-        if recorder is not None:
-            recorder.trace, recorder.results = trace, results
-        self.engine = kind_of_engine(self.core)
+        self.engine = Engine(self.core)
 
     def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
         """Start the missions; the task returns the time at which the last one ended.

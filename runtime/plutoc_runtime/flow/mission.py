@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import FlightFailed
+from ..domain.mission_data import change_data
 from ..domain.status import Status, TripStatus
 from ..domain.text import bounded
-from ..hooks.calls import LONGEST_LOG
+from ..hooks.calls import LONGEST_LOG, look
 from ..time.kernel import mission_key
 from ..trips.flight import Flight
 
@@ -27,23 +28,6 @@ if TYPE_CHECKING:
     from ..trips.transitions import Transitions
 
 
-class Recorder(Protocol):
-    """Records what happens, so that the app can resume after any end."""
-
-    missions: dict[str, Mission[Any]]
-    """The missions by name, from their creation on."""
-    trace: Trace | None
-    results: ResultStore | None
-
-    async def on_record(self) -> None:
-        """Wait until everything up to now is durable."""
-        ...
-
-    def look(self, mission: Mission[Any]) -> None:
-        """Record it as an event if a hook that was given this mission has changed its trips."""
-        ...
-
-
 class MissionSupervisor(Protocol):
     """Ends missions: the engine."""
 
@@ -54,10 +38,6 @@ class MissionSupervisor(Protocol):
     def doomed(self, state: MissionState) -> None:
         """Called when a mission must end, even if its graph would continue."""
         ...
-
-
-FailLater = Callable[["MissionState", "Flight", str], object]
-"""Fails the trip of an aborted flight, once it is known that its action was not done."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -75,10 +55,16 @@ class Core:
     fleet: Fleet
     limits: dict[float, Any] = field(default_factory=dict)
     """The limits on flights that are watched, by length (trips/deadlines.py)."""
-    fail_later: FailLater | None = None
-    """None: the drones are in this process, so what was not reported was not done."""
-    recorder: Recorder | None = None
-    """None: this run is never resumed."""
+    on_record: Callable[[], Awaitable[None]] | None = None
+    """Waits until everything up to now is durable; None: this run is never resumed."""
+
+    def look(self, hook: Callable[..., object], mission: Mission[Any]) -> None:
+        """Record what a hook that was given this mission may have changed, if the run may be resumed."""
+        if self.on_record is not None:
+            look(hook, self._note_mission, mission)
+
+    def _note_mission(self, mission: Mission[Any]) -> None:
+        self.trace.note("mission.changed", **change_data(self.app, mission))
 
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console."""
@@ -177,7 +163,7 @@ class MissionState:
         if self.flight is not flight or flight.trip.status is not _EXECUTING:
             return  # it was aborted meanwhile
         if isinstance(result, FlightFailed):
-            self.fail(flight, str(result))
+            self.fail(flight, flight.overdue or str(result))
         elif flight.hook is None:
             self.complete(flight, result)
         elif not flight.called_off and flight.own_action is None:
@@ -245,18 +231,19 @@ class MissionState:
     def abort(self, reason: str) -> None:
         """Fail the trip in flight: it has timed out, or a hook asks for it.
 
-        A drone in another process may have done the action by the time that it is told: an action
-        that is not safe to repeat is looked up first.
+        A drone in another process may have done the action by the time that it is told: what came of
+        an action that is not safe to repeat is reported first.
         """
         core, flight = self.core, self.in_flight
         if flight is None or flight.called_off:
             return
-        self.break_off(flight)
         repeatable = flight.action is None or core.app.actions[flight.action].repeat == "safe"
-        if core.fail_later is None or repeatable:
+        if core.on_record is None or repeatable:
+            self.break_off(flight)
             self.fail(flight, reason)
         else:
-            core.fail_later(self, flight, reason)
+            flight.called_off, flight.overdue = True, reason
+            core.navigation.settle(flight)
 
 
 _EXECUTING = TripStatus.EXECUTING

@@ -49,7 +49,7 @@ async def settle(
     if wrong is not None:
         raise HookFault(f"modifier {name} left a mission that cannot go on: {wrong}")
     _check_trips(run, name)
-    if run.core.recorder is None:  # else it has looked already
+    if run.core.on_record is None:  # else it has looked already
         look(hook, partial(_note_change, run.core, before), run.mission)
     if not emits:
         if returned is not None:

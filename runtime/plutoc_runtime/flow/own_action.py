@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ..domain.actions import Action
 from ..domain.errors import ActionFailed, Failure, FlightFailed, HookFault
 from ..domain.text import bounded, text_of
-from ..hooks.calls import LONGEST_REASON, ProtectedFacts, call_action, changed, look
+from ..hooks.calls import LONGEST_REASON, ProtectedFacts, call_action, changed
 from ..hooks.context import Context
 from ..hooks.keepable import keepable
 from ..hooks.live_drone import LiveDrone, can_wait
@@ -48,8 +48,8 @@ class OwnAction(Action):
         assert hook is not None
         kernel, key, name = core.kernel, mission_key(mission.index), f"{mission.name}: {self.name}"
         core.transitions.begin_action(mission, trip, drone)
-        if core.recorder is not None:
-            await core.recorder.on_record()
+        if core.on_record is not None:
+            await core.on_record()
         live = LiveDrone(kernel, core.navigation, drone, key) if can_wait(hook) else None
         context = Context(kernel, core.results, core.log, mission, lambda: state.flight, live)
         call = call_action(kernel, hook, drone, trip, context, **trip.parameters)
@@ -75,6 +75,5 @@ class OwnAction(Action):
                 live.release()
         if fact:
             raise changed(hook, "trip", fact)
-        if core.recorder is not None:
-            look(hook, core.recorder.look, mission)
+        core.look(hook, mission)
         return value

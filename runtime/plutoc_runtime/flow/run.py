@@ -9,7 +9,7 @@ from ..domain.errors import ANY_ERROR, MissionFailed
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.model import Mission
 from ..domain.status import UNEXECUTED, Status
-from ..hooks.calls import ProtectedFacts, changed, fault_of, hook_name, look
+from ..hooks.calls import ProtectedFacts, changed, fault_of, hook_name
 from ..time.kernel import branch_key
 from .mission import MOST_CALLS, MissionState
 
@@ -72,8 +72,7 @@ class Run(Generic[M]):
             raise changed(hook, "mission", "name or index")
         if fact:
             raise changed(hook, "trip", fact)
-        if self.core.recorder is not None:
-            look(hook, self.core.recorder.look, self.mission)
+        self.core.look(hook, self.mission)
         return answer
 
     @property

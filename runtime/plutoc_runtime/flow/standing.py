@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields
+from dataclasses import fields as dataclass_fields
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -98,15 +98,44 @@ def _trip(app: App, trip: Trip) -> Data:
     return data | {name: value for name, value in facts if value is not None}
 
 
-def drone_standing(drone: Drone) -> Data:
-    """Return where a drone stands, and what it has flown."""
+def drone_standing(drone: Drone, unready: str) -> Data:
+    """Return where a drone stands, and what it has flown; `unready`: why it is not ready to fly."""
     return {
+        "unready": unready,
         "status": drone.status.value,
         "at": list(drone.location),
         "battery": drone.battery_level,
         "landed": drone.telemetry.landed,
         "trips": drone.trips,
     }
+
+
+def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[str, Trip]:
+    """Bring a mission up to date with its record; return all its trips by name, also those dropped."""
+    trips = {trip.name: trip for trip in (*mission.trips, *mission.completed_trips)}
+    lists: dict[str, list[Trip]] = {}
+    for which, status in _LISTS.items():
+        lists[which] = []
+        for data in record.get(which, ()):
+            now = trip_of(app, data, status)
+            trip = trips.setdefault(now.name, now)
+            for one in dataclass_fields(now):
+                setattr(trip, one.name, getattr(now, one.name))
+            lists[which].append(trip)
+    mission.trips, mission.completed_trips = lists["todo"], lists["done"]
+    mission.status, mission.reason = Status(record["status"]), record.get("reason", "")
+    mission.round, mission.attempts = record.get("round", 0), record.get("attempts", 0)
+    for name, value in record.get("fields", {}).items():
+        setattr(mission, name, value)
+    return trips
+
+
+_LISTS = {
+    "gone": TripStatus.SKIPPED,
+    "done": TripStatus.COMPLETED,
+    "todo": TripStatus.WAITING,
+}
+"""The lists of a record, and the usual status of the trips in them."""
 
 
 # For those who simulate: missions and drones as objects
@@ -132,25 +161,11 @@ def take_over(
 ) -> None:
     """Bring missions up to date with where they stand in their brain."""
     for mission in missions:
-        record = standing[mission.name]
-        known = {trip.name: trip for trip in (*mission.trips, *mission.completed_trips)}
-        mission.status, mission.reason = Status(record["status"]), record["reason"]
-        mission.round, mission.attempts = record["round"], record["attempts"]
-        for name, value in record["fields"].items():
-            setattr(mission, name, value)
-        for which, status in (("todo", TripStatus.WAITING), ("done", TripStatus.COMPLETED)):
-            trips = []
-            for data in record[which]:
-                now = trip_of(app, data, status)
-                trip = known.setdefault(now.name, now)
-                for one in fields(now):
-                    setattr(trip, one.name, getattr(now, one.name))
-                trips.append(trip)
-            setattr(mission, "trips" if which == "todo" else "completed_trips", trips)
+        update(app, mission, standing[mission.name])
 
 
 def drones_of(
-    app: App, fleet: FleetData, standing: Mapping[str, Any], telemetry: Callable[[str], Telemetry]
+    app: App, fleet: FleetData, stand: Mapping[str, Any], telemetry: Callable[[str], Telemetry]
 ) -> tuple[Drone, ...]:
     """Return the drones of a fleet as they stand."""
     categories = {category.name: category for category in app.categories}
@@ -160,8 +175,8 @@ def drones_of(
             category=categories[one.category],
             home=one.home,
             telemetry=telemetry(one.id),
-            status=DroneStatus(standing["drones"][one.id]["status"]),
-            trips=standing["drones"][one.id]["trips"],
+            status=DroneStatus(stand[one.id]["status"]),
+            trips=stand[one.id]["trips"],
             index=index,
         )
         for index, one in enumerate(fleet.drones)

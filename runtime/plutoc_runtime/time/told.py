@@ -28,15 +28,21 @@ class HookRunner(Protocol):
         ...
 
     def result(self, number: int) -> object:
-        """Return what a hook that has ended returned, or raise what it raised; asked once."""
+        """Return what a hook that has ended returned, or raise what it raised; asked once.
+
+        A coroutine is run here, in the brain's own time.
+        """
         ...
 
     def cancel(self, number: int) -> None:
         """Cancel a hook: its result is not wanted any more."""
         ...
 
-    def offer(self, watch: Callable[[Watcher], object]) -> Awaitable[object]:
-        """Return what a hook can await; `watch` has it called when the hook shall go on."""
+    def offer(self, watch: Callable[[Watcher], object]) -> Awaitable[object] | None:
+        """Return what a hook can await; `watch` has it called when the hook shall go on.
+
+        None: its hooks are coroutines that run here.
+        """
         ...
 
     def stirred(self) -> None:
@@ -111,7 +117,7 @@ class ToldTime(VirtualTime):
                 del self._hooks[number]
                 if not ended.is_set:
                     runner.cancel(number)
-        return runner.result(number)
+        return await self.finished(runner.result(number))
 
     def hook_ended(self, number: int) -> None:
         """Called when a hook that took its time has ended."""
@@ -120,7 +126,8 @@ class ToldTime(VirtualTime):
 
     async def offer(self, future: Future[T]) -> T:
         """Return what a hook may await for this future."""
-        if self._runner is None:
+        waits = None if self._runner is None else self._runner.offer(future.watch)
+        if waits is None:
             return await future
-        await self._runner.offer(future.watch)
+        await waits
         return future.result()

@@ -54,7 +54,10 @@ class VirtualTime(Kernel):
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
         """Call a hook; an `async def` may await only what its context offers."""
-        result = guarded(partial(hook, *args, **named))
+        return await self.finished(guarded(partial(hook, *args, **named)))
+
+    async def finished(self, result: object) -> object:
+        """Return what a hook has returned; a coroutine is run to its end."""
         if not issubclass(type(result), CoroutineType):  # a hook's result may lie about its class
             return result
         waiting = cast("Coroutine[Any, Any, object]", result)

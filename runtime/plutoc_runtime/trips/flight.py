@@ -25,6 +25,7 @@ class Flight(Future[Status]):
         "hook",
         "launched_at",
         "mission",
+        "overdue",
         "own_action",
         "retry",
         "trip",
@@ -53,7 +54,9 @@ class Flight(Future[Status]):
         self.own_action: Task[None] | None = None
         """The task of an action of the app's own, once it has begun."""
         self.called_off = False
-        """It was aborted, and its drone is asked what it has done."""
+        """It was aborted."""
+        self.overdue = ""
+        """Why it was aborted, while its drone is asked what it has done."""
 
     @property
     def id(self) -> str:
@@ -96,9 +99,6 @@ class Flight(Future[Status]):
     def failed(self) -> bool:
         """Whether it has ended, and failed."""
         return self._value is FAILED
-
-    def begins(self) -> None:
-        """Called right before the action is done."""
 
     def report(self, result: object) -> None:
         """Called with the action's result, or with the `FlightFailed` that ended the job."""

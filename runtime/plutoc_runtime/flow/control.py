@@ -1,0 +1,154 @@
+"""What people want of a running app, as far as its missions and drones are concerned."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from ..domain.errors import ANY_ERROR, BadInput
+from ..domain.guard import NOT_ITS_OWN
+from ..domain.status import Status
+from ..hooks.calls import trace_of
+from ..time.kernel import mission_key
+
+if TYPE_CHECKING:
+    from ..domain.actions import Action
+    from ..domain.app import App
+    from ..domain.model import Drone, Trip
+    from .engine import Session
+    from .mission import MissionState
+    from .restore import Restorer
+
+PRIORITY = "priority"
+"""The field of trips with the priority in the queue, in apps whose graph has one."""
+
+Request = Mapping[str, Any]
+Probed = Callable[[str, str, bool | None], object]
+"""Called with a drone, its flight, and whether the action was done; None: the app cannot tell."""
+
+
+class Control:
+    """Carries out commands; each returns what it did, or raises `BadInput`."""
+
+    def __init__(
+        self,
+        session: Session,
+        states: Mapping[str, MissionState],
+        restorer: Restorer,
+        probed: Probed,
+    ) -> None:
+        self._session, self._core, self._states = session, session.core, states
+        self._restorer, self._probed = restorer, probed
+
+    def perform(self, request: Request) -> str:
+        """Carry out a command."""
+        do = _COMMANDS.get(str(request.get("command")))
+        if do is None:
+            raise BadInput(f"there is no command {request.get('command')!r}")
+        try:
+            return do(self, request)
+        except KeyError as error:
+            raise BadInput(f"the command {request['command']} needs {error}") from None
+
+    def _pause(self, request: Request) -> str:
+        state = self._state(request)
+        self._session.engine.suspend(state)
+        return f"{state.mission.name} has left its graph"
+
+    def _cancel(self, request: Request) -> str:
+        state = self._state(request)
+        status = Status(request.get("status", Status.CANCELLED.value))
+        self._session.engine.cancel(state, status, str(request.get("reason", "")))
+        return f"{state.mission.name} has ended"
+
+    def _skip(self, request: Request) -> str:
+        state, trip = self._trip(request)
+        if trip is state.mission.trips[0] and state.task is not None:
+            raise BadInput(f"trip {trip.name} may be flying: pause its mission first")
+        state.mission.trips.remove(trip)
+        return f"trip {trip.name} is skipped"
+
+    def _prioritise(self, request: Request) -> str:
+        _, trip = self._trip(request)
+        if not any(field.name == PRIORITY for field in self._core.app.fields):
+            raise BadInput("the trips of this app have no priority")
+        setattr(trip, PRIORITY, request["priority"])
+        self._core.queue.prioritise(trip, request["priority"])
+        return f"trip {trip.name} has priority {request['priority']}"
+
+    def _retire(self, request: Request) -> str:
+        drone = self._drone(request)
+        self._core.fleet.retire(drone)
+        return f"{drone.id} is retired"
+
+    def _bring_back(self, request: Request) -> str:
+        drone = self._drone(request)
+        self._core.fleet.bring_back(drone)
+        return f"{drone.id} is back"
+
+    # Whether an action was done
+
+    def _probe(self, request: Request) -> str:
+        """Ask the app's own hook whether the action of a mission's last flight was done."""
+        state = self._restorer.restored(request["mission"], request["record"])
+        flight = state.flight
+        if flight is None:
+            raise BadInput(f"mission {request['mission']} has no flight to ask about")
+        action = self._core.app.actions[flight.trip.action]
+        probe = probe_of(self._core.app, action)
+
+        async def ask() -> None:
+            answer: object = None
+            try:
+                if probe is not None:
+                    answer = await self._core.kernel.call_hook(probe, flight.flier, flight.trip)
+            except NOT_ITS_OWN:
+                raise
+            except ANY_ERROR as error:  # it cannot tell: a person must
+                self._core.log(trace_of(error), state.mission.name)
+            self._probed(flight.drone, flight.id, answer if type(answer) is bool else None)
+
+        key = mission_key(state.mission.index)
+        self._core.kernel.spawn(ask(), key, f"{flight.id} is probed")
+        return f"{flight.id} is probed"
+
+    # Which mission, trip or drone
+
+    def _state(self, request: Request) -> MissionState:
+        state = self._states.get(request["mission"])
+        if state is None or state.ended:
+            raise BadInput(f"mission {request['mission']} is not under way")
+        return state
+
+    def _trip(self, request: Request) -> tuple[MissionState, Trip]:
+        state = self._state(request)
+        for trip in state.mission.trips:
+            if trip.name == request["trip"]:
+                return state, trip
+        raise BadInput(f"mission {request['mission']} has no trip {request['trip']} to do")
+
+    def _drone(self, request: Request) -> Drone:
+        for drone in self._core.fleet.drones:
+            if drone.id == request["drone"]:
+                return drone
+        raise BadInput(f"no drone {request['drone']} is in the fleet")
+
+
+def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
+    """Return the hook that can tell whether an action was done: `pollinate` has `pollinate_done`."""
+    name, hook = f"{action.name}_done", action.hook
+    if hook is None or name in app.actions or name in app.evaluators:
+        return None  # something else has this name
+    return getattr(sys.modules.get(hook.__module__), name, None)
+
+
+_COMMANDS: Mapping[str, Callable[[Control, Request], str]] = {
+    "pause": Control._pause,
+    "cancel": Control._cancel,
+    "skip": Control._skip,
+    "prioritise": Control._prioritise,
+    "retire": Control._retire,
+    "bring-back": Control._bring_back,
+    "probe": Control._probe,
+}
