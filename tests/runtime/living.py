@@ -30,6 +30,7 @@ from . import apps
 from .mortal import Mortal
 
 FIELDS = (
+    Field(name="at", on=Entity.MISSION, type=FieldType.TIME_OF_DAY, label="At"),
     Field(name="repeat", on=Entity.MISSION, type=FieldType.ROUNDS, label="Repeat", default=0),
     Field(name="every", on=Entity.MISSION, type=FieldType.TIME, label="Every"),
     Field(name="safe_time", on=Entity.MISSION, type=FieldType.TIME, label="Safe time"),

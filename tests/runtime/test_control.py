@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import pytest
 
-from pluto_fleet.flight.live_engine import live_engine
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.trials.invariants import violations
 from plutoc_runtime.domain.errors import BadInput
@@ -114,7 +113,7 @@ def test_a_cancelled_mission_ends_and_its_drone_comes_home() -> None:
     living = Living(enterable(), two_trips(), apps.mission("b", apps.trip("1", 4)))
     living.at(3.0, lambda: living.life.control.cancel("a"))
     assert living.run() == ["CANCELLED", "COMPLETED"]
-    assert living.life.session.drones[0].status.value == "FREE"
+    assert living.life.drones[0].status.value == "FREE"
 
 
 def test_a_mission_with_an_item_aboard_can_be_cancelled() -> None:
@@ -195,7 +194,7 @@ def test_where_a_person_watches_the_app_lives_until_they_have_decided() -> None:
 
     def watched_life() -> None:
         living.live_on()
-        live_engine(living.life.session).patient = True
+        living.life.patient = True
 
     living.at(10.0, living.die)
     living.at(11.0, watched_life)

@@ -7,6 +7,8 @@ import pytest
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import AfterTrip
 from plutoc_runtime.domain.status import DroneStatus
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.virtual import Stuck
 
 from . import apps
 from .living import Living, enterable, names
@@ -20,7 +22,7 @@ def missions(*called: str) -> list[apps.Mission]:
 
 
 def standing(living: Living) -> list[DroneStatus]:
-    return [drone.status for drone in living.life.session.drones]
+    return [drone.status for drone in living.life.drones]
 
 
 def test_a_trip_that_waits_is_flown_before_others_once_it_has_a_higher_priority() -> None:
@@ -78,9 +80,11 @@ def test_a_retired_drone_that_stands_in_the_field_comes_home() -> None:
     field = apps.fleet(*HOMES, after=AfterTrip.STAY)
     living = Living(enterable(), *missions("a"), on=field)
     living.run()
-    who = next(drone for drone in living.life.session.drones if drone.trips)
+    who = next(drone for drone in living.life.drones if drone.trips)
     living.life.control.retire(who.id)
-    living.kernel.run(living.life.session.core.fleet.errands[who], 200.0)
+    with pytest.raises(Stuck):  # it is at home, and nothing is left to do
+        living.kernel.run(Future[None](), 200.0)
+    who = next(drone for drone in living.life.drones if drone.id == who.id)
     assert who.status is DroneStatus.OFFLINE
     assert who.distance(who.home) < 0.1
 

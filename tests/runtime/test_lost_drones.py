@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.flight.live_fleet import live_fleet
 from pluto_fleet.gateway.executor import Executor
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.journal.fold import Records
@@ -33,7 +32,7 @@ def living(*names: str, homes: int = 2, attempts: int = 5) -> Living:
 
 def drone(living: Living, id: str = "cf1") -> Drone:
     """Return a drone as the latest life sees it."""
-    return next(one for one in living.life.session.drones if one.id == id)
+    return next(one for one in living.life.brain.session.drones if one.id == id)
 
 
 def records(living: Living) -> Records:
@@ -123,7 +122,7 @@ def test_a_lost_drone_stays_lost_in_the_next_life_though_it_calls_itself_well() 
     fleet.crash(20.0)
     seen: list[Any] = []
     fleet.at(60.0, lambda: seen.append((drone(fleet).status, records(fleet).lost["cf1"]["at"])))
-    fleet.at(60.0, lambda: seen.append(fleet.life.session.core.fleet.unready[drone(fleet)]))
+    fleet.at(60.0, lambda: seen.append(fleet.life.brain.session.core.fleet.unready[drone(fleet)]))
     fleet.at(61.0, lambda: fleet.life.control.bring_back("cf1"))
     assert fleet.run() == ["COMPLETED"] * 8
     (status, at), why = seen
@@ -215,7 +214,7 @@ def test_a_drone_that_was_not_ready_is_asked_anew_when_a_person_has_looked_after
     fleet.run(2.0)
     heard: list[str] = []
     vars(fleet.gateway.navigation).update(mended=heard.append)
-    fleet.life.session.core.fleet.unready[drone(fleet)] = "it has crashed"
+    fleet.life.brain.session.core.fleet.unready[drone(fleet)] = "it has crashed"
     assert fleet.life.control.bring_back("cf1") == "cf1 is asked whether it is well"
     assert heard == ["cf1"]
 
@@ -261,7 +260,7 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
     monkeypatch.setattr(Executor, "drone_report", drone_report)
     fleet = living(*"ab")
     vars(fleet.gateway.navigation).update(recover=fetched)
-    live_fleet(fleet.life.session.core).carried_home = False
+    fleet.life.carried_home = False
     assert fleet.run() == ["COMPLETED"] * 2
     assert names(fleet.named("trip.launched"), "drone") == ["cf2", "cf2"]
     assert drone(fleet).status is DroneStatus.RECOVERING
@@ -278,7 +277,7 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
 def test_who_flies_home_after_a_failure_is_waited_for() -> None:
     """It needs no person."""
     fleet = living("a", homes=1)
-    live_fleet(fleet.life.session.core).carried_home = False
+    fleet.life.carried_home = False
     fleet.at(8.0, lambda: fleet.life.control.cancel("a"))
     assert fleet.run() == ["CANCELLED"]
     assert names(fleet.named("drone.recovering"), "drone") == ["cf1"]

@@ -18,6 +18,7 @@ from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.verdict import Verdict
 from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.time.future import Future
 
 from . import apps
 from .living import Living, enterable, names
@@ -193,7 +194,15 @@ def test_a_drone_whose_flight_was_over_for_its_dead_brain_is_called_off() -> Non
     living = Living(
         enterable(watch=apps.timed), apps.mission("a", apps.trip("1", 9), safe_time=5.0)
     )
-    living.at(4.9, lambda: setattr(living.gateway, "break_off", lambda drone: None))
+
+    async def never(drone: str) -> bool:
+        return await Future[bool]()
+
+    def deaf() -> None:
+        living.gateway.break_off = lambda drone: None
+        living.gateway.commander.recover = never
+
+    living.at(4.9, deaf)
     living.at(5.5, lambda: delattr(living.gateway, "break_off"))
     living.crash(5.2)
     assert living.run() == ["FAILED"]

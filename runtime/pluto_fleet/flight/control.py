@@ -6,7 +6,8 @@ done. Nothing here waits before the drones are told.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -40,6 +41,8 @@ class Control:
         self.whole: Task[float] | None = None
         """The task that starts or resumes all missions, and waits for their end."""
         self._stops: Task[None] | None = None
+        self._busy = False
+        """Whether a command is half done: missions may be in no graph that are about to go on."""
         self._steps_out: dict[str, Task[None]] = {}
         """The tasks of missions whose flights are being aborted."""
         self._probes: dict[str, Future[bool | None]] = {}
@@ -168,7 +171,7 @@ class Control:
     @property
     def waits(self) -> bool:
         """Whether missions that are in no graph keep the app running."""
-        if self._steps_out:
+        if self._busy or self._steps_out:
             return True
         waiting = [aside(record) for record in self._run.records.missions.values()]
         paused = any(one is not None and one[0] is Status.PAUSED for one in waiting)
@@ -182,15 +185,26 @@ class Control:
     def _step_out(self, name: str, record: Record, then: Then) -> None:
         """Suspend a mission; continue when the outcome of its flight is known."""
         self._refuse_while_it_steps_out(name)
-        flight = in_flight(record)
-        if aside(record) is None:
-            self._command("pause", mission=name)
-        if flight is None or aside(record) is not None:
-            then(name, record)
-            return
-        self._steps_out[name] = self._run.kernel.spawn(
-            self._broken_off(name, record, then), FLEET, f"{name} is interrupted"
-        )
+        flight, was_aside = in_flight(record), aside(record) is not None
+        with self._half_done():
+            if not was_aside:
+                self._command("pause", mission=name)
+            if flight is None or was_aside:
+                then(name, record)
+            else:
+                self._steps_out[name] = self._run.kernel.spawn(
+                    self._broken_off(name, record, then), FLEET, f"{name} is interrupted"
+                )
+
+    @contextmanager
+    def _half_done(self) -> Iterator[None]:
+        """Let nothing end meanwhile."""
+        self._busy = True
+        try:
+            yield
+        finally:
+            self._busy = False
+        self._run.look_for_the_end()
 
     def _refuse_while_it_steps_out(self, name: str) -> None:
         if name in self._steps_out:
@@ -320,9 +334,9 @@ class Control:
             return  # it has ended, or its mission was suspended
         if name in self._steps_out or record["ended"]:
             return
-        self._command("pause", mission=name)
-        self.doubt(name, record)
-        self._run.look_for_the_end()
+        with self._half_done():
+            self._command("pause", mission=name)
+            self.doubt(name, record)
 
     # Which missions and drones
 

@@ -87,7 +87,7 @@ class Driver:
         over, due = brain.over, brain.due
         if over is not None:
             self.done.set(over)
-        elif due is not None and due < self._armed_for:
+        if due is not None and due < self._armed_for:
             self._armed_for = due
             # after all else of that instant: it is all that is known then
             self._kernel.at(due, EventKind.ALLOCATE, FLEET, self._advance)

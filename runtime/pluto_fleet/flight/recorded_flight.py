@@ -7,11 +7,13 @@ begins with the journal's records and a report of the drones, however the last o
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.brain import Brain
 from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.text import of, place, quoted
 from plutoc_runtime.flow.standing import drones_of, fleet_data, mission_data, update
 from plutoc_runtime.time.future import Future
@@ -23,7 +25,7 @@ from ..journal.recorder import Recorder, Sink
 from ..process.signal_guard import guard_hooks
 from .control import Control
 from .driver import Driver, Message, Order
-from .mission_status import in_order
+from .mission_status import aside, in_order
 from .orders import Dispatcher, outcome
 from .reconcile import Outcome, outcome_of
 from .recovery import Recovery
@@ -116,8 +118,11 @@ class RecordedFlight:
         missions = []
         for name, record in in_order(self.records):
             mission = self.app.mission(name=name, trips=[], index=record["index"])
-            if record["held"] is None:  # else it may not fit the app
+            with suppress(KeyError, TypeError, ValueError):  # it may not fit the app any more
                 update(self.app, mission, record)
+            mission.status, mission.reason = Status(record["status"]), record["reason"]
+            if (waits := aside(record)) is not None:
+                mission.status, mission.reason = waits
             missions.append(mission)
         return tuple(missions)
 

@@ -65,7 +65,11 @@ class Restorer:
         state.at, state.interrupted = record.get("at"), bool(record.get("interrupted"))
         state.first_start = record.get("first_start")
         state.last_action_end = record.get("last_action_end")
-        state.waited = {_place(place) for place in record.get("waited", ())} or None
+        waited = {_place(place) for place in record.get("waited", ())}
+        if known is not None:  # it was paused: this brain knows better where it was
+            state.at = known.at if known.at in core.app.resumes else state.at
+            waited |= known.waited or set()
+        state.waited = waited or None
         if record.get("delay") is not None:
             place, over, begins = record["delay"]
             state.delay = _place(place), over, begins
