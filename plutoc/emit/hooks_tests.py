@@ -76,8 +76,17 @@ def hooks_test(checked: Checked) -> str:
     made = {action.name: _action(action, graph) for action in graph.actions}
     made |= {hook.name: _hook(hook, checked) for hook in graph.hooks}
     tests = [made[name] for name in in_order(graph)]
-    imports = import_lines(_imports(graph.name, tests))
-    return formatted(render("test_hooks.py", app=graph.name, imports=imports, tests=tests))
+    modifiers = [hook.name for hook in graph.hooks if hook.kind is HookKind.MODIFIER]
+    return formatted(
+        render(
+            "test_hooks.py",
+            app=graph.name,
+            action="".join(action.name for action in graph.actions[:1]),
+            modifier="".join(modifiers[:1]),
+            imports=import_lines(_imports(graph.name, tests)),
+            tests=tests,
+        )
+    )
 
 
 def _imports(app: str, tests: list[HookTest]) -> list[Import]:

@@ -1,14 +1,13 @@
 """Tests of hooks.py: yours. plutoc wrote this file once, and never touches it again.
 
-Each test calls its hook once, and holds for any: say in its place what yours shall do. The time
-stands still until a test moves it, and drones measure what a test says:
+Each shows how a hook is called, and passes whatever it does: say there what yours shall do.
+conftest.py has the fixtures.
+The time stands still until a test moves it, and a drone measures what the test says:
 
     context.sensors["range.front"] = 0.4
-    call = kit.start(hooks.pollinate, …)
+    call = kit.start(hooks.pollinate, drone, trip, context)
     clock.advance(5.0)
     assert call.done and context.lines == ["what it has logged"]
-
-conftest.py has the fixtures.
 """
 
 from __future__ import annotations
