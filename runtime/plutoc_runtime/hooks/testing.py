@@ -92,7 +92,7 @@ class Flight(Future[Status]):
         self.trip = trip
 
 
-class Told(NamedTuple):
+class DroneState(NamedTuple):
     """The state of a drone, as a test has it."""
 
     location: Point
@@ -170,13 +170,13 @@ class AppKit(Generic[M, T]):
         """Return a drone of a category, by default of the app's first."""
         kinds = {kind.name: kind for kind in self._app.categories}
         kind, number = kinds[category or next(iter(kinds))], next(self._drones)
-        name, told = f"{kind.name} {number}", Told(at, battery)
+        name, told = f"{kind.name} {number}", DroneState(at, battery)
         return Drone(id=name, category=kind, home=at, telemetry=told, index=number - 1)
 
     def move(self, drone: Drone, *, to: Point | None = None, battery: float | None = None) -> None:
         """Change where a drone is, or what is left in its battery."""
         level = drone.battery_level if battery is None else battery
-        drone.telemetry = Told(to or drone.location, level)
+        drone.telemetry = DroneState(to or drone.location, level)
 
     def trip(
         self,
