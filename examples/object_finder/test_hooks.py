@@ -37,12 +37,12 @@ def test_the_sharpest_sight_is_fetched_from(kit: Kit, mission: Mission) -> None:
 def test_a_blurred_photo_is_taken_three_times_at_most(kit: Kit, mission: Mission) -> None:
     table, sink = mission.trips
     kit.complete(mission, photo(table, "cup"))
-    sink.attempt = 2
+    for _ in range(2):
+        kit.complete(mission, photo(sink, sharpness=0.5))
+        assert hooks.who_saw_it(mission, kit.results(mission)).redo == (sink,)
+        mission.trips.append(sink)
     kit.complete(mission, photo(sink, sharpness=0.5))
-    assert hooks.who_saw_it(mission, kit.results(mission)).redo == (sink,)
-    sink.attempt = 3
-    mission.trips.append(sink)
-    kit.complete(mission, photo(sink, sharpness=0.5))
+    assert sink.attempt == 3
     assert hooks.who_saw_it(mission, kit.results(mission)).log == ("keys not found here",)
 
 

@@ -11,9 +11,10 @@ import pytest
 
 from plutoc.compile import analyse, package_of
 from plutoc.emit.hooks_tests import hooks_test
+from plutoc.emit.package import emit
 from plutoc.source import Source
 from tests.emit.apps import ODD_NAMES, PARCELS, PLAIN
-from tests.emit.plans import checked_of
+from tests.emit.plans import checked_of, plan_of
 from tests.emit.test_hooks_file import BEFORE, BESIDE, LAST
 from tests.flying import EXAMPLES, compiled
 
@@ -133,6 +134,13 @@ def test_without_hooks_there_is_no_kit() -> None:
     package = package_of(checked, source_name="app.pluto")
     assert not [path for path in {**package.owned, **package.once} if "testing" in path]
     assert "tests/conftest.py" not in package.once
+
+
+def test_left_over_hooks_keep_the_kit_that_their_tests_import() -> None:
+    """The tests are the developer's, as hooks.py is: neither is written anew."""
+    package = emit(plan_of(PLAIN), source_name="app.pluto", picture="", former={"old": "policy"})
+    assert "src/plain/testing.py" in package.owned
+    assert list(package.once) == ["src/plain/hooks.py"]
 
 
 def test_no_module_of_the_package_imports_pytest(tmp_path: Path) -> None:

@@ -229,8 +229,9 @@ def test_a_modifier_waits_no_longer_than_its_limit(kit: Kit) -> None:
         "its link was lost",
     )
     assert kit.call(limit_trip, mission, kit.context(mission), limit=60.0) is Status.FAILED
-    trip.reset()
     kit.launch(mission)
+    with pytest.raises(ValueError, match="trip 1 is in flight"):
+        kit.launch(mission)
     assert (trip.attempt, mission.attempts, trip.reason) == (2, 2, "")
 
 

@@ -207,8 +207,9 @@ class AppKit(Generic[M, T]):
         return cast("M", self._app.mission(trips=list(trips or (self.trip(),)), **given))
 
     def launch(self, mission: M, drone: Drone | None = None) -> None:
-        """Have a drone leave for the mission's next trip."""
+        """Have a drone leave for the mission's next trip; one that flew before is put back."""
         trip, flier = mission.trips[0], drone or self.drone()
+        trip.reset()
         trip.status, trip.drone = TripStatus.EXECUTING, flier
         trip.start_time, trip.end_time, trip.reason = self.clock.now, None, ""
         mission.status, mission.reason = RUNNING, ""
