@@ -181,6 +181,15 @@ def test_only_an_action_that_may_wait_has_a_live_drone(kit: Kit) -> None:
         assert kit.call(waiting, kit.drone(), kit.trip(), context) == 1.0
 
 
+def test_a_context_may_be_passed_by_name(kit: Kit) -> None:
+    """As a hook has named it."""
+
+    async def look(drone: Drone, trip: Trip, its: Context) -> float:
+        return its.live(drone).battery
+
+    assert kit.call(look, kit.drone(battery=0.7), kit.trip(), its=kit.context()) == 0.7
+
+
 def test_asyncio_is_refused_as_in_a_simulation(kit: Kit) -> None:
     """With the same words."""
 
@@ -198,11 +207,11 @@ async def limit_trip(mission: Mission[Trip], context: Context, *, limit: float) 
 
 
 def test_a_modifier_waits_for_the_end_of_a_trip(kit: Kit) -> None:
-    """Which is the test's to say, for a mission that its context is for."""
+    """Which is the test's to say."""
     mission = kit.mission(kit.trip(), kit.trip())
     kit.launch(mission)
     assert (mission.status, mission.attempts) == (Status.RUNNING, 1)
-    call = kit.start(limit_trip, mission, kit.context(mission), limit=60.0)
+    call = kit.start(limit_trip, mission, kit.context(), limit=60.0)
     kit.clock.advance(30.0)
     assert not call.done and mission.current.elapsed == 30.0 and not mission.current.expired(60.0)
     kit.complete(mission)
@@ -216,7 +225,7 @@ def test_a_modifier_waits_no_longer_than_its_limit(kit: Kit) -> None:
     mission = kit.mission()
     kit.launch(mission)
     kit.clock.advance(20.0)
-    call = kit.start(limit_trip, mission, kit.context(mission), limit=60.0)
+    call = kit.start(limit_trip, mission, kit.context(), limit=60.0)
     kit.clock.advance(39.0)
     assert not call.done
     kit.clock.advance(1.0)
@@ -228,7 +237,7 @@ def test_a_modifier_waits_no_longer_than_its_limit(kit: Kit) -> None:
         "its link was lost",
         "its link was lost",
     )
-    assert kit.call(limit_trip, mission, kit.context(mission), limit=60.0) is Status.FAILED
+    assert kit.call(limit_trip, mission, kit.context(), limit=60.0) is Status.FAILED
     kit.launch(mission)
     with pytest.raises(ValueError, match="trip 1 is in flight"):
         kit.launch(mission)
@@ -242,14 +251,14 @@ def test_a_hook_that_never_ends_is_not_waited_for(kit: Kit) -> None:
     with pytest.raises(
         RuntimeError, match=r"^wait has not ended at 0 s: it waits for the clock, or"
     ):
-        kit.call(wait, mission, kit.context(mission))
+        kit.call(wait, mission, kit.context())
 
     async def poll(mission: Mission[Trip], context: Context) -> None:
         while True:
             await context.sleep(600.0)
 
     with pytest.raises(RuntimeError, match=r"^poll has not ended at 86400 s"):
-        kit.call(poll, mission, kit.context(mission))
+        kit.call(poll, mission, kit.context())
 
 
 async def wait(mission: Mission[Trip], context: Context) -> None:

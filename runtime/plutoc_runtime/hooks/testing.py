@@ -104,33 +104,23 @@ class DroneState(NamedTuple):
 class KitContext(Context):
     """A hook's context, with what a test gives to it and reads back."""
 
-    def __init__(
-        self,
-        clock: Clock,
-        results: ResultStore,
-        mission: Mission[Any],
-        latest: Callable[[], Flight | None],
-    ) -> None:
+    def __init__(self, clock: Clock, results: ResultStore, mission: Mission[Any]) -> None:
         self.lines: list[str] = []
         """What the hook has logged."""
         self.sensors: dict[str, float | Callable[[], float]] = {}
         """What its drone measures, by name; a function is called for each value."""
         self.written: dict[str, float] = {}
         """What the hook has set on its drone, by name."""
-        self._given = (
-            clock.kernel,
-            results,
-            lambda line, _: self.lines.append(line),
-            mission,
-            latest,
-        )
-        self.lend(None)
+        self._given = clock.kernel, results, lambda line, _: self.lines.append(line)
+        self.lend(mission, lambda: None, None)
 
-    def lend(self, drone: Drone | None) -> None:
-        """Make this the live drone of the hook that begins; None: it has none."""
+    def lend(
+        self, mission: Mission[Any], latest: Callable[[], Flight | None], drone: Drone | None
+    ) -> None:
+        """Give it to a hook of this mission that begins; without a live drone, if that is None."""
         kernel = self._given[0]
         self._lent = LiveDrone(kernel, _Instruments(self), drone, FLEET) if drone else None
-        super().__init__(*self._given, self._lent)
+        super().__init__(*self._given, mission, latest, self._lent)
 
     def take_back(self) -> None:
         """End the access to the live drone: the hook has ended."""
@@ -162,6 +152,7 @@ class AppKit(Generic[M, T]):
     def __init__(self, app: App) -> None:
         self._app, self._store, self.clock = app, ResultStore(), Clock()
         self._flights: dict[Mission[Any], Flight] = {}
+        self._none = app.mission(name="no mission", trips=[])
         self._drones, self._trips, self._missions = count(1), count(1), count(1)
 
     def drone(
@@ -246,10 +237,9 @@ class AppKit(Generic[M, T]):
         """Return what the mission's evaluator gets now; it is new only once."""
         return self._store.for_evaluator(mission)
 
-    def context(self, mission: M | None = None) -> KitContext:
-        """Return a context for an action or a modifier, by default of a mission of its own."""
-        its = mission or self.mission()
-        return KitContext(self.clock, self._store, its, lambda: self._flights.get(its))
+    def context(self) -> KitContext:
+        """Return a context, for the actions and modifiers that it is handed to."""
+        return KitContext(self.clock, self._store, self._none)
 
     @overload
     def start(
@@ -259,15 +249,17 @@ class AppKit(Generic[M, T]):
     def start(self, hook: Callable[P, R], /, *given: P.args, **named: P.kwargs) -> HookCall[R]: ...
     def start(self, hook: Callable[..., Any], /, *given: Any, **named: Any) -> HookCall[Any]:
         """Call a hook, and let it run until it waits."""
-        drone = next((one for one in given if isinstance(one, Drone)), None)
-        contexts = [one for one in given if isinstance(one, KitContext)]
+        passed = (*given, *named.values())
+        drone = next((one for one in passed if isinstance(one, Drone) and can_wait(hook)), None)
+        mission = next((one for one in passed if isinstance(one, Mission)), self._none)
+        contexts = [one for one in passed if isinstance(one, KitContext)]
 
         def over(_: object) -> None:  # what the hook has raised is kept for `result`
             for context in contexts:
                 context.take_back()
 
         for context in contexts:
-            context.lend(drone if can_wait(hook) else None)
+            context.lend(mission, lambda: self._flights.get(mission), drone)
         call = self.clock.kernel.call_hook(hook, *given, **named)
         task = self.clock.kernel.spawn(call, FLEET, hook_name(hook))
         task.over = over

@@ -39,6 +39,6 @@ def trip(mission: Mission) -> Trip:
 
 
 @pytest.fixture
-def context(kit: Kit, mission: Mission) -> KitContext:
-    """Return the context for a hook that is called for the mission."""
-    return kit.context(mission)
+def context(kit: Kit) -> KitContext:
+    """Return the context for an action or a modifier."""
+    return kit.context()
