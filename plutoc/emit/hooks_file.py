@@ -1,11 +1,10 @@
-"""`hooks.py` and its tests: written once, with a stub for each hook; the user's from then on."""
+"""`hooks.py`: written once, with a stub for each hook; the user's from then on."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from textwrap import wrap
 
-from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.model_file import fields_of
 from plutoc.emit.python import LINE_LENGTH, Import, builtins_alias, import_lines, names, shadows
@@ -40,14 +39,6 @@ def hooks_file(checked: Checked) -> str:
             stubs=found,
         )
     )
-
-
-def hooks_test(graph: Graph) -> str:
-    """Return the text of `tests/test_hooks.py`."""
-    judges = [hook.name for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
-    # the evaluator to show an example with; empty where there is none
-    judge = "".join(judges[:1])
-    return formatted(render("test_hooks.py", app=graph.name, judge=judge, hooks=in_order(graph)))
 
 
 def stub(checked: Checked, name: str) -> str:

@@ -10,7 +10,8 @@ from types import MappingProxyType
 from plutoc.emit.callables import carried_functions
 from plutoc.emit.embed import BLOCKS, FOLDER, carried_library, embed
 from plutoc.emit.flow_file import flow_file
-from plutoc.emit.hooks_file import hooks_file, hooks_test
+from plutoc.emit.hooks_file import hooks_file
+from plutoc.emit.hooks_tests import fixtures_file, hooks_test, testing_file
 from plutoc.emit.lock import NAME, Hooks, hooks_of, lock
 from plutoc.emit.model_file import model_file
 from plutoc.emit.modules import RUNTIME, import_statements
@@ -56,6 +57,9 @@ def emit(
         "flow.py": flow_file(plan),
         "model.py": model_file(graph),
     }
+    hooks = hooks_of(graph)
+    if hooks or former:  # tests of hooks that are left over go on importing it
+        modules["testing.py"] = testing_file(graph)
     carried = embed(carried_functions(plan), sorted(_runtime_modules(modules.values())))
     library = carried_library() if carry else {}
     files = {
@@ -69,13 +73,14 @@ def emit(
         f"{app}/py.typed": "",
         "tests/test_flow.py": owned(flow_test(graph), source_name),
     }
-    packages, hooks = (node.package for node in graph.nodes), hooks_of(graph)
+    packages = (node.package for node in graph.nodes)
     files[NAME] = lock(
         graph.name, source_name, packages, files, Hooks(declared=hooks, former=former)
     )
     once = {f"{app}/hooks.py": hooks_file(plan.checked)}
-    if graph.actions or graph.hooks:
-        once["tests/test_hooks.py"] = hooks_test(graph)
+    if hooks:
+        once["tests/conftest.py"] = fixtures_file(graph)
+        once["tests/test_hooks.py"] = hooks_test(plan.checked)
     return Package(
         name=graph.name,
         owned=dict(sorted(files.items())),

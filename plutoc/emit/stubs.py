@@ -127,7 +127,7 @@ def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
 def _modifier(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
     fixed = "mission: Mission, context: Context"
     keywords = _keywords(hook.parameters, taken)
-    arriving = _arriving(hook, checked)
+    arriving = arriving_at(hook, checked)
     waits = bool(hook.emits) and Status.RUNNING in arriving and Status.RUNNING not in hook.emits
     lines = [_log(hook.name)]
     doc = ["Change the mission, or look at it; its status stays."]
@@ -151,7 +151,7 @@ def _modifier(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
     )
 
 
-def _arriving(hook: Hook, checked: Checked) -> frozenset[Status]:
+def arriving_at(hook: Hook, checked: Checked) -> frozenset[Status]:
     """Return the statuses that missions can have where the hook is called."""
     blocks = [node.name for node in checked.graph.nodes if node.hook is hook]
     found = frozenset(status for name in blocks for status in checked.arrives[name])

@@ -352,6 +352,20 @@ def test_a_place_that_cannot_be_written_ends_with_2(plutoc: Call, app: Path) -> 
     assert "Not a directory; nothing was changed" in said.err
 
 
+def test_tests_of_hooks_are_the_developers(plutoc: Call, app: Path) -> None:
+    """They are written where there are none, and never again: a package from before keeps its own."""
+    assert plutoc("compile", app).code == 0
+    tests, fixtures = Path("crop/tests/test_hooks.py"), Path("crop/tests/conftest.py")
+    tests.write_text("# mine\n")
+    fixtures.unlink()
+    assert plutoc("compile", app).code == 0
+    assert tests.read_text() == "# mine\n"
+    assert "from crop.testing import " in fixtures.read_text()
+    fixtures.write_text("# mine, too\n")
+    assert plutoc("compile", app, "--force").code == 0
+    assert fixtures.read_text() == "# mine, too\n"
+
+
 def test_hooks_beside_the_app_become_the_packages_first(plutoc: Call, app: Path) -> None:
     """A copy; from then on the package's own is the one that counts."""
     mine = Path("hooks.py")

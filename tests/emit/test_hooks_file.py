@@ -7,7 +7,7 @@ import ast
 import pytest
 
 from plutoc.compile import analyse, check_hooks, package_of
-from plutoc.emit.hooks_file import hooks_file, hooks_test, stub
+from plutoc.emit.hooks_file import hooks_file, stub
 from plutoc.source import Source
 from tests.emit.apps import ODD_NAMES, PLAIN
 from tests.emit.plans import checked_of
@@ -124,14 +124,6 @@ def test_fields_of_the_app_are_named() -> None:
     written = hooks_file(checked_of(ODD_NAMES))
     assert "`attempts`, `at`, `every`, `evaluator`." in written
     assert "`priority`" not in hooks_file(checked_of(PLAIN))
-
-
-def test_tests_of_hooks_name_each() -> None:
-    """They hold for any hooks.py; how to test more is said where it helps."""
-    written = hooks_test(checked_of(ODD_NAMES).graph)
-    assert "def test_str_can_be_called() -> None:" in written
-    assert "def test_run_can_be_called() -> None:" in written
-    assert "An evaluator can be tested" in written
 
 
 @pytest.mark.parametrize("app", APPS, ids=range(len(APPS)))

@@ -15,7 +15,7 @@ NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
 MOST_LINES, MOST_FILES = 6_000, 70
 """Of the package of the thesis's basic flow: all of its Python, its tests included."""
-MOST_LINES_OF_ANY = 7_200
+MOST_LINES_OF_ANY = 7_460
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}
 OUTSIDE |= {"select", "selectors", "signal", "threading", "urllib", "http", "webbrowser"}

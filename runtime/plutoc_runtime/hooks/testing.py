@@ -1,0 +1,277 @@
+"""A kit for tests of the app's hooks: what they are given, and a clock that a test moves by hand.
+
+Nothing flies here: a test says how trips end, what drones measure and when time passes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Mapping
+from contextlib import suppress
+from itertools import count
+from math import inf
+from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar, cast, overload
+
+from ..domain.actions import Plain
+from ..domain.app import App
+from ..domain.errors import Failure, FlightFailed
+from ..domain.model import Drone, Mission, Point, Trip
+from ..domain.results import Results, ResultStore
+from ..domain.status import COMPLETED, FAILED, RUNNING, STANDBY, Status, TripStatus
+from ..time.future import Future
+from ..time.kernel import FLEET, EventKind, Task
+from ..time.virtual import Stuck, VirtualTime
+from .calls import hook_name
+from .context import Context
+from .live_drone import LiveDrone, can_wait
+
+P = ParamSpec("P")
+R = TypeVar("R")
+M = TypeVar("M", bound=Mission[Any])
+T = TypeVar("T", bound=Trip)
+
+A_DAY = 86_400.0
+"""Seconds after which a hook that has not ended is taken for one that never will."""
+
+
+class Clock:
+    """The time of a test: it stands still until the test moves it."""
+
+    def __init__(self) -> None:
+        self.kernel = VirtualTime()
+
+    @property
+    def now(self) -> float:
+        """The time, in seconds since the test began."""
+        return self.kernel.now
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass; each hook that waits goes on at its instant."""
+        if not 0.0 <= seconds < inf:
+            raise ValueError(f"time cannot pass by {seconds} seconds")
+        over: Future[None] = Future()
+        # the last kind of all: whatever else is due at that instant is done before
+        until = self.now + seconds
+        self.kernel.at(until, EventKind.ALLOCATE, FLEET, lambda: over.set(None))
+        self.kernel.run(over)
+
+
+class HookCall(Generic[R]):
+    """A hook that was called: it goes on with the clock, until it has ended."""
+
+    def __init__(self, clock: Clock, task: Task[Any]) -> None:
+        self._clock, self._task = clock, task
+
+    @property
+    def done(self) -> bool:
+        """Whether it has ended, well or not."""
+        return self._task.is_set
+
+    def result(self) -> R:
+        """Return what it has returned, or raise what it has raised."""
+        if not self.done:
+            now = f"{self._task.name} has not ended at {self._clock.now:g} s"
+            raise RuntimeError(f"{now}: it waits for the clock, or for the end of a trip")
+        return cast("R", self._task.result())
+
+    def finish(self, within: float = A_DAY) -> R:
+        """Let time pass until it has ended, and return its result."""
+        with suppress(Stuck):  # it waits for what only the test can bring: `result` says so
+            self._clock.kernel.run(self._task, until=self._clock.now + within)
+        return self.result()
+
+    def cancel(self) -> None:
+        """Call it off where it waits, as when its drone fails; what it has as `finally` is run."""
+        self._task.cancel()
+
+
+class Flight(Future[Status]):
+    """A trip that is under way, for hooks that wait for its end."""
+
+    def __init__(self, trip: Trip) -> None:
+        super().__init__()
+        self.trip = trip
+
+
+class DroneState(NamedTuple):
+    """The state of a drone, as a test has it."""
+
+    location: Point
+    battery_level: float
+    landed: bool = False
+    silence: float = 0.0
+
+
+class KitContext(Context):
+    """A hook's context, with what a test gives to it and reads back."""
+
+    def __init__(self, clock: Clock, results: ResultStore, mission: Mission[Any]) -> None:
+        self.lines: list[str] = []
+        """What the hook has logged."""
+        self.sensors: dict[str, float | Callable[[], float]] = {}
+        """What its drone measures, by name; a function is called for each value."""
+        self.written: dict[str, float] = {}
+        """What the hook has set on its drone, by name."""
+        self._given = clock.kernel, results, lambda line, _: self.lines.append(line)
+        self.lend(mission, lambda: None, None)
+
+    def lend(
+        self, mission: Mission[Any], latest: Callable[[], Flight | None], drone: Drone | None
+    ) -> None:
+        """Give it to a hook of this mission that begins; without a live drone, if that is None."""
+        kernel = self._given[0]
+        self._lent = LiveDrone(kernel, _Instruments(self), drone, FLEET) if drone else None
+        super().__init__(*self._given, mission, latest, self._lent)
+
+    def take_back(self) -> None:
+        """End the access to the live drone: the hook has ended."""
+        if self._lent is not None:
+            self._lent.release()
+
+
+class _Instruments:
+    """What is built onto the drone of a context."""
+
+    def __init__(self, context: KitContext) -> None:
+        self._context = context
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return what it measures under this name."""
+        value = self._context.sensors.get(name)
+        if value is None:
+            raise FlightFailed(Failure.ACTION, f"{drone} has no {name}")
+        return value() if callable(value) else value
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Keep a value, which from now on is what it measures, too."""
+        self._context.sensors[name] = self._context.written[name] = value
+
+
+class AppKit(Generic[M, T]):
+    """What the hooks of an app are given, for one test."""
+
+    def __init__(self, app: App) -> None:
+        self._app, self._store, self.clock = app, ResultStore(), Clock()
+        self._flights: dict[Mission[Any], Flight] = {}
+        self._none = app.mission(name="no mission", trips=[])
+        self._drones, self._trips, self._missions = count(1), count(1), count(1)
+
+    def drone(
+        self, category: str | None = None, *, at: Point = (0.0, 0.0, 0.0), battery: float = 1.0
+    ) -> Drone:
+        """Return a drone of a category, by default of the app's first."""
+        kinds = {kind.name: kind for kind in self._app.categories}
+        kind, number = kinds[category or next(iter(kinds))], next(self._drones)
+        name, told = f"{kind.name} {number}", DroneState(at, battery)
+        return Drone(id=name, category=kind, home=at, telemetry=told, index=number - 1)
+
+    def move(self, drone: Drone, *, to: Point | None = None, battery: float | None = None) -> None:
+        """Change where a drone is, or what is left in its battery."""
+        level = drone.battery_level if battery is None else battery
+        drone.telemetry = DroneState(to or drone.location, level)
+
+    def trip(
+        self,
+        action: str | None = None,
+        *,
+        target: Point = (3.0, 4.0, 1.0),
+        parameters: Mapping[str, Plain] | None = None,
+        **fields: Any,
+    ) -> T:
+        """Return a trip, by default with the first action that the app's drones can do."""
+        able = (one for one in self._app.actions if any(k.can(one) for k in self._app.categories))
+        declared = self._app.actions[action or next(able)]
+        values = {p.name: p.default for p in declared.parameters if p.default is not None}
+        trip = self._app.trip(
+            action=declared.name,
+            target=target,
+            parameters={**values, **(parameters or {})},
+            **{"name": f"trip {next(self._trips)}", **fields},
+        )
+        trip.now = self.clock.kernel.time
+        return cast("T", trip)
+
+    def mission(self, *trips: T, **fields: Any) -> M:
+        """Return a mission with these trips, by default with one."""
+        for index, trip in enumerate(trips):
+            trip.index = index
+        given = {"name": f"mission {next(self._missions)}", **fields}
+        return cast("M", self._app.mission(trips=list(trips or (self.trip(),)), **given))
+
+    def launch(self, mission: M, drone: Drone | None = None) -> None:
+        """Have a drone leave for the mission's next trip; one that flew before is put back."""
+        trip, flier = mission.trips[0], drone or self.drone()
+        trip.reset()
+        trip.status, trip.drone = TripStatus.EXECUTING, flier
+        trip.start_time, trip.end_time, trip.reason = self.clock.now, None, ""
+        mission.status, mission.reason = RUNNING, ""
+        mission.attempts += 1
+        flier.trips += 1
+        self._flights[mission] = Flight(trip)
+
+    def complete(self, mission: M, value: object = None) -> None:
+        """Complete the mission's trip, whose action has given this value."""
+        trip = self._over(mission, TripStatus.COMPLETED)
+        mission.completed_trips.append(mission.trips.pop(0))
+        mission.status = STANDBY if mission.trips else COMPLETED
+        mission.last_result = self._store.add(mission, trip, mission.round, trip.attempt, value)
+        self._tell(mission)
+
+    def fail(self, mission: M, reason: str = "the test has failed it") -> None:
+        """Fail the mission's trip for this reason."""
+        self._over(mission, TripStatus.FAILED).reason = mission.reason = reason
+        mission.status = FAILED
+        self._tell(mission)
+
+    def _over(self, mission: M, status: TripStatus) -> Trip:
+        if mission.status is not RUNNING:
+            self.launch(mission)
+        trip: Trip = mission.trips[0]
+        trip.status, trip.end_time = status, self.clock.now
+        return trip
+
+    def _tell(self, mission: M) -> None:
+        self._flights[mission].set(mission.status)
+        self.clock.advance(0.0)
+
+    def results(self, mission: M) -> Results[M, T]:
+        """Return what the mission's evaluator gets now; it is new only once."""
+        return self._store.for_evaluator(mission)
+
+    def context(self) -> KitContext:
+        """Return a context, for the actions and modifiers that it is handed to."""
+        return KitContext(self.clock, self._store, self._none)
+
+    @overload
+    def start(
+        self, hook: Callable[P, Coroutine[Any, Any, R]], /, *given: P.args, **named: P.kwargs
+    ) -> HookCall[R]: ...
+    @overload
+    def start(self, hook: Callable[P, R], /, *given: P.args, **named: P.kwargs) -> HookCall[R]: ...
+    def start(self, hook: Callable[..., Any], /, *given: Any, **named: Any) -> HookCall[Any]:
+        """Call a hook, and let it run until it waits."""
+        passed = (*given, *named.values())
+        drone = next((one for one in passed if isinstance(one, Drone) and can_wait(hook)), None)
+        mission = next((one for one in passed if isinstance(one, Mission)), self._none)
+        contexts = [one for one in passed if isinstance(one, KitContext)]
+
+        def over(_: object) -> None:  # what the hook has raised is kept for `result`
+            for context in contexts:
+                context.take_back()
+
+        for context in contexts:
+            context.lend(mission, lambda: self._flights.get(mission), drone)
+        call = self.clock.kernel.call_hook(hook, *given, **named)
+        task = self.clock.kernel.spawn(call, FLEET, hook_name(hook))
+        task.over = over
+        self.clock.advance(0.0)
+        return HookCall(self.clock, task)
+
+    @overload
+    def call(
+        self, hook: Callable[P, Coroutine[Any, Any, R]], /, *given: P.args, **named: P.kwargs
+    ) -> R: ...
+    @overload
+    def call(self, hook: Callable[P, R], /, *given: P.args, **named: P.kwargs) -> R: ...
+    def call(self, hook: Callable[..., Any], /, *given: Any, **named: Any) -> Any:
+        """Call a hook, let time pass until it has ended, and return its result."""
+        return self.start(hook, *given, **named).finish()

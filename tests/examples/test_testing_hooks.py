@@ -1,0 +1,76 @@
+"""The page on testing hooks is true: its hooks pass its tests, in the package of its app."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from plutoc_runtime.hooks.testing import AppKit, Clock, HookCall, KitContext
+from tests.examples.test_docs import DOCS, blocks
+from tests.flying import compiled_file
+
+PAGE = DOCS / "testing-hooks.md"
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the package of the page's app, with the page's tests instead of the generated ones."""
+    folder = tmp_path_factory.mktemp("page")
+    (app,) = blocks(PAGE, "pluto")
+    (folder / "app.pluto").write_text(app, "utf-8")
+    hooks, *tests = blocks(PAGE, "python")
+    (folder / "hooks.py").write_text(hooks, "utf-8")
+    made = compiled_file(folder / "app.pluto", folder / "greenhouse")
+    for number, test in enumerate(tests):
+        (made / f"tests/test_{number}.py").write_text(test, "utf-8")
+    return made
+
+
+def test_the_hooks_of_the_page_pass_its_tests(package: Path) -> None:
+    """And the generated ones, which hold for any."""
+    tests = sum(text.count("\ndef test_") for text in blocks(PAGE, "python"))
+    assert tests == 7
+    run = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "pytest",
+            "-q",
+            "-p",
+            "no:cacheprovider",
+            "--ignore=tests/test_flow.py",
+        ],
+        cwd=package,
+        env={**os.environ, "PYTHONPATH": ""},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert f"{tests + 4} passed" in run.stdout, run.stdout + run.stderr
+
+
+def test_the_page_lists_what_there_is() -> None:
+    """All that a test can use, and each fixture."""
+    text = PAGE.read_text("utf-8")
+    for of, kind in (("kit", AppKit), ("clock", Clock), ("call", HookCall)):
+        for name in vars(kind):
+            if not name.startswith("_"):
+                assert re.search(rf"`{of}\.{name}[`(]", text), f"{of}.{name}"
+    inner = {"lend", "take_back"}
+    for name in {*vars(KitContext), "lines", "sensors", "written"} - inner:
+        if not name.startswith("_"):
+            assert f"`context.{name}`" in text, name
+
+
+def test_the_page_lists_the_fixtures(package: Path) -> None:
+    """Those of the conftest.py that is written."""
+    fixtures = re.findall(
+        r"^def (\w+)\(", (package / "tests/conftest.py").read_text("utf-8"), re.MULTILINE
+    )
+    table = PAGE.read_text("utf-8").partition("| fixture |")[2].partition("\n\n")[0]
+    assert sorted(re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE)) == sorted(fixtures)
