@@ -169,7 +169,7 @@ def test_the_others_fly_without_a_drone_that_is_not_ready(monkeypatch: pytest.Mo
     assert (first["event"], first["drone"]) == ("drone.not_ready", "cf1")
     assert (second["event"], second["drone"]) == ("drone.recovering", "cf1")
     assert living.life.missions[0].status is Status.COMPLETED
-    assert {drone.status for drone in living.life.session.drones} == {DroneStatus.FREE}
+    assert {drone.status for drone in living.life.drones} == {DroneStatus.FREE}
 
 
 @dataclass(frozen=True)
