@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.python import annotation, status_tuple
+from plutoc.emit.python import PYTHON, annotation, status_tuple
 from plutoc.graph.model import Action, Graph, Hook, Parameter
-from plutoc_runtime.domain.quantities import PYTHON, Type
+from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 EXPORTS = {

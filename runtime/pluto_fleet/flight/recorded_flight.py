@@ -11,7 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import of, quoted
+from plutoc_runtime.domain.text import quoted
 from plutoc_runtime.flow.engine import Listener, Session
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
 
@@ -19,6 +19,7 @@ from ..files.reading import shortened
 from ..journal.durable_link import DurableLink
 from ..journal.recorder import Recorder, Sink
 from ..process.signal_guard import guard_hooks
+from ..process.text import of
 from .abort import DeferredAbort
 from .control import Control
 from .live_engine import LiveEngine, live_engine

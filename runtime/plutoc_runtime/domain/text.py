@@ -19,16 +19,6 @@ def quoted(text: str) -> str:
     return f'"{printable(cut_off(text, LONGEST))}"'
 
 
-def in_shell(text: object) -> str:
-    """Quote a word of a command line for a shell."""
-    from shlex import quote  # rarely needed
-
-    word = str(text)
-    if word.isprintable():
-        return quote(word)
-    return "$'" + printable(word.replace("\\", "\\\\").replace("'", "\\'")) + "'"
-
-
 def number(value: float) -> str:
     """Format a number with up to three decimals: 2, 0.5, 1.333."""
     text = f"{value:.3f}".rstrip("0").rstrip(".")
@@ -66,11 +56,6 @@ def percent(share: float) -> str:
 def counted(count: int, one: str, many: str | None = None) -> str:
     """Format a count: 1 trip, 2 trips."""
     return f"{count} {one if count == 1 else many or one + 's'}"
-
-
-def of(drone: str, reason: str) -> str:
-    """Add the drone to a reason that does not name it."""
-    return reason if reason.startswith(f"{drone} ") else f"{drone}: {reason}"
 
 
 def printable(text: str) -> str:
