@@ -36,7 +36,7 @@ from plutoc_runtime.fleet.policies.least_used import least_used
 from plutoc_runtime.fleet.policies.nearest import nearest
 
 if TYPE_CHECKING:
-    from plutoc_runtime.fleet.queue import OneByOne
+    from plutoc_runtime.fleet.policies import OneByOne
 
 FLEETS = (10, 100, 1_000, 10_000)
 SHARES = ((10, 10), (30, 30), (100, 100), (300, 300), (1_000, 1_000), (1_000, 1_100), (1_000, 1))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
-    from ..domain.model import Category, Drone, Item, Mission, Point, Trip
+    from ..domain.model import Category, Item, Mission, Point, Trip
 
 
 CLIMB_SPEED = 0.3
@@ -278,28 +278,3 @@ class Reach:
         # to the source, to the target, and home
         seconds = 3 * across / category.speed + up_and_down + self.app.actions[action].seconds
         return share(category, seconds) + category.reserve
-
-
-class Demand:
-    """The requirements of the next trip on a drone; from a pick on, of all trips to its release."""
-
-    def __init__(self, reach: Reach, trips: Sequence[Trip]) -> None:
-        self._app, self._airspace, self._chain = reach.app, reach.airspace, chain_of(trips)
-        self._stops = stops_of(reach.app, reach.airspace, self._chain)
-        self._never: dict[tuple[Category, Point], str | None] = {}
-        self._levels: dict[tuple[Category, Point, Point], float] = {}
-
-    def never(self, drone: Drone) -> str | None:
-        """Return why a drone cannot fly the chain even with a full battery; None: it can."""
-        key = (drone.category, drone.home)
-        if key not in self._never:
-            self._never[key] = why_not(self._app, self._airspace, *key, self._chain)
-        return self._never[key]
-
-    def battery(self, drone: Drone) -> float:
-        """Return the required battery level, with the way home and the reserve."""
-        key = category, home, here = drone.category, drone.home, drone.location
-        if key not in self._levels:
-            part = needed(category, self._airspace, here, self._stops, home)
-            self._levels[key] = NO_WAY if part is None else part + category.reserve
-        return self._levels[key]

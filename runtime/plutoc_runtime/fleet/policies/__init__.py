@@ -1,1 +1,53 @@
-"""The allocation policies that a graph can name, one file each."""
+"""What an allocation policy is; those that a graph can name have a file each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import update_wrapper
+from math import inf
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ...domain.model import Drone, Trip
+
+Able = Callable[["Drone"], bool]
+"""Returns whether a drone can fly the trip now. It may search a route: call it for few drones."""
+
+Choice = tuple["Drone", str]
+"""The drone that gets a trip, and why it was chosen."""
+
+OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
+"""Chooses one of the free drones, in the fleet's order, for a trip, or None."""
+
+AllAtOnce = Callable[[Sequence[tuple["Trip", Able]], Sequence["Drone"]], Sequence[Choice | None]]
+"""Chooses a different free drone, or None, for each of the trips that wait with one priority."""
+
+
+class Batch:
+    """Decorates a policy that chooses for all waiting trips at once."""
+
+    def __init__(self, policy: AllAtOnce) -> None:
+        self._policy = policy
+        update_wrapper(self, policy)
+
+    def __call__(
+        self, offers: Sequence[tuple[Trip, Able]], free: Sequence[Drone]
+    ) -> Sequence[Choice | None]:
+        """Return a drone, or None, for each trip."""
+        return self._policy(offers, free)
+
+
+Policy = OneByOne | Batch
+
+
+def lowest(
+    free: Sequence[Drone], able: Able, rank: Callable[[Drone], float]
+) -> tuple[Drone, float] | None:
+    """Return the able drone of the lowest rank, and that rank; of equals, the fleet's first."""
+    found: Drone | None = None
+    least = inf
+    for drone in free:
+        here = rank(drone)
+        if here < least and able(drone):
+            found, least = drone, here
+    return None if found is None else (found, least)

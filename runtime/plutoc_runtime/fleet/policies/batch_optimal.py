@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from ..queue import Batch
+from . import Batch
 from .assignment import assign
 
 if TYPE_CHECKING:
     from ...domain.model import Drone, Trip
-    from ..queue import Able, Choice
+    from . import Able, Choice
 
 
 @Batch

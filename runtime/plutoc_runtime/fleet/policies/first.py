@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ...domain.model import Drone, Trip
-    from ..queue import Able, Choice
+    from . import Able, Choice
 
 
 def first(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ..queue import lowest
+from . import lowest
 
 if TYPE_CHECKING:
     from ...domain.model import Drone, Trip
-    from ..queue import Able, Choice
+    from . import Able, Choice
 
 
 def least_used(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:

@@ -14,7 +14,7 @@ from ...hooks.calls import hook_name, said, trace_of
 
 if TYPE_CHECKING:
     from ...domain.model import Trip
-    from ..queue import Able, Choice, OneByOne
+    from . import Able, Choice, OneByOne
 
 
 def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne:
