@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.mission_data import MOST_BITS, Data, fields_of, trip_data
-from plutoc_runtime.domain.model import NOTHING, Item, Photo
+from plutoc_runtime.domain.model import Item, Photo
 from plutoc_runtime.domain.status import TripStatus
 from plutoc_runtime.domain.text import shown
 from plutoc_runtime.hooks.keepable import are_named, keepable
@@ -35,7 +35,7 @@ def trip_of(app: App, data: Mapping[str, Any], status: TripStatus = TripStatus.W
         action=data["action"],
         target=point_of(data["target"]),
         source=None if data.get("source") is None else point_of(data["source"]),
-        parameters=data.get("parameters") or NOTHING,
+        parameters=data.get("parameters") or {},
         item=item_of(data.get("item")),
         index=data["index"],
         **data.get("fields", {}),

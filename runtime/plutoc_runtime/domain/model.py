@@ -81,22 +81,18 @@ class Telemetry(Protocol):
     @property
     def location(self) -> Point:
         """Where it is."""
-        ...
 
     @property
     def battery_level(self) -> float:
         """The charge of the battery, from 0 to 1."""
-        ...
 
     @property
     def landed(self) -> bool:
         """Whether it stands on the ground or in its dock."""
-        ...
 
     @property
     def silence(self) -> float:
         """Seconds since its last message; infinite: it has sent none."""
-        ...
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -128,26 +124,6 @@ class Drone:
         return dist(self.location, point)
 
 
-class Nothing(dict[str, "Plain"]):
-    """No parameters: one mapping for the many trips that have none, so it must not be filled."""
-
-    __slots__ = ()
-
-    def __setitem__(self, key: str, value: Plain) -> None:
-        raise TypeError(f"a trip's parameters are given as a whole: parameters={{{key!r}: ...}}")
-
-    def __deepcopy__(self, _: object) -> Nothing:
-        return self
-
-
-NOTHING = Nothing()
-
-
-def nothing() -> Mapping[str, Plain]:
-    """Return the parameters of a trip that has none."""
-    return NOTHING
-
-
 @dataclass(slots=True, kw_only=True, eq=False)
 class Trip:
     """A drone's flight to a target that ends with an action."""
@@ -157,7 +133,7 @@ class Trip:
     target: Point
     source: Point | None = None
     """Where the flight begins; None: where the drone is."""
-    parameters: Mapping[str, Plain] = field(default_factory=nothing)
+    parameters: Mapping[str, Plain] = field(default_factory=dict)
     """The action's parameters, in SI units."""
     item: Item | None = None
     status: TripStatus = field(default=TripStatus.WAITING, init=False)

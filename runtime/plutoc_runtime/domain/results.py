@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any, Generic, NamedTuple, TypeVar, overload
 
 from .model import NO_RESULT, Mission, Trip
@@ -22,15 +22,13 @@ class Result(NamedTuple, Generic[M, T]):
 
 
 class View(Sequence[Result[Any, Any]]):
-    """A read-only view of some results, by their numbers: nothing is copied for each evaluation."""
+    """The first so many results, read-only: nothing is copied for each evaluation."""
 
-    __slots__ = ("_numbers", "_results")
-
-    def __init__(self, results: Sequence[Result[Any, Any]], numbers: Sequence[int]) -> None:
-        self._results, self._numbers = results, numbers
+    def __init__(self, results: Sequence[Result[Any, Any]], count: int) -> None:
+        self._results, self._count = results, count
 
     def __len__(self) -> int:
-        return len(self._numbers)
+        return self._count
 
     @overload
     def __getitem__(self, index: int) -> Result[Any, Any]: ...
@@ -38,11 +36,8 @@ class View(Sequence[Result[Any, Any]]):
     def __getitem__(self, index: slice) -> Sequence[Result[Any, Any]]: ...
     def __getitem__(self, index: int | slice) -> Result[Any, Any] | Sequence[Result[Any, Any]]:
         if isinstance(index, slice):
-            return tuple(map(self._results.__getitem__, self._numbers[index]))
-        return self._results[self._numbers[index]]  # an IndexError is its own
-
-    def __iter__(self) -> Iterator[Result[Any, Any]]:
-        return map(self._results.__getitem__, self._numbers)
+            return tuple(self._results[number] for number in range(self._count)[index])
+        return self._results[range(self._count)[index]]  # an IndexError is its own
 
     def __repr__(self) -> str:
         return repr(tuple(self))
@@ -83,14 +78,13 @@ class ResultStore:
 
     def so_far(self) -> View:
         """Return all results up to now."""
-        return View(self._results, range(len(self._results)))
+        return View(self._results, len(self._results))
 
     def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:
         """Return what a mission's evaluator gets now."""
-        new: list[int] = []
+        new: list[Result[Any, Any]] = []
         last, mission.last_result = mission.last_result, NO_RESULT
         while last != NO_RESULT:
-            new.append(last)
+            new.append(self._results[last])
             last = self._before[last]
-        new.reverse()
-        return Results(View(self._results, new), self.so_far())
+        return Results(tuple(reversed(new)), self.so_far())

@@ -31,9 +31,7 @@ DOCK_REACH = 0.2
 
 def docked(landed_at: Point, home: Point) -> bool:
     """Return whether a drone that landed there stands in its dock."""
-    if landed_at == home:
-        return True
-    return hypot(landed_at[0] - home[0], landed_at[1] - home[1]) <= DOCK_REACH
+    return landed_at == home or dist(landed_at[:2], home[:2]) <= DOCK_REACH
 
 
 def flight_seconds(

@@ -24,11 +24,9 @@ class LatestFlight(Protocol):
 
     def watch(self, watcher: Callable[[Any], object]) -> None:
         """Call this when it has ended."""
-        ...
 
     def unwatch(self, watcher: Callable[[Any], object]) -> None:
         """Remove a watcher."""
-        ...
 
 
 class Context:

@@ -26,11 +26,9 @@ class Instruments(Protocol):
 
     async def read(self, drone: str, name: str) -> float:
         """Return the value of a sensor or variable."""
-        ...
 
     async def write(self, drone: str, name: str, value: float) -> None:
         """Set a parameter."""
-        ...
 
 
 class LiveDrone:
