@@ -58,7 +58,7 @@ WARNED = SOUND.replace("max_attempts: 3", "max_attempts: 0").replace(
 HOOKS = """\
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.results import Results
-from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.flow.judgement import Verdict
 
 
 def find_blooms(mission: Mission, results: Results) -> Verdict:

@@ -25,7 +25,7 @@ EXPORTS = {
     "Results": ".model",
     "Status": "._runtime.domain.status",
     "Trip": ".model",
-    "Verdict": "._runtime.flow.verdict",
+    "Verdict": "._runtime.flow.judgement",
 }
 """The types that hooks are written with, and where they are."""
 _FOR_HOOKS = ("Context", "LiveDrone", "Verdict")

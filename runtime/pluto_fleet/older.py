@@ -34,7 +34,7 @@ _ROOMS = {
         " policies.nearest policies.own"
     ),
     "trips": "flight watching:deadlines transitions",
-    "flow": "engine state:mission core:mission run judgement verdict modification declared session:engine",
+    "flow": "engine state:mission core:mission run judgement verdict:judgement modification declared session:engine",
 }
 """The new names of former modules."""
 

@@ -9,7 +9,7 @@ import pytest
 from plutoc_runtime.domain.model import Mission
 from plutoc_runtime.domain.results import Results
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.flow.judgement import Verdict
 from tests.runtime import apps
 
 

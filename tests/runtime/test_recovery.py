@@ -15,8 +15,8 @@ from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.model import Drone, Trip
 from plutoc_runtime.domain.results import Results
 from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.judgement import Verdict
 from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.flow.verdict import Verdict
 from plutoc_runtime.hooks.context import Context
 
 from . import apps

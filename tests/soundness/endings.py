@@ -32,7 +32,7 @@ from plutoc_runtime.domain.results import Results
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.trace import Event
 from plutoc_runtime.flow import mission as state
-from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.flow.judgement import Verdict
 from plutoc_runtime.hooks.context import Context
 from tests.equivalence.flows import packaged
 from tests.equivalence.patience import Spins

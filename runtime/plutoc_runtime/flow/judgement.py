@@ -1,9 +1,10 @@
-"""Applying an evaluator's verdict."""
+"""The verdict of an evaluator on a mission, and what becomes of the mission."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from operator import is_
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import ANY_ERROR, HookFault
@@ -13,12 +14,29 @@ from ..domain.text import class_of, shown, text_of
 from ..fleet.reach import why_not
 from ..hooks.calls import hook_name, said
 from ..hooks.soundness import unsound, unsound_mission
-from .verdict import Verdict
 
 if TYPE_CHECKING:
     from ..domain.model import Mission, Trip
     from .mission import Core
     from .run import Run
+
+
+class Verdict(NamedTuple):
+    """An evaluator's verdict; the runtime sets the mission's status from it."""
+
+    ok: bool = True
+    """False with nothing to redo and nothing to add: the mission has FAILED."""
+    redo: tuple[Trip, ...] = ()
+    """Completed trips of this mission that must be flown again."""
+    add: tuple[Trip, ...] = ()
+    """New trips for this mission; they are not repeated by a later round."""
+    log: tuple[str, ...] = ()
+    """Lines for the console."""
+    fail: str | None = None
+    """The mission has FAILED, and this is why."""
+
+
+_CONTENT = Verdict()
 
 
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:
@@ -34,7 +52,7 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # a subclass may lie
     if type(mission.trips) is not list or mission.trips:
         raise HookFault(f"evaluator {name} changed the mission's trips: that is what `add` is for")
-    if verdict.ok is True and verdict.fail is None and verdict.asks_nothing:
+    if all(map(is_, verdict, _CONTENT)):  # as by far the most verdicts
         return COMPLETED
     redo, add = _listed(name, "redo", verdict.redo), _listed(name, "add", verdict.add)
     for line in _listed(name, "log", verdict.log):
