@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.text import class_of, text_of
 from ..time.future import Future
-from ..time.kernel import EventKind, Kernel, Key, mission_key
+from ..time.kernel import EventKind, Kernel, mission_key
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
@@ -22,11 +23,8 @@ class LatestFlight(Protocol):
     trip: Trip
     is_set: bool
 
-    def watch(self, watcher: Callable[[Any], object]) -> None:
-        """Call this when it has ended."""
-
-    def unwatch(self, watcher: Callable[[Any], object]) -> None:
-        """Remove a watcher."""
+    def watch(self, watcher: Callable[[Any], object]) -> None: ...
+    def unwatch(self, watcher: Callable[[Any], object]) -> None: ...
 
 
 class Context:
@@ -71,15 +69,7 @@ class Context:
 
     async def sleep(self, seconds: float) -> None:
         """Wait this many seconds, simulated or real."""
-        kernel, over = self._kernel, Future[None]()
-        _must_be_finite(seconds)
-        timer = kernel.at(
-            kernel.time() + seconds, EventKind.CLOCK, self._key, lambda: over.set(None)
-        )
-        try:
-            await kernel.offer(over)
-        finally:
-            timer.cancel()
+        await self._wait(Future(), self.now + _finite(seconds), EventKind.CLOCK)
 
     async def trip_ended(self, trip: Trip, *, within: float | None = None) -> bool:
         """Wait until a trip of this mission has ended; return whether it has.
@@ -87,34 +77,32 @@ class Context:
         With `within`, wait no longer than so many seconds from the trip's start: False means that
         it is still flying. At the very same instant the trip's own end wins.
         """
-        flight = self._latest()
+        flight, over = self._latest(), Future[object]()
         if trip.ended or flight is None or flight.trip is not trip:
             return trip.ended
-        kernel, over = self._kernel, Future[None]()
-
-        def wake(_: object = None) -> None:
-            over.set(None)
-
-        flight.watch(wake)
-        timer = None
-        if within is not None:
-            _must_be_finite(within)
-            until = (trip.start_time or 0.0) + within
-            timer = kernel.at(until, EventKind.TIMER, self._key, wake)
+        until = None if within is None else (trip.start_time or 0.0) + _finite(within)
+        flight.watch(over.set)
         try:
-            await kernel.offer(over)
+            await self._wait(over, until, EventKind.TIMER)
         finally:
-            flight.unwatch(wake)
-            if timer is not None:
-                timer.cancel()
+            flight.unwatch(over.set)
         return flight.is_set
 
-    @property
-    def _key(self) -> Key:
-        return mission_key(self._mission.index)
+    async def _wait(self, over: Future[Any], until: float | None, kind: EventKind) -> None:
+        """Wait for something, but no longer than until then."""
+        timer = None
+        if until is not None:
+            key = mission_key(self._mission.index)
+            timer = self._kernel.at(until, kind, key, partial(over.set, None))
+        try:
+            await self._kernel.offer(over)
+        finally:
+            if timer is not None:
+                timer.cancel()
 
 
-def _must_be_finite(seconds: float) -> None:
-    """A hook that waits for ever would keep its mission for ever."""
+def _finite(seconds: float) -> float:
+    """Return seconds to wait; a hook that waits for ever would keep its mission for ever."""
     if not isfinite(seconds):
         raise ValueError(f"{seconds} seconds is no time to wait for")
+    return seconds

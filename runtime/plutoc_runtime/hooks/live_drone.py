@@ -24,11 +24,8 @@ T = TypeVar("T")
 class Instruments(Protocol):
     """The part of a navigation that reads and sets values of a hovering drone."""
 
-    async def read(self, drone: str, name: str) -> float:
-        """Return the value of a sensor or variable."""
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set a parameter."""
+    async def read(self, drone: str, name: str) -> float: ...
+    async def write(self, drone: str, name: str, value: float) -> None: ...
 
 
 class LiveDrone:
