@@ -71,7 +71,7 @@ def model_file(graph: Graph) -> str:
 def _imports(fields: tuple[Field, ...]) -> list[Import]:
     imports = [
         *names("dataclasses", "dataclass"),
-        *names("._runtime.domain", "model", "results"),
+        *names("._runtime.domain", "model"),
         *names("._runtime.domain.fields", "Field"),
         *names("._runtime.domain.model", "Category"),
     ]

@@ -17,9 +17,8 @@ from plutoc_runtime.domain.errors import ActionFailed
 from plutoc_runtime.domain.model import Mission, Photo
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.text import LONGEST_VALUE, shown
-from plutoc_runtime.flow.judgement import Verdict
 from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.hooks.context import Context, Verdict
 from plutoc_runtime.hooks.keepable import keepable
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable

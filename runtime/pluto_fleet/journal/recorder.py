@@ -22,8 +22,7 @@ from .values import mission_data, value_data
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
-    from plutoc_runtime.domain.results import ResultStore
+    from plutoc_runtime.domain.model import Mission, ResultStore
     from plutoc_runtime.domain.trace import Event, Trace
     from plutoc_runtime.time.kernel import Kernel
 

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from ..domain.fleet_data import FleetData
     from ..domain.model import Category, Item, Mission, Point, Trip
 
+Stop = tuple["Point", float]
+"""A point to fly to, and the seconds that the drone is busy there."""
+Stops = Sequence[Stop]
 
 CLIMB_SPEED = 0.3
 """Metres a second, straight up and straight down."""
@@ -35,18 +38,14 @@ def docked(landed_at: Point, home: Point) -> bool:
 
 
 def flight_seconds(
-    category: Category,
-    airspace: Airspace,
-    start: Point,
-    points: Sequence[Point],
-    action_seconds: float,
+    category: Category, airspace: Airspace, start: Point, points: Sequence[Point], actions: float
 ) -> float:
-    """Return how long it takes to fly through all points and do the actions on the way.
+    """Return how long it takes to fly through all points, with the seconds of actions on the way.
 
     A start on the ground (z = 0) counts the take-off to cruise height; a last point on the ground
     counts the landing there, from the height flown before. Infinite where no route leads.
     """
-    seconds, here = action_seconds, start
+    seconds, here = actions, start
     if points and start[2] <= 0:
         here = (start[0], start[1], airspace.cruise_height)
         seconds += here[2] / CLIMB_SPEED
@@ -74,11 +73,7 @@ def share(category: Category, seconds: float) -> float:
 
 
 def needed(
-    category: Category,
-    airspace: Airspace,
-    start: Point,
-    stops: Sequence[tuple[Point, float]],
-    home: Point,
+    category: Category, airspace: Airspace, start: Point, stops: Stops, home: Point
 ) -> float | None:
     """Return the share of the battery for all stops, each with its action, and back home.
 
@@ -152,12 +147,12 @@ def miss_of(
     return None
 
 
-def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> list[tuple[Point, float]]:
+def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> Stops:
     """Return the stops of a chain, with the seconds that the drone is busy at each.
 
     Between two trips of a chain it lands with its item, and takes off again.
     """
-    stops: list[tuple[Point, float]] = []
+    stops: list[Stop] = []
     for place_, trip in enumerate(chain, start=1):
         if trip.source is not None:
             stops.append((trip.source, 0.0))
@@ -168,9 +163,7 @@ def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> list[tuple[
     return stops
 
 
-def _no_way(
-    category: Category, airspace: Airspace, home: Point, stops: Sequence[tuple[Point, float]]
-) -> str:
+def _no_way(category: Category, airspace: Airspace, home: Point, stops: Stops) -> str:
     here = home
     for point, _ in [*stops, (home, 0.0)]:
         if airspace.route(here, point) is None:

@@ -1,10 +1,10 @@
-"""The verdict of an evaluator on a mission, and what becomes of the mission."""
+"""Applying an evaluator's verdict."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from operator import is_
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import ANY_ERROR, HookFault
@@ -13,6 +13,7 @@ from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from ..domain.text import class_of, shown, text_of
 from ..fleet.reach import why_not
 from ..hooks.calls import hook_name, said
+from ..hooks.context import Verdict
 from ..hooks.soundness import unsound, unsound_mission
 
 if TYPE_CHECKING:
@@ -21,22 +22,8 @@ if TYPE_CHECKING:
     from .run import Run
 
 
-class Verdict(NamedTuple):
-    """An evaluator's verdict; the runtime sets the mission's status from it."""
-
-    ok: bool = True
-    """False with nothing to redo and nothing to add: the mission has FAILED."""
-    redo: tuple[Trip, ...] = ()
-    """Completed trips of this mission that must be flown again."""
-    add: tuple[Trip, ...] = ()
-    """New trips for this mission; they are not repeated by a later round."""
-    log: tuple[str, ...] = ()
-    """Lines for the console."""
-    fail: str | None = None
-    """The mission has FAILED, and this is why."""
-
-
 _CONTENT = Verdict()
+"""The verdict of an evaluator that asks for nothing."""
 
 
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:

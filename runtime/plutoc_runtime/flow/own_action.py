@@ -9,9 +9,8 @@ from ..domain.actions import Action
 from ..domain.errors import ActionFailed, Failure, FlightFailed, HookFault
 from ..domain.text import bounded, text_of
 from ..hooks.calls import LONGEST_REASON, ProtectedFacts, call_action, changed, look
-from ..hooks.context import Context
+from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.keepable import keepable
-from ..hooks.live_drone import LiveDrone, can_wait
 from ..time.future import Future
 from ..time.kernel import mission_key
 

@@ -1,4 +1,4 @@
-"""What an allocation policy is; those that a graph can name have a file each."""
+"""Allocation policies: what one is, and those that choose a drone for trip after trip."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ...domain.model import Drone, Trip
+    from ..domain.model import Drone, Trip
 
 Able = Callable[["Drone"], bool]
 """Returns whether a drone can fly the trip now. It may search a route: call it for few drones."""
@@ -51,3 +51,22 @@ def lowest(
         if here < least and able(drone):
             found, least = drone, here
     return None if found is None else (found, least)
+
+
+def nearest(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
+    """Give each trip, in turn, the closest free drone."""
+    goal = trip.source or trip.target
+    found = lowest(free, able, lambda drone: drone.distance(goal))
+    return found and (found[0], f"nearest of {len(free)} free: {found[1]:.1f} m away")
+
+
+def first(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
+    """Give each trip, in turn, the first free drone of the fleet."""
+    drone = next(filter(able, free), None)
+    return None if drone is None else (drone, f"first of {len(free)} free in the fleet's order")
+
+
+def least_used(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
+    """Give each trip, in turn, the free drone with the fewest trips behind it."""
+    found = lowest(free, able, lambda drone: drone.trips)
+    return found and (found[0], f"least used of {len(free)} free: {found[1]} trips so far")

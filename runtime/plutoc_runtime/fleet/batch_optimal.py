@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from . import Batch
 from .assignment import assign
+from .policies import Batch
 
 if TYPE_CHECKING:
-    from ...domain.model import Drone, Trip
-    from . import Able, Choice
+    from ..domain.model import Drone, Trip
+    from .policies import Able, Choice
 
 
 @Batch
