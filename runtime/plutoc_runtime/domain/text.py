@@ -34,8 +34,8 @@ def duration(seconds: float) -> str:
     """Format a duration: 42.5 s, 3 min 20 s, 2 h 5 min."""
     if seconds < 60:
         return f"{number(round(seconds, 1))} s"
-    whole = round(seconds)
-    hours, minutes, rest = whole // 3600, whole % 3600 // 60, whole % 60
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
     if hours:
         return f"{hours} h {minutes} min" if minutes else f"{hours} h"
     return f"{minutes} min {rest} s" if rest else f"{minutes} min"
