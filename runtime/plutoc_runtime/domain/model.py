@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from math import dist
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
 from .errors import MissionFailed
 from .status import UNEXECUTED, DroneStatus, Status, TripStatus
@@ -239,14 +239,11 @@ class View(Sequence[Result[Any, Any]]):
     def __len__(self) -> int:
         return self._count
 
-    @overload
-    def __getitem__(self, index: int) -> Result[Any, Any]: ...
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[Result[Any, Any]]: ...
-    def __getitem__(self, index: int | slice) -> Result[Any, Any] | Sequence[Result[Any, Any]]:
-        if isinstance(index, slice):
-            return tuple(self._results[number] for number in range(self._count)[index])
-        return self._results[range(self._count)[index]]  # an IndexError is its own
+    def __getitem__(self, index: Any) -> Any:
+        picked = range(self._count)[index]  # an IndexError is its own
+        if isinstance(picked, range):
+            return tuple(self._results[number] for number in picked)
+        return self._results[picked]
 
     def __repr__(self) -> str:
         return repr(tuple(self))

@@ -19,8 +19,11 @@ Choice = tuple["Drone", str]
 OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
 """Chooses one of the free drones, in the fleet's order, for a trip, or None."""
 
-AllAtOnce = Callable[[Sequence[tuple["Trip", Able]], Sequence["Drone"]], Sequence[Choice | None]]
-"""Chooses a different free drone, or None, for each of the trips that wait with one priority."""
+Offers = Sequence[tuple["Trip", Able]]
+"""The trips that wait with one priority, and which drones can fly each."""
+
+AllAtOnce = Callable[[Offers, Sequence["Drone"]], Sequence[Choice | None]]
+"""Chooses a different free drone, or None, for each of them."""
 
 
 class Batch:
@@ -30,9 +33,7 @@ class Batch:
         self._policy = policy
         update_wrapper(self, policy)
 
-    def __call__(
-        self, offers: Sequence[tuple[Trip, Able]], free: Sequence[Drone]
-    ) -> Sequence[Choice | None]:
+    def __call__(self, offers: Offers, free: Sequence[Drone]) -> Sequence[Choice | None]:
         """Return a drone, or None, for each trip."""
         return self._policy(offers, free)
 
