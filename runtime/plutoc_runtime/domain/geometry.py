@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from math import dist, hypot
+from math import dist
 
 Corner = tuple[float, float]
 Polygon = tuple[Corner, ...]
@@ -108,22 +108,18 @@ def pushed_out(polygon: Polygon, margin: float) -> list[Corner]:
     A shortest way turns nowhere else. A sharp corner is cut off square, in two points: one point
     that far from both edges would be far from the corner.
     """
-    corners = polygon if _turning(polygon) > 0 else polygon[::-1]  # the inside is to the left
-    turns: list[Corner] = []
-    for i, (x, y) in enumerate(corners):
-        (ax, ay), (bx, by) = corners[i - 1], corners[(i + 1) % len(corners)]
-        before, after = hypot(x - ax, y - ay), hypot(bx - x, by - y)
-        ux, uy = (x - ax) / before, (y - ay) / before
-        vx, vy = (bx - x) / after, (by - y) / after
-        if ux * vy - uy * vx <= EPSILON and ux * vx + uy * vy > -1 + EPSILON:
+    around = polygon if _turning(polygon) > 0 else polygon[::-1]  # the inside is to the left
+    corners = [complex(x, y) for x, y in around]
+    turns: list[complex] = []
+    for i, corner in enumerate(corners):
+        before, after = corner - corners[i - 1], corners[(i + 1) % len(corners)] - corner
+        u, v = before / abs(before), after / abs(after)
+        turn = u.conjugate() * v
+        if turn.imag <= EPSILON and turn.real > -1 + EPSILON:
             continue  # it goes straight on, or turns in
-        half = (max(0.0, 1 - (ux * vx + uy * vy)) / 2) ** 0.5  # the cosine of half the angle
-        sine = max(0.0, 1 - half * half) ** 0.5
+        sine = abs(u + v) / 2  # of half the angle
         if sine < _SHARP:
-            turns.append((x + margin * (uy + ux), y + margin * (-ux + uy)))
-            turns.append((x + margin * (vy - vx), y + margin * (-vx - vy)))
+            turns += [corner + margin * (u - 1j * u), corner - margin * (v + 1j * v)]
         else:
-            nx, ny = uy + vy, -ux - vx  # the sum of the edges' normals points out
-            scale = margin / (sine * hypot(nx, ny))
-            turns.append((x + nx * scale, y + ny * scale))
-    return turns
+            turns.append(corner - 1j * (u + v) * margin / (2 * sine * sine))
+    return [(turn.real, turn.imag) for turn in turns]
