@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_left
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
 from heapq import heappop, heappush
+from itertools import chain
 from math import inf
 from typing import Generic, TypeVar
 
@@ -21,6 +21,9 @@ Row = int
 Column = int
 
 _NONE = -1
+
+_WITHOUT = 1e8
+"""What it costs a row to go without a column: more than all others together."""
 
 
 def assign(rows: Sequence[Iterator[tuple[float, C]]]) -> list[tuple[float, C] | None]:
@@ -35,142 +38,91 @@ def assign(rows: Sequence[Iterator[tuple[float, C]]]) -> list[tuple[float, C] | 
     return [pairs.of(row) for row in range(len(rows))]
 
 
-@dataclass(slots=True)
-class _Search:
-    """What a search for the cheapest way has found."""
-
-    bound: float = inf
-    """What the cheapest way costs."""
-    end: tuple[Row, Column] = (_NONE, _NONE)
-    """The last row of that way, and the column that it takes."""
-    rows: list[tuple[Row, float]] = field(default_factory=list)
-    """Those that were reached, and what it costs to get there."""
-    columns: list[tuple[Column, float]] = field(default_factory=list)
-
-
-Last = Callable[[Row, float], tuple[float, Column]]
-"""Says what a way costs that ends with a row, and which column that row then takes."""
-
-
 class _Pairs(Generic[C]):
     """The pairs so far: no others, as many, cost less.
 
     The price of a row and that of a column are together at most the cost of their pair, and equal to
-    it if the pair is made. A free column costs 0, and none costs more.
-
-    A row that must go without is thought to have a column of its own, dear beyond all measure.
-    `_closed` are the columns from which no way leads to a free one; their prices, and those of the
-    rows that have or want them, are told without that measure.
+    it if the pair is made. A free column costs 0, and none costs more. Each row has a column of its
+    own, its last, that stands for going without.
     """
 
-    def __init__(self, more: Sequence[Iterator[tuple[float, C]]]) -> None:
-        self._more = more
-        self._told = [array("l") for _ in more]
+    def __init__(self, rows: Sequence[Iterator[tuple[float, C]]]) -> None:
+        self._more = [chain(row, [(_WITHOUT, None)]) for row in rows]
+        self._told = [array("l") for _ in rows]
         """The columns that each row has told so far."""
-        self._costs = [array("d") for _ in more]
+        self._costs = [array("d") for _ in rows]
         """Numbers side by side: millions of them are read again and again."""
-        self._taken = [0] * len(more)
+        self._taken = [0] * len(rows)
         """How many of these, the first, are taken."""
-        self._row_price = [0.0] * len(more)
-        self._column_of = [_NONE] * len(more)
+        self._row_price = [0.0] * len(rows)
+        self._column_of = [_NONE] * len(rows)
         self._row_of: list[Row] = []
         self._column_price: list[float] = []
-        self._closed: list[Column] = []
         self._numbers: dict[C, Column] = {}
-        self._names: list[C] = []
+        self._names: list[C | None] = []
 
     def of(self, row: Row) -> tuple[float, C] | None:
         """Return the column of a row, and what it costs."""
-        mine = self._column_of[row]
-        if mine == _NONE:
-            return None
-        return self._costs[row][self._told[row].index(mine)], self._names[mine]
+        place = self._told[row].index(self._column_of[row])
+        name = self._names[self._column_of[row]]
+        return None if name is None else (self._costs[row][place], name)
 
     def add(self, start: Row) -> None:
-        """Give one more row a column, or let that one go without that is then the best to leave."""
+        """Give one more row a column, by the cheapest way outward from it (Dijkstra 1959)."""
         via: dict[Column, Row] = {}
-        found = self._search([(start, 0.0)], via, self._closed, 0.0, self._take_free)
-        columns = found.columns
-        if found.end[1] == _NONE:
-            shut = [column for column, _ in columns]
-            dearest = max((self._column_price[column] for column in self._closed), default=0.0)
-            found = self._search(found.rows, via, shut, dearest, self._go_without)
-            columns = columns + found.columns
-            self._closed += shut
-        for row, away in found.rows:
-            self._row_price[row] += found.bound - away
-        for column, away in columns:
-            self._column_price[column] -= found.bound - away
-        row, column = found.end
-        while True:
-            before, self._column_of[row] = self._column_of[row], column
-            if column != _NONE:
-                self._row_of[column] = row
-            if row == start:
-                return
-            row, column = via[before], before
-
-    def _search(
-        self,
-        starts: Iterable[tuple[Row, float]],
-        via: dict[Column, Row],
-        shut: Iterable[Column],
-        dearest: float,
-        last: Last,
-    ) -> _Search:
-        """Go outward from rows over taken columns that are not shut (Dijkstra 1959)."""
-        found, price, row_of = _Search(), self._column_price, self._row_of
+        rows, columns = list[tuple[Row, float]](), list[tuple[Column, float]]()
         heap: list[tuple[float, Column]] = []
-        best = [inf] * len(price)
-        for column in shut:
-            best[column] = -inf
-        coming = list(starts)
+        best = [inf] * len(self._names)
+        row, away, bound = start, 0.0, inf
         while True:
-            for row, away in coming:
-                found.rows.append((row, away))
-                cost, column = last(row, away)
-                if cost < found.bound:
-                    found.bound, found.end = cost, (row, column)
-                base, costs = away - self._row_price[row], self._costs[row]
-                stop = bisect_left(costs, found.bound - base + dearest, 0, self._taken[row])
-                nearer = [
-                    (way, column)
-                    for cost, column in zip(costs[:stop], self._told[row], strict=False)
-                    if (way := base + cost - price[column]) < best[column]
-                ]
-                for way, column in nearer:
+            rows.append((row, away))
+            base, costs = away - self._row_price[row], self._costs[row]
+            place = self._first_free(row)
+            if base + costs[place] < bound:
+                bound, end, last = base + costs[place], self._told[row][place], row
+            nearer = bisect_left(costs, bound - base, 0, place)
+            for cost, column in zip(costs[:nearer], self._told[row], strict=False):
+                way = base + cost - self._column_price[column]
+                if way < best[column]:
                     best[column], via[column] = way, row
                     heappush(heap, (way, column))
             while heap and heap[0][0] != best[heap[0][1]]:
                 heappop(heap)  # a cheaper way has been found since
-            if not heap or heap[0][0] >= found.bound:
-                return found
+            if not heap or heap[0][0] >= bound:
+                break
             away, column = heappop(heap)
             best[column] = -inf
-            found.columns.append((column, away))
-            coming = [(row_of[column], away)]
-
-    def _take_free(self, row: Row, away: float) -> tuple[float, Column]:
-        """End a way with the cheapest free column."""
-        told, row_of, taken = self._told[row], self._row_of, self._taken[row]
+            columns.append((column, away))
+            row = self._row_of[column]
+        for row, away in rows:
+            self._row_price[row] += bound - away
+        for column, away in columns:
+            self._column_price[column] -= bound - away
+        row, column = last, end
         while True:
-            while taken < len(told) and row_of[told[taken]] != _NONE:
-                taken += 1
-            self._taken[row] = taken
-            if taken < len(told):
-                return away + self._costs[row][taken] - self._row_price[row], told[taken]
-            more = next(self._more[row], None)
-            if more is None:
-                return inf, _NONE
-            self._costs[row].append(more[0])
-            told.append(self._numbered(more[1]))
+            before, self._column_of[row] = self._column_of[row], column
+            self._row_of[column] = row
+            if row == start:
+                return
+            row, column = via[before], before
 
-    def _go_without(self, row: Row, away: float) -> tuple[float, Column]:
-        """End a way with a row that has no column."""
-        return away - self._row_price[row], _NONE
+    def _first_free(self, row: Row) -> int:
+        """Return the place of the first free column among those that a row tells."""
+        told, place = self._told[row], self._taken[row]
+        while place == len(told) or self._row_of[told[place]] != _NONE:
+            if place == len(told):
+                cost, name = next(self._more[row])
+                self._costs[row].append(cost)
+                told.append(self._numbered(name))
+            else:
+                place += 1
+        self._taken[row] = place
+        return place
 
-    def _numbered(self, name: C) -> Column:
-        number = self._numbers.setdefault(name, len(self._names))
+    def _numbered(self, name: C | None) -> Column:
+        number = (
+            len(self._names) if name is None else self._numbers.setdefault(name, len(self._names))
+        )
         if number == len(self._names):
             self._names.append(name)
             self._row_of.append(_NONE)
