@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from bisect import insort
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from math import inf
 from operator import attrgetter
 from typing import TYPE_CHECKING
@@ -255,15 +255,13 @@ class Queue:
 
     def _put_back_the_charged(self) -> None:
         """Make drones ready again that have charged, or that suffice for a new request."""
-        now = self._kernel.now
         fresh = [request for request in self._fresh if not request.is_set]
         for drone, until in list(self._low.items()):
-            if until <= now or any(request.able(drone) for request in fresh):
+            if until <= self._kernel.now or any(request.able(drone) for request in fresh):
                 del self._low[drone]
                 insort(self._ready, drone, key=_in_the_file)
             else:
-                least = min((request.level(drone) for request in fresh), default=inf)
-                self._low[drone] = min(until, now + _charging(drone, least))
+                self._low[drone] = min(until, self._charged(drone, fresh))
 
     def _put_aside_the_low(self) -> None:
         """Put drones aside that are too low for every request; a docked one until it has charged.
@@ -272,9 +270,16 @@ class Queue:
         """
         for drone in tuple(self._ready):
             if not any(request.able(drone) for request in self.waiters()):
-                least = min((request.level(drone) for request in self.waiters()), default=inf)
                 self._ready.remove(drone)
-                self._low[drone] = self._kernel.now + _charging(drone, least)
+                self._low[drone] = self._charged(drone, self.waiters())
+
+    def _charged(self, drone: Drone, requests: Iterable[Request]) -> float:
+        """Return when a drone suffices for one of them where it stands; infinite: it never will."""
+        level = min((request.level(drone) for request in requests), default=inf)
+        if level == inf or not docked(drone.location, drone.home):
+            return inf
+        missing = level - drone.battery_level
+        return self._kernel.now + (missing * drone.category.charge_time + 0.001)
 
     def _look_again_when_charged(self) -> None:
         soonest = min(self._low.values())
@@ -284,10 +289,3 @@ class Queue:
             self._recheck_at, self._recheck = soonest, None
             if soonest < inf:
                 self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
-
-
-def _charging(drone: Drone, level: float) -> float:
-    """Return the seconds until a drone has charged to a level where it stands; infinite: it never will."""
-    charges = level < inf and docked(drone.location, drone.home)
-    missing = level - drone.battery_level
-    return missing * drone.category.charge_time + 0.001 if charges else inf

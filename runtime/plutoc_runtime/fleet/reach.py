@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from enum import IntEnum
-from math import dist, hypot, inf, isinf
+from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import PICK, RELEASE
@@ -67,11 +67,6 @@ def length(start: Point, way: Sequence[Point]) -> float:
     return sum(dist(a, b) for a, b in zip((start, *way), way, strict=False))
 
 
-def share(category: Category, seconds: float) -> float:
-    """Return the share of a full battery that this much flying takes."""
-    return seconds / category.flight_time
-
-
 def needed(
     category: Category, airspace: Airspace, start: Point, stops: Stops, home: Point
 ) -> float | None:
@@ -83,7 +78,7 @@ def needed(
     actions = sum(seconds for _, seconds in stops)
     ground = (home[0], home[1], 0.0)
     seconds = flight_seconds(category, airspace, start, [*points, ground], actions)
-    return None if isinf(seconds) else share(category, seconds)
+    return None if seconds == inf else seconds / category.flight_time
 
 
 class Lacks(IntEnum):
@@ -268,4 +263,4 @@ class Reach:
         up_and_down = (space.cruise_height + space.ceiling) / CLIMB_SPEED
         # to the source, to the target, and home
         seconds = 3 * across / category.speed + up_and_down + self.app.actions[action].seconds
-        return share(category, seconds) + category.reserve
+        return seconds / category.flight_time + category.reserve
