@@ -30,13 +30,11 @@ from typing import TYPE_CHECKING
 
 from measuring.options import at_least_one
 from plutoc_runtime.domain.model import Category, Drone, Point, Trip
-from plutoc_runtime.fleet.policies.batch_optimal import batch_optimal
-from plutoc_runtime.fleet.policies.first import first
-from plutoc_runtime.fleet.policies.least_used import least_used
-from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.fleet.batch_optimal import batch_optimal
+from plutoc_runtime.fleet.policies import first, least_used, nearest
 
 if TYPE_CHECKING:
-    from plutoc_runtime.fleet.queue import OneByOne
+    from plutoc_runtime.fleet.policies import OneByOne
 
 FLEETS = (10, 100, 1_000, 10_000)
 SHARES = ((10, 10), (30, 30), (100, 100), (300, 300), (1_000, 1_000), (1_000, 1_100), (1_000, 1))

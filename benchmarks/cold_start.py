@@ -57,8 +57,8 @@ WARNED = SOUND.replace("max_attempts: 3", "max_attempts: 0").replace(
 """A trip that always fails is flown for ever: the warning shows how it goes round."""
 HOOKS = """\
 from plutoc_runtime.domain.model import Mission
-from plutoc_runtime.domain.results import Results
-from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.domain.model import Results
+from plutoc_runtime.hooks.context import Verdict
 
 
 def find_blooms(mission: Mission, results: Results) -> Verdict:

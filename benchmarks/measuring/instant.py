@@ -24,7 +24,7 @@ from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.model import Category, Point
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.policies.first import first
+from plutoc_runtime.fleet.policies import first
 from plutoc_runtime.flow.run import Run
 from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel
 

@@ -7,12 +7,19 @@ from textwrap import wrap
 
 from plutoc.check.model import Checked
 from plutoc.emit.model_file import fields_of
-from plutoc.emit.python import LINE_LENGTH, Import, builtins_alias, import_lines, names, shadows
+from plutoc.emit.python import (
+    LINE_LENGTH,
+    PYTHON,
+    Import,
+    builtins_alias,
+    import_lines,
+    names,
+    shadows,
+)
 from plutoc.emit.render import formatted, render
 from plutoc.emit.stubs import Stub, in_order, stubs
 from plutoc.graph.model import Graph
 from plutoc_runtime.domain.fields import Entity
-from plutoc_runtime.domain.quantities import PYTHON
 
 MISSION_OFFERS = (
     "`name`, `status`, `reason`, `trips` (still to do, in order), `completed_trips`, `current` "

@@ -21,7 +21,16 @@ from plutoc.emit.render import render
 from plutoc.graph import model as graph_model
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import Graph
-from plutoc_runtime.domain.fields import PYTHON, Entity, Field
+from plutoc_runtime.domain.fields import Entity, Field, FieldType
+
+PYTHON: dict[FieldType, str] = {
+    FieldType.TIME: "float | None",
+    FieldType.INT: "int",
+    FieldType.ROUNDS: "int | bool",
+    FieldType.TIME_OF_DAY: "float | None",
+    FieldType.EVALUATOR: "str | None",
+}
+"""The Python type of each type of field."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,7 +71,7 @@ def model_file(graph: Graph) -> str:
 def _imports(fields: tuple[Field, ...]) -> list[Import]:
     imports = [
         *names("dataclasses", "dataclass"),
-        *names("._runtime.domain", "model", "results"),
+        *names("._runtime.domain", "model"),
         *names("._runtime.domain.fields", "Field"),
         *names("._runtime.domain.model", "Category"),
     ]

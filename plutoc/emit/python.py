@@ -7,9 +7,18 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from plutoc.graph.model import Plain
+from plutoc_runtime.domain.quantities import QUANTITIES, Type
 from plutoc_runtime.domain.status import Status
 
 LINE_LENGTH = 100
+
+PYTHON: dict[Type, str] = {
+    Type.INT: "int",
+    Type.BOOL: "bool",
+    Type.TEXT: "str",
+    **dict.fromkeys((Type.FLOAT, *QUANTITIES), "float"),
+}
+"""The Python type that a hook gets for each type of the language."""
 
 _PLAIN_DOC = re.compile(r'[^\x00-\x1f\x7f"\\]+')
 _BUILTIN = re.compile(r"\b(int|float|bool|str|object)\b")

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.python import annotation, status_tuple
+from plutoc.emit.python import PYTHON, annotation, status_tuple
 from plutoc.graph.model import Action, Graph, Hook, Parameter
-from plutoc_runtime.domain.quantities import PYTHON, Type
+from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import IN_GRAPH, Status
 
 EXPORTS = {
@@ -17,7 +17,7 @@ EXPORTS = {
     "Context": "._runtime.hooks.context",
     "Drone": "._runtime.domain.model",
     "Item": "._runtime.domain.model",
-    "LiveDrone": "._runtime.hooks.live_drone",
+    "LiveDrone": "._runtime.hooks.context",
     "Mission": ".model",
     "Photo": "._runtime.domain.model",
     "Point": "._runtime.domain.model",
@@ -25,7 +25,7 @@ EXPORTS = {
     "Results": ".model",
     "Status": "._runtime.domain.status",
     "Trip": ".model",
-    "Verdict": "._runtime.flow.verdict",
+    "Verdict": "._runtime.hooks.context",
 }
 """The types that hooks are written with, and where they are."""
 _FOR_HOOKS = ("Context", "LiveDrone", "Verdict")

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from plutoc.diagnostic import Diagnostic
+from plutoc.emit.python import PYTHON
 from plutoc.graph.model import Graph
 from plutoc.graph.names import near
 from plutoc.hooks import errors
@@ -13,7 +14,6 @@ from plutoc.hooks.annotations import Meaning, Scope, meaning, unknown_names
 from plutoc.hooks.expected import Expected
 from plutoc.hooks.module import Function, Module, node_span
 from plutoc.syntax.tokens import shortened
-from plutoc_runtime.domain.quantities import PYTHON
 
 _ARRIVES = {
     "drone": "Drone",

@@ -23,18 +23,21 @@ if TYPE_CHECKING:
 
 _ROOMS = {
     "domain": (
-        "actions airspace app changes:mission_data errors fields geometry guard model quantities results"
+        "actions airspace app changes:mission_data errors fields geometry guard model quantities results:model"
         " status trace words:text"
     ),
     "time": "kernel signals:future virtual",
-    "hooks": "plain:keepable context handle:live_drone soundness",
+    "hooks": "plain:keepable context handle:context verdict:context soundness",
     "fleet": (
         "allocation:queue capability:reach request:queue energy:reach navigation policy:queue"
-        " policies policies.assignment policies.batch_optimal policies.first policies.least_used"
-        " policies.nearest policies.own"
+        " policies policies.assignment:assignment policies.batch_optimal:batch_optimal"
+        " policies.first:policies policies.least_used:policies policies.nearest:policies"
+        " policies.own:own_policy"
     ),
     "trips": "flight watching:deadlines transitions",
-    "flow": "engine state:mission core:mission run judgement verdict modification declared session:engine",
+    "flow": (
+        "engine state:mission core:mission run judgement modification declared" " session:engine"
+    ),
 }
 """The new names of former modules."""
 

@@ -16,11 +16,9 @@ from typing import Any
 from plutoc.block import HookKind
 from plutoc.graph.model import Graph, Hook
 from plutoc_runtime.domain.errors import ActionFailed
-from plutoc_runtime.domain.model import Drone, Mission, Trip
-from plutoc_runtime.domain.results import Results
+from plutoc_runtime.domain.model import Drone, Mission, Results, Trip
 from plutoc_runtime.domain.status import Status, TripStatus
-from plutoc_runtime.flow.verdict import Verdict
-from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.hooks.context import Context, Verdict
 
 PAUSES = (0.0, 0.0, 0.5, 1.0, 2.0, 4.0, 6.5, 15.0)
 PATIENCE = 40

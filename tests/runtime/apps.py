@@ -31,8 +31,7 @@ from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.model import AfterTrip, Category, Item, Point
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.fleet.policies.nearest import nearest
-from plutoc_runtime.fleet.queue import Policy
+from plutoc_runtime.fleet.policies import Policy, nearest
 from plutoc_runtime.flow.run import Run
 
 __all__ = ["SimulationResult"]

@@ -10,7 +10,7 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from plutoc_runtime.domain.airspace import MARGIN, Airspace
-from plutoc_runtime.domain.geometry import enters, inside, outlined
+from plutoc_runtime.domain.geometry import enters, inside, tidy
 from plutoc_runtime.domain.model import Point
 from plutoc_runtime.fleet.reach import length
 
@@ -229,7 +229,7 @@ def test_a_way_is_the_shortest(corners: list[tuple[float, float]]) -> None:
         return not any(
             enters(a[:2], b[:2], square)
             for a, b in pairwise(points)
-            for square in map(outlined, squares)
+            for square in map(tidy, squares)
         )
 
     for other in product(turns, repeat=2):

@@ -11,12 +11,9 @@ from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Trip
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.policies.batch_optimal import batch_optimal
-from plutoc_runtime.fleet.policies.first import first
-from plutoc_runtime.fleet.policies.least_used import least_used
-from plutoc_runtime.fleet.policies.nearest import nearest
-from plutoc_runtime.fleet.policies.own import own_policy
-from plutoc_runtime.fleet.queue import Policy
+from plutoc_runtime.fleet.batch_optimal import batch_optimal
+from plutoc_runtime.fleet.own_policy import own_policy
+from plutoc_runtime.fleet.policies import Policy, first, least_used, nearest
 from tests.runtime import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))

@@ -6,10 +6,9 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.domain.model import Mission
-from plutoc_runtime.domain.results import Results
+from plutoc_runtime.domain.model import Mission, Results
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.hooks.context import Verdict
 from tests.runtime import apps
 
 

@@ -15,8 +15,7 @@ from plutoc_runtime.domain.fleet_data import WorldData
 from plutoc_runtime.domain.model import Category, Drone
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.context import Context
-from plutoc_runtime.hooks.live_drone import LiveDrone, can_wait
+from plutoc_runtime.hooks.context import Context, LiveDrone, can_wait
 from plutoc_runtime.time.future import Future
 from tests.runtime import apps, in_real_time
 

@@ -15,9 +15,8 @@ from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
 from plutoc_runtime.alone.simulate import SimulationResult
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.policies.nearest import nearest
-from plutoc_runtime.fleet.policies.own import own_policy
-from plutoc_runtime.fleet.queue import Policy
+from plutoc_runtime.fleet.own_policy import own_policy
+from plutoc_runtime.fleet.policies import Policy, nearest
 from plutoc_runtime.flow.run import Run
 from tests.runtime import apps
 

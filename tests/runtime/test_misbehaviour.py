@@ -22,8 +22,7 @@ from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow import mission as state
 from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.run import Run
-from plutoc_runtime.flow.verdict import Verdict
-from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.hooks.context import Context, Verdict
 from tests.runtime import apps
 
 Hook = Callable[..., object]

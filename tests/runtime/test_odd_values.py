@@ -17,8 +17,7 @@ from plutoc_runtime.domain.model import Mission, Photo
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.text import LONGEST_VALUE, shown
 from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.flow.verdict import Verdict
-from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.hooks.context import Context, Verdict
 from plutoc_runtime.hooks.keepable import keepable
 from plutoc_runtime.hooks.values import value_data, value_of
 from tests.runtime import apps

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import Category
-from plutoc_runtime.fleet.reach import docked, flight_seconds, needed, share
+from plutoc_runtime.fleet.reach import docked, flight_seconds, needed
 
 SCOUT = Category(name="scout", speed=0.5, flight_time=420)
 PLAIN = Airspace(cruise_height=1.2)
@@ -55,11 +55,6 @@ def test_the_whole_trip_is_needed() -> None:
     stops = [((4.0, 5.0, 1.2), 2.0), ((4.0, 7.0, 1.2), 3.0)]
     seconds = CLIMB + 10 + 2 + 4 + 3 + 2 * (3**2 + 6**2) ** 0.5 + CLIMB
     assert needed(SCOUT, PLAIN, (1, 1, 0), stops, (1, 1, 0)) == pytest.approx(seconds / 420)
-
-
-def test_a_share_is_of_the_flight_time() -> None:
-    """Half the flight time is half a battery."""
-    assert share(SCOUT, 210) == 0.5
 
 
 def test_a_dock_charges_who_lands_near_enough() -> None:

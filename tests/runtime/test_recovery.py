@@ -12,12 +12,10 @@ import pytest
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
 from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.model import Drone, Trip
-from plutoc_runtime.domain.results import Results
+from plutoc_runtime.domain.model import Drone, Results, Trip
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.flow.verdict import Verdict
-from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.hooks.context import Context, Verdict
 from plutoc_runtime.time.future import Future
 
 from . import apps

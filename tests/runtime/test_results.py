@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from plutoc_runtime.domain.model import Mission, Trip
-from plutoc_runtime.domain.results import Result, ResultStore
+from plutoc_runtime.domain.model import Mission, Result, ResultStore, Trip
 
 
 def test_every_result_is_found_again_however_many_there_are() -> None:

@@ -28,13 +28,11 @@ from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import AfterTrip, Category, Mission, Point
-from plutoc_runtime.domain.results import Results
+from plutoc_runtime.domain.model import AfterTrip, Category, Mission, Point, Results
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.trace import Event
 from plutoc_runtime.flow import mission as state
-from plutoc_runtime.flow.verdict import Verdict
-from plutoc_runtime.hooks.context import Context
+from plutoc_runtime.hooks.context import Context, Verdict
 from tests.equivalence.flows import packaged
 from tests.equivalence.patience import Spins
 

@@ -16,7 +16,7 @@ from plutoc.compile import analyse, planned
 from plutoc.source import Source
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.model import AfterTrip
-from plutoc_runtime.flow.verdict import Verdict
+from plutoc_runtime.hooks.context import Verdict
 from tests.equivalence.flows import packaged
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import number, of, printable, quoted
+from plutoc_runtime.domain.text import number, printable, quoted
 
 from ..drones.loading import load_navigation, make_localization
 from ..drones.localization import LocalizationFeed
@@ -24,6 +24,7 @@ from ..drones.real_fleet import RealDrone
 from ..drones.team import make_one
 from ..files.fleet import OWN
 from ..gateway.drone_lock import DroneInUse, lock_drones
+from ..process.text import of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point

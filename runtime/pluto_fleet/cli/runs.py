@@ -18,13 +18,13 @@ from plutoc_runtime.domain.status import COMPLETED
 from plutoc_runtime.domain.text import (
     counted,
     duration,
-    in_shell,
     number,
     percent,
     printable,
 )
 from plutoc_runtime.domain.trace import dumped
 
+from ..process.text import in_shell
 from ..report.report import exit_code, last_line, table
 from ..trials.invariants import ENDS, Invariants, items_of
 

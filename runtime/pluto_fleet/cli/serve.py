@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import in_shell
 
 from ..files.fleet import as_flown
 from ..files.reading import text_of
@@ -22,6 +21,7 @@ from ..jobs.reports import Down
 from ..journal import place
 from ..process import respawn as again
 from ..process.forked import not_for_children
+from ..process.text import in_shell
 from ..station.config import StationConfig
 from ..station.plan.plan import MissionPlan
 from ..station.session import Phase

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import in_shell, printable, quoted
+from plutoc_runtime.domain.text import printable, quoted
 
 from ..flight import offline
 from ..flight.mission_status import ANSWERS, records_in, waiting
@@ -22,6 +22,7 @@ from ..journal.errors import missing
 from ..journal.lock import holder
 from ..journal.place import commands_note, gateway_folder
 from ..process.ipc import AnswerLost, NoAnswer, NotRunning, ask
+from ..process.text import in_shell
 from ..report.report import waiting_lines
 
 if TYPE_CHECKING:

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.text import in_shell, number, quoted
+from plutoc_runtime.domain.text import number, quoted
+
+from ..process.text import in_shell
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.actions import PICK, RELEASE, Action, Plain
 from plutoc_runtime.domain.fields import Entity, FieldType
-from plutoc_runtime.domain.model import NOTHING, Item, Point, Trip
+from plutoc_runtime.domain.model import Item, Point, Trip
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.text import quoted
 
@@ -130,7 +130,7 @@ def _trip(table: Table, index: int, app: App, airspace: Airspace, names: dict[st
         action=action.name if action else "",
         target=target or NOWHERE,
         source=_point(table, "source", airspace, required=False),
-        parameters=(_parameters(table, action) if action else None) or NOTHING,
+        parameters=_parameters(table, action) if action else {},
         item=_item(table, action),
         index=index,
         **given,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import in_shell, place
+from plutoc_runtime.domain.text import place
 
 from ..drones.real_fleet import real_fleet
 from ..files.crtp_fleet import fleet_from
@@ -24,6 +24,7 @@ from ..gateway.starting import connect, speed_in
 from ..journal.header import Header, check
 from ..journal.place import commands_note, gateway_folder
 from ..journal.store import Store
+from ..process.text import in_shell
 from .config import End, FlightConfig, FlightResult, Stops
 from .fly import Recovered, live, recovered
 from .live_flight import LiveFlight

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.brain import Brain
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.domain.text import of, place, quoted
+from plutoc_runtime.domain.text import place, quoted
 from plutoc_runtime.flow.standing import drones_of, fleet_data, mission_data, update
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Kernel, Task
@@ -23,6 +23,7 @@ from ..files.reading import shortened
 from ..jobs.reports import reported_result
 from ..journal.recorder import Recorder, Sink
 from ..process.signal_guard import guard_hooks
+from ..process.text import of
 from .control import Control
 from .driver import Driver, Message, Order
 from .mission_status import aside, in_order

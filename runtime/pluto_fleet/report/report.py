@@ -13,13 +13,13 @@ from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.text import (
     counted,
     duration,
-    in_shell,
     number,
     percent,
     printable,
 )
 
 from ..flight.mission_status import ANSWERS, aside, count_flights, in_order, waiting
+from ..process.text import in_shell
 
 if TYPE_CHECKING:
     from plutoc_runtime.alone.simulate import SimulationResult

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.fields import Entity, FieldType
 from plutoc_runtime.domain.model import Mission, Trip
-from plutoc_runtime.domain.text import counted, in_shell, printable
+from plutoc_runtime.domain.text import counted, printable
 
 from ..files.fleet_text import fleet_text
 from ..files.toml import toml_text
+from ..process.text import in_shell
 from ..report.report import table
 from ..report.sentences import line_of
 from .case import ENDS, WORDS, WRITTEN, strikes_text, weather_text

@@ -15,7 +15,7 @@ from ..domain.errors import BadInput
 from ..domain.fields import Entity, time_of_day
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from ..domain.geometry import covers_ground
-from ..domain.model import NOTHING, AfterTrip, Item
+from ..domain.model import AfterTrip, Item
 from ..domain.quantities import QUANTITIES, Type, number_from
 from ..domain.text import cut_off, number, quoted, shown
 from ..fleet.reach import wrong_aboard
@@ -138,7 +138,7 @@ def _trips(entries: list[Any], who: str, app: App, airspace: Airspace) -> list[T
             )
         if item is not None:
             item = Item(**_table(item, f"{called}, item", "name:name mass:weight"))
-        given |= {"parameters": filled or NOTHING, "item": item, "index": index}
+        given |= {"parameters": filled, "item": item, "index": index}
         trips.append(app.trip(**given))
     _differ(who, (trip.name for trip in trips))
     if wrong := wrong_aboard(trips):

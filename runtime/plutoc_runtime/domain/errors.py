@@ -42,9 +42,7 @@ class MissionFailed(PlutoError):
 
 def nothing_to_fly(reason: str) -> MissionFailed:
     """Return the error of a mission that is to fly and has no trip left; it may have failed before."""
-    return MissionFailed(
-        f"{reason}; no trip is left to fly" if reason else "no trip is left to fly"
-    )
+    return MissionFailed(f"{reason}; no trip is left to fly".removeprefix("; "))
 
 
 class HookFault(MissionFailed):

@@ -33,15 +33,6 @@ class FieldType(Enum):
     EVALUATOR = "evaluator"  # the name of one of the app's evaluators
 
 
-PYTHON: dict[FieldType, str] = {
-    FieldType.TIME: "float | None",
-    FieldType.INT: "int",
-    FieldType.ROUNDS: "int | bool",
-    FieldType.TIME_OF_DAY: "float | None",
-    FieldType.EVALUATOR: "str | None",
-}
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Field:
     """A field that the user of an app fills in."""

@@ -1,4 +1,4 @@
-"""Missions, trips and drones (thesis 4.1).
+"""Missions, trips and drones (thesis 4.1), and the results of actions (thesis 6.1.3).
 
 A generated package adds to `Mission` and `Trip` the fields that its graph needs, and no others.
 Positions are (x, y, z) in metres in the map's frame, times are seconds since the app started.
@@ -6,11 +6,11 @@ Positions are (x, y, z) in metres in the map's frame, times are seconds since th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from math import dist
-from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
 from .errors import MissionFailed
 from .status import UNEXECUTED, DroneStatus, Status, TripStatus
@@ -81,22 +81,18 @@ class Telemetry(Protocol):
     @property
     def location(self) -> Point:
         """Where it is."""
-        ...
 
     @property
     def battery_level(self) -> float:
         """The charge of the battery, from 0 to 1."""
-        ...
 
     @property
     def landed(self) -> bool:
         """Whether it stands on the ground or in its dock."""
-        ...
 
     @property
     def silence(self) -> float:
         """Seconds since its last message; infinite: it has sent none."""
-        ...
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -128,26 +124,6 @@ class Drone:
         return dist(self.location, point)
 
 
-class Nothing(dict[str, "Plain"]):
-    """No parameters: one mapping for the many trips that have none, so it must not be filled."""
-
-    __slots__ = ()
-
-    def __setitem__(self, key: str, value: Plain) -> None:
-        raise TypeError(f"a trip's parameters are given as a whole: parameters={{{key!r}: ...}}")
-
-    def __deepcopy__(self, _: object) -> Nothing:
-        return self
-
-
-NOTHING = Nothing()
-
-
-def nothing() -> Mapping[str, Plain]:
-    """Return the parameters of a trip that has none."""
-    return NOTHING
-
-
 @dataclass(slots=True, kw_only=True, eq=False)
 class Trip:
     """A drone's flight to a target that ends with an action."""
@@ -157,7 +133,7 @@ class Trip:
     target: Point
     source: Point | None = None
     """Where the flight begins; None: where the drone is."""
-    parameters: Mapping[str, Plain] = field(default_factory=nothing)
+    parameters: Mapping[str, Plain] = field(default_factory=dict)
     """The action's parameters, in SI units."""
     item: Item | None = None
     status: TripStatus = field(default=TripStatus.WAITING, init=False)
@@ -205,20 +181,20 @@ class Trip:
             self.drone = self.start_time = self.end_time = None
 
 
-AnyTrip = TypeVar("AnyTrip", bound=Trip)
+T = TypeVar("T", bound=Trip)
 
 NO_RESULT = -1
 """The number of a result that there is not."""
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
-class Mission(Generic[AnyTrip]):
+class Mission(Generic[T]):
     """A list of trips, flown one after the other. Missions run side by side."""
 
     name: str
-    trips: list[AnyTrip]
+    trips: list[T]
     """Still to do, in order; the first is the one that flies now, or flies next."""
-    completed_trips: list[AnyTrip] = field(default_factory=list, init=False)
+    completed_trips: list[T] = field(default_factory=list, init=False)
     status: Status = field(default=UNEXECUTED, init=False)
     reason: str = field(default="", init=False)
     """Why it failed."""
@@ -232,10 +208,89 @@ class Mission(Generic[AnyTrip]):
     """The number of its newest result that its evaluator has not seen."""
 
     @property
-    def current(self) -> AnyTrip:
+    def current(self) -> T:
         """The trip that flies now, or flies next; when none is left, the one flown last."""
         if self.trips:
             return self.trips[0]
         if not self.completed_trips:
             raise MissionFailed("no trip is left to fly")
         return self.completed_trips[-1]
+
+
+M = TypeVar("M", bound=Mission[Any])
+
+
+class Result(NamedTuple, Generic[M, T]):
+    """The result of one action, identified by (mission, trip, round, attempt)."""
+
+    mission: M
+    trip: T
+    round: int
+    attempt: int
+    value: object
+
+
+class View(Sequence[Result[Any, Any]]):
+    """The first so many results, read-only: nothing is copied for each evaluation."""
+
+    def __init__(self, results: Sequence[Result[Any, Any]], count: int) -> None:
+        self._results, self._count = results, count
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __getitem__(self, index: Any) -> Any:
+        picked = range(self._count)[index]  # an IndexError is its own
+        if isinstance(picked, range):
+            return tuple(self._results[number] for number in picked)
+        return self._results[picked]
+
+    def __repr__(self) -> str:
+        return repr(tuple(self))
+
+
+class Results(NamedTuple, Generic[M, T]):
+    """The results that an evaluator gets."""
+
+    new: Sequence[Result[M, T]]
+    """The mission's results since its last evaluation."""
+    all: Sequence[Result[M, T]]
+    """The results of all missions."""
+
+
+class ResultStore:
+    """Stores the results; those of one mission are a linked list, headed by `mission.last_result`."""
+
+    def __init__(self) -> None:
+        self._results: list[Result[Any, Any]] = []
+        self._before: list[int] = []
+        """For each result, the number of the previous one of its mission."""
+
+    def __len__(self) -> int:
+        return len(self._results)
+
+    def add(
+        self, mission: Mission[Any], trip: Trip | None, round_: int, attempt: int, value: object
+    ) -> int:
+        """Store the result of an action, and return its number."""
+        self._results.append(Result(mission, trip, round_, attempt, value))
+        self._before.append(mission.last_result)
+        return len(self._results) - 1
+
+    @property
+    def newest(self) -> object:
+        """The value of the latest result."""
+        return self._results[-1].value
+
+    def so_far(self) -> View:
+        """Return all results up to now."""
+        return View(self._results, len(self._results))
+
+    def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:
+        """Return what a mission's evaluator gets now."""
+        new: list[Result[Any, Any]] = []
+        last, mission.last_result = mission.last_result, NO_RESULT
+        while last != NO_RESULT:
+            new.append(self._results[last])
+            last = self._before[last]
+        return Results(tuple(reversed(new)), self.so_far())

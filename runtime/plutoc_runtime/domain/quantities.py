@@ -60,14 +60,6 @@ UNITS: dict[str, tuple[Type, float, float]] = {
 QUANTITIES = frozenset(kind for kind, _, _ in UNITS.values())
 """The types that take a unit."""
 
-PYTHON: dict[Type, str] = {
-    Type.INT: "int",
-    Type.BOOL: "bool",
-    Type.TEXT: "str",
-    **dict.fromkeys((Type.FLOAT, *QUANTITIES), "float"),
-}
-"""The Python type that a hook gets for each type of the language."""
-
 _QUANTITY = re.compile(r"\s*([+-]?\d+(?:\.\d+)?)\s*([A-Za-z%]+(?:/[A-Za-z]+)?)?\s*")
 
 

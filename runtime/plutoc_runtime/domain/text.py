@@ -19,16 +19,6 @@ def quoted(text: str) -> str:
     return f'"{printable(cut_off(text, LONGEST))}"'
 
 
-def in_shell(text: object) -> str:
-    """Quote a word of a command line for a shell."""
-    from shlex import quote  # rarely needed
-
-    word = str(text)
-    if word.isprintable():
-        return quote(word)
-    return "$'" + printable(word.replace("\\", "\\\\").replace("'", "\\'")) + "'"
-
-
 def number(value: float) -> str:
     """Format a number with up to three decimals: 2, 0.5, 1.333."""
     text = f"{value:.3f}".rstrip("0").rstrip(".")
@@ -44,8 +34,8 @@ def duration(seconds: float) -> str:
     """Format a duration: 42.5 s, 3 min 20 s, 2 h 5 min."""
     if seconds < 60:
         return f"{number(round(seconds, 1))} s"
-    whole = round(seconds)
-    hours, minutes, rest = whole // 3600, whole % 3600 // 60, whole % 60
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
     if hours:
         return f"{hours} h {minutes} min" if minutes else f"{hours} h"
     return f"{minutes} min {rest} s" if rest else f"{minutes} min"
@@ -66,11 +56,6 @@ def percent(share: float) -> str:
 def counted(count: int, one: str, many: str | None = None) -> str:
     """Format a count: 1 trip, 2 trips."""
     return f"{count} {one if count == 1 else many or one + 's'}"
-
-
-def of(drone: str, reason: str) -> str:
-    """Add the drone to a reason that does not name it."""
-    return reason if reason.startswith(f"{drone} ") else f"{drone}: {reason}"
 
 
 def printable(text: str) -> str:

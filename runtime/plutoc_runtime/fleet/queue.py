@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from bisect import insort
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
-from functools import update_wrapper
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from math import inf
 from operator import attrgetter
 from typing import TYPE_CHECKING
@@ -19,10 +18,11 @@ from ..domain.errors import HookFault, MissionFailed
 from ..domain.status import DroneStatus
 from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Kernel, Timer
-from .reach import Demand, Reach, docked
+from .policies import Batch, Choice, Policy
+from .reach import Reach, chain_of, docked, needed, stops_of, why_not
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Trip
+    from ..domain.model import Category, Drone, Point, Trip
 
 _FREE, _BUSY, _LOST = DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.LOST
 _IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
@@ -30,53 +30,10 @@ _IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 _in_the_file = attrgetter("index")
 
 
-Able = Callable[["Drone"], bool]
-"""Returns whether a drone can fly the trip now. It may search a route: call it for few drones."""
-
-Choice = tuple["Drone", str]
-"""The drone that gets a trip, and why it was chosen."""
-
-OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
-"""Chooses one of the free drones, in the fleet's order, for a trip, or None."""
-
-AllAtOnce = Callable[[Sequence[tuple["Trip", Able]], Sequence["Drone"]], Sequence[Choice | None]]
-"""Chooses a different free drone, or None, for each of the trips that wait with one priority."""
-
-
-class Batch:
-    """Decorates a policy that chooses for all waiting trips at once."""
-
-    def __init__(self, policy: AllAtOnce) -> None:
-        self._policy = policy
-        update_wrapper(self, policy)
-
-    def __call__(
-        self, offers: Sequence[tuple[Trip, Able]], free: Sequence[Drone]
-    ) -> Sequence[Choice | None]:
-        """Return a drone, or None, for each trip."""
-        return self._policy(offers, free)
-
-
-Policy = OneByOne | Batch
-
-
-def lowest(
-    free: Sequence[Drone], able: Able, rank: Callable[[Drone], float]
-) -> tuple[Drone, float] | None:
-    """Return the able drone of the lowest rank, and that rank; of equals, the fleet's first."""
-    found: Drone | None = None
-    least = inf
-    for drone in free:
-        here = rank(drone)
-        if here < least and able(drone):
-            found, least = drone, here
-    return None if found is None else (found, least)
-
-
 class Request(Future["Drone"]):
     """A mission's request for a drone; as a future it is set to the drone that it gets."""
 
-    __slots__ = ("_demand", "_levels", "_reach", "_trips", "policy", "trip", "why")
+    __slots__ = ("_levels", "_reach", "_surely", "_trips", "policy", "trip", "why")
 
     def __init__(self, reach: Reach, trips: Sequence[Trip], policy: Policy) -> None:
         self.is_set = False
@@ -84,29 +41,31 @@ class Request(Future["Drone"]):
         self.trip, self.policy = trips[0], policy
         self.why = ""
         """Why its drone was chosen."""
-        self._levels = reach.levels(self.trip)
-        self._reach, self._trips = reach, trips
-        self._demand: Demand | None = None
-
-    @property
-    def demand(self) -> Demand:
-        """The exact requirements on a drone."""
-        if self._demand is None:
-            self._demand = Demand(self._reach, self._trips)
-        return self._demand
+        self._reach, self._trips, self._surely = reach, trips, reach.levels(trips[0])
+        self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
         level = drone.telemetry.battery_level
-        return level >= self._levels[drone.category] or level >= self.level(drone)
+        return level >= self._surely[drone.category] or level >= self.level(drone)
 
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
-        return None if self._levels[drone.category] <= 1.0 else self.demand.never(drone)
+        if self._surely[drone.category] <= 1.0:
+            return None
+        app, airspace, chain = self._reach.app, self._reach.airspace, chain_of(self._trips)
+        return why_not(app, airspace, drone.category, drone.home, chain)
 
     def level(self, drone: Drone) -> float:
         """Return the battery level that a drone needs from where it stands; infinite: it never suffices."""
-        return inf if self.never(drone) is not None else self.demand.battery(drone)
+        key = category, home, here = drone.category, drone.home, drone.location
+        if key not in self._levels:
+            part, airspace = None, self._reach.airspace
+            if self.never(drone) is None:
+                stops = stops_of(self._reach.app, airspace, chain_of(self._trips))
+                part = needed(category, airspace, here, stops, home)
+            self._levels[key] = inf if part is None else part + category.reserve
+        return self._levels[key]
 
 
 class Queue:
@@ -126,8 +85,8 @@ class Queue:
         """The free drones that may be chosen, in the fleet's order."""
         self._low: dict[Drone, float] = {}
         """The other free drones: too low for every request so far, and until when."""
-        self._lost = self._lost_before = sum(drone.status is _LOST for drone in drones)
-        """How many drones are lost, and how many were when the requests were last checked."""
+        self._one_is_lost = False
+        """Whether a drone has been lost since the requests were last checked."""
         self._recheck: Timer | None = None
         self._recheck_at = inf
         self.served: Callable[[], None] = lambda: None
@@ -155,7 +114,8 @@ class Queue:
             self._ready.remove(drone)
         if after is _FREE:
             insort(self._ready, drone, key=_in_the_file)
-        self._lost += (after is _LOST) - (before is _LOST)
+        if after is _LOST:
+            self._one_is_lost = True
         self.changed()
 
     def changed(self) -> None:
@@ -238,9 +198,10 @@ class Queue:
 
         Return the index of the first of them.
         """
-        first, priority = last, self._entries[last][0]
-        while first and self._entries[first - 1][0] == priority:
-            if self._entries[first - 1][2].policy is not policy:
+        first, (priority, _, _) = last, self._entries[last]
+        while first:
+            before, _, request = self._entries[first - 1]
+            if before != priority or request.policy is not policy:
                 break
             first -= 1
         requests = [request for _, _, request in reversed(self._entries[first : last + 1])]
@@ -270,8 +231,8 @@ class Queue:
 
     def _refuse_what_cannot_be(self) -> None:
         """Refuse requests that no drone can serve: new ones, and all after the loss of a drone."""
-        asked = self._fresh if self._lost == self._lost_before else list(self.waiters())
-        self._lost_before = self._lost
+        asked = tuple(self.waiters()) if self._one_is_lost else self._fresh
+        self._one_is_lost = False
         for request in asked:
             if not request.is_set and not self._any_able(request):
                 self._refuse(request, self._unable(request))
@@ -283,25 +244,24 @@ class Queue:
         return False
 
     def _unable(self, request: Request) -> MissionFailed:
-        lost = [f"{self._lost} of {len(self._drones)} drones are lost"] if self._lost else []
-        left = (drone for drone in self._drones if drone.status is not _LOST)
-        reasons = dict.fromkeys(request.never(drone) or "" for drone in left)
-        because = "; ".join([*lost, *reasons])
-        return MissionFailed(f"no drone of the fleet can fly trip {request.trip.name}: {because}")
+        left = [drone for drone in self._drones if drone.status is not _LOST]
+        because = [request.never(drone) or "" for drone in left]
+        if lost := len(self._drones) - len(left):
+            because.insert(0, f"{lost} of {len(self._drones)} drones are lost")
+        why = "; ".join(dict.fromkeys(because))
+        return MissionFailed(f"no drone of the fleet can fly trip {request.trip.name}: {why}")
 
     # Drones that are too low
 
     def _put_back_the_charged(self) -> None:
         """Make drones ready again that have charged, or that suffice for a new request."""
-        now = self._kernel.now
         fresh = [request for request in self._fresh if not request.is_set]
         for drone, until in list(self._low.items()):
-            if until <= now or any(request.able(drone) for request in fresh):
+            if until <= self._kernel.now or any(request.able(drone) for request in fresh):
                 del self._low[drone]
                 insort(self._ready, drone, key=_in_the_file)
             else:
-                least = min((request.level(drone) for request in fresh), default=inf)
-                self._low[drone] = min(until, now + _charging(drone, least))
+                self._low[drone] = min(until, self._charged(drone, fresh))
 
     def _put_aside_the_low(self) -> None:
         """Put drones aside that are too low for every request; a docked one until it has charged.
@@ -310,9 +270,16 @@ class Queue:
         """
         for drone in tuple(self._ready):
             if not any(request.able(drone) for request in self.waiters()):
-                least = min((request.level(drone) for request in self.waiters()), default=inf)
                 self._ready.remove(drone)
-                self._low[drone] = self._kernel.now + _charging(drone, least)
+                self._low[drone] = self._charged(drone, self.waiters())
+
+    def _charged(self, drone: Drone, requests: Iterable[Request]) -> float:
+        """Return when a drone suffices for one of them where it stands; infinite: it never will."""
+        level = min((request.level(drone) for request in requests), default=inf)
+        if level == inf or not docked(drone.location, drone.home):
+            return inf
+        missing = level - drone.battery_level
+        return self._kernel.now + (missing * drone.category.charge_time + 0.001)
 
     def _look_again_when_charged(self) -> None:
         soonest = min(self._low.values())
@@ -322,10 +289,3 @@ class Queue:
             self._recheck_at, self._recheck = soonest, None
             if soonest < inf:
                 self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
-
-
-def _charging(drone: Drone, level: float) -> float:
-    """Return the seconds until a drone has charged to a level where it stands; infinite: it never will."""
-    charges = level < inf and docked(drone.location, drone.home)
-    missing = level - drone.battery_level
-    return missing * drone.category.charge_time + 0.001 if charges else inf

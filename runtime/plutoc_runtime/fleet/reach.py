@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from enum import IntEnum
-from math import dist, hypot, inf, isinf
+from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import PICK, RELEASE
@@ -19,8 +19,11 @@ if TYPE_CHECKING:
     from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
-    from ..domain.model import Category, Drone, Item, Mission, Point, Trip
+    from ..domain.model import Category, Item, Mission, Point, Trip
 
+Stop = tuple["Point", float]
+"""A point to fly to, and the seconds that the drone is busy there."""
+Stops = Sequence[Stop]
 
 CLIMB_SPEED = 0.3
 """Metres a second, straight up and straight down."""
@@ -31,24 +34,18 @@ DOCK_REACH = 0.2
 
 def docked(landed_at: Point, home: Point) -> bool:
     """Return whether a drone that landed there stands in its dock."""
-    if landed_at == home:
-        return True
-    return hypot(landed_at[0] - home[0], landed_at[1] - home[1]) <= DOCK_REACH
+    return landed_at == home or dist(landed_at[:2], home[:2]) <= DOCK_REACH
 
 
 def flight_seconds(
-    category: Category,
-    airspace: Airspace,
-    start: Point,
-    points: Sequence[Point],
-    action_seconds: float,
+    category: Category, airspace: Airspace, start: Point, points: Sequence[Point], actions: float
 ) -> float:
-    """Return how long it takes to fly through all points and do the actions on the way.
+    """Return how long it takes to fly through all points, with the seconds of actions on the way.
 
     A start on the ground (z = 0) counts the take-off to cruise height; a last point on the ground
     counts the landing there, from the height flown before. Infinite where no route leads.
     """
-    seconds, here = action_seconds, start
+    seconds, here = actions, start
     if points and start[2] <= 0:
         here = (start[0], start[1], airspace.cruise_height)
         seconds += here[2] / CLIMB_SPEED
@@ -70,17 +67,8 @@ def length(start: Point, way: Sequence[Point]) -> float:
     return sum(dist(a, b) for a, b in zip((start, *way), way, strict=False))
 
 
-def share(category: Category, seconds: float) -> float:
-    """Return the share of a full battery that this much flying takes."""
-    return seconds / category.flight_time
-
-
 def needed(
-    category: Category,
-    airspace: Airspace,
-    start: Point,
-    stops: Sequence[tuple[Point, float]],
-    home: Point,
+    category: Category, airspace: Airspace, start: Point, stops: Stops, home: Point
 ) -> float | None:
     """Return the share of the battery for all stops, each with its action, and back home.
 
@@ -90,7 +78,7 @@ def needed(
     actions = sum(seconds for _, seconds in stops)
     ground = (home[0], home[1], 0.0)
     seconds = flight_seconds(category, airspace, start, [*points, ground], actions)
-    return None if isinf(seconds) else share(category, seconds)
+    return None if seconds == inf else seconds / category.flight_time
 
 
 class Lacks(IntEnum):
@@ -154,12 +142,12 @@ def miss_of(
     return None
 
 
-def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> list[tuple[Point, float]]:
+def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> Stops:
     """Return the stops of a chain, with the seconds that the drone is busy at each.
 
     Between two trips of a chain it lands with its item, and takes off again.
     """
-    stops: list[tuple[Point, float]] = []
+    stops: list[Stop] = []
     for place_, trip in enumerate(chain, start=1):
         if trip.source is not None:
             stops.append((trip.source, 0.0))
@@ -170,9 +158,7 @@ def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> list[tuple[
     return stops
 
 
-def _no_way(
-    category: Category, airspace: Airspace, home: Point, stops: Sequence[tuple[Point, float]]
-) -> str:
+def _no_way(category: Category, airspace: Airspace, home: Point, stops: Stops) -> str:
     here = home
     for point, _ in [*stops, (home, 0.0)]:
         if airspace.route(here, point) is None:
@@ -277,29 +263,4 @@ class Reach:
         up_and_down = (space.cruise_height + space.ceiling) / CLIMB_SPEED
         # to the source, to the target, and home
         seconds = 3 * across / category.speed + up_and_down + self.app.actions[action].seconds
-        return share(category, seconds) + category.reserve
-
-
-class Demand:
-    """The requirements of the next trip on a drone; from a pick on, of all trips to its release."""
-
-    def __init__(self, reach: Reach, trips: Sequence[Trip]) -> None:
-        self._app, self._airspace, self._chain = reach.app, reach.airspace, chain_of(trips)
-        self._stops = stops_of(reach.app, reach.airspace, self._chain)
-        self._never: dict[tuple[Category, Point], str | None] = {}
-        self._levels: dict[tuple[Category, Point, Point], float] = {}
-
-    def never(self, drone: Drone) -> str | None:
-        """Return why a drone cannot fly the chain even with a full battery; None: it can."""
-        key = (drone.category, drone.home)
-        if key not in self._never:
-            self._never[key] = why_not(self._app, self._airspace, *key, self._chain)
-        return self._never[key]
-
-    def battery(self, drone: Drone) -> float:
-        """Return the required battery level, with the way home and the reserve."""
-        key = category, home, here = drone.category, drone.home, drone.location
-        if key not in self._levels:
-            part = needed(category, self._airspace, here, self._stops, home)
-            self._levels[key] = NO_WAY if part is None else part + category.reserve
-        return self._levels[key]
+        return seconds / category.flight_time + category.reserve

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import Cancelled, HookFault, MissionFailed
 from ..domain.fields import Entity, wrong_field
-from ..domain.model import Drone, Mission
-from ..domain.results import ResultStore
+from ..domain.model import Drone, Mission, ResultStore
 from ..domain.status import FAILED, UNEXECUTED, DroneStatus, Status
 from ..domain.trace import Event, Trace
 from ..fleet.fleet import Fleet

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from operator import is_
 from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.actions import PICK, RELEASE
@@ -12,13 +13,17 @@ from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from ..domain.text import class_of, shown, text_of
 from ..fleet.reach import why_not
 from ..hooks.calls import hook_name, said
+from ..hooks.context import Verdict
 from ..hooks.soundness import unsound, unsound_mission
-from .verdict import Verdict
 
 if TYPE_CHECKING:
     from ..domain.model import Mission, Trip
     from .mission import Core
     from .run import Run
+
+
+_CONTENT = Verdict()
+"""The verdict of an evaluator that asks for nothing."""
 
 
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:
@@ -34,7 +39,7 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # a subclass may lie
     if type(mission.trips) is not list or mission.trips:
         raise HookFault(f"evaluator {name} changed the mission's trips: that is what `add` is for")
-    if verdict.ok is True and verdict.fail is None and verdict.asks_nothing:
+    if all(map(is_, verdict, _CONTENT)):  # as by far the most verdicts
         return COMPLETED
     redo, add = _listed(name, "redo", verdict.redo), _listed(name, "add", verdict.add)
     for line in _listed(name, "log", verdict.log):

@@ -18,8 +18,7 @@ from ..trips.flight import Flight
 if TYPE_CHECKING:
     from ..domain.airspace import Airspace
     from ..domain.app import App
-    from ..domain.model import Drone, Item, Mission, Trip
-    from ..domain.results import ResultStore
+    from ..domain.model import Drone, Item, Mission, ResultStore, Trip
     from ..domain.trace import Trace
     from ..fleet.fleet import Fleet
     from ..fleet.navigation import Navigation

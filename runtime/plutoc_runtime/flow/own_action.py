@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Coroutine
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import Action
-from ..domain.errors import ActionFailed, Failure, FlightFailed, HookFault
+from ..domain.errors import ANY_ERROR, ActionFailed, Failure, FlightFailed, HookFault
+from ..domain.guard import NOT_ITS_OWN
 from ..domain.text import bounded, text_of
-from ..hooks.calls import LONGEST_REASON, ProtectedFacts, call_action, changed
-from ..hooks.context import Context
+from ..hooks.calls import LONGEST_REASON, Hook, ProtectedFacts, changed, fault_of
+from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.keepable import keepable
-from ..hooks.live_drone import LiveDrone, can_wait
 from ..time.future import Future
 from ..time.kernel import mission_key
 
@@ -38,22 +39,16 @@ class OwnAction(Action):
 
     async def _value(self, state: MissionState, flight: Flight) -> object:
         """Return the hook's result; raise `FlightFailed` if it or the drone fails."""
-        core, mission, trip, drone, hook = (
-            state.core,
-            state.mission,
-            flight.trip,
-            flight.flier,
-            self.hook,
-        )
+        core, mission, trip, drone = state.core, state.mission, flight.trip, flight.flier
+        hook, kernel, key = self.hook, core.kernel, mission_key(mission.index)
         assert hook is not None
-        kernel, key, name = core.kernel, mission_key(mission.index), f"{mission.name}: {self.name}"
         core.transitions.begin_action(mission, trip, drone)
         if core.on_record is not None:
             await core.on_record()
         live = LiveDrone(kernel, core.navigation, drone, key) if can_wait(hook) else None
         context = Context(kernel, core.results, core.log, mission, lambda: state.flight, live)
-        call = call_action(kernel, hook, drone, trip, context, **trip.parameters)
-        work = kernel.spawn(call, key, name)
+        call = kernel.call_hook(hook, drone, trip, context, **trip.parameters)
+        work = kernel.spawn(_faults(hook, call), key, f"{mission.name}: {self.name}")
         hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
         held = ProtectedFacts(trip, "name", "action", "item", "index", "attempt", "status")
         over: Future[None] = Future()
@@ -77,3 +72,13 @@ class OwnAction(Action):
             raise changed(hook, "trip", fact)
         core.look(hook, mission)
         return value
+
+
+async def _faults(hook: Hook, call: Coroutine[Any, Any, object]) -> object:
+    """Await an action's call; all that it raises, `ActionFailed` aside, is a fault of the hook."""
+    try:
+        return await call
+    except (ActionFailed, *NOT_ITS_OWN):
+        raise
+    except ANY_ERROR as error:
+        raise fault_of(hook, error) from error

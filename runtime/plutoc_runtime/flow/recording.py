@@ -13,7 +13,7 @@ from ..time.future import Future
 
 if TYPE_CHECKING:
     from ..domain.app import App
-    from ..domain.results import ResultStore
+    from ..domain.model import ResultStore
     from ..domain.trace import Event
     from .mission import MissionState
 

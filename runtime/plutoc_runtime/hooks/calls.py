@@ -8,25 +8,14 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import ANY_ERROR, ActionFailed, BadInput, HookFault
-from ..domain.guard import NOT_ITS_OWN, by_a_person, unless_by_a_person
+from ..domain.guard import by_a_person, unless_by_a_person
 from ..domain.text import bounded, class_of, text_of
-from ..time.kernel import Kernel
 
 if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.model import Mission
 
 Hook = Callable[..., object]
-
-
-async def call_action(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
-    """Call an action; all that it raises, `ActionFailed` aside, is a fault of the hook."""
-    try:
-        return await kernel.call_hook(hook, *args, **named)
-    except (ActionFailed, *NOT_ITS_OWN):
-        raise
-    except ANY_ERROR as error:
-        raise fault_of(hook, error) from error
 
 
 class ProtectedFacts:

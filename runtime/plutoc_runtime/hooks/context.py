@@ -1,19 +1,23 @@
-"""The context that a hook gets."""
+"""What hooks are given and what an evaluator gives: the context, the live drone, the verdict."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Coroutine, Sequence
+from functools import partial
+from inspect import iscoroutinefunction, unwrap
 from math import isfinite
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
+from ..domain.errors import ActionFailed, FlightFailed
 from ..domain.text import class_of, text_of
 from ..time.future import Future
-from ..time.kernel import EventKind, Kernel, Key, mission_key
+from ..time.kernel import EventKind, Kernel, mission_key
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Mission, Trip
-    from ..domain.results import Result, ResultStore
-    from .live_drone import LiveDrone
+    from ..domain.model import Drone, Mission, Point, Result, ResultStore, Trip
+    from ..time.kernel import Key, Task
+
+T = TypeVar("T")
 
 
 class LatestFlight(Protocol):
@@ -22,13 +26,8 @@ class LatestFlight(Protocol):
     trip: Trip
     is_set: bool
 
-    def watch(self, watcher: Callable[[Any], object]) -> None:
-        """Call this when it has ended."""
-        ...
-
-    def unwatch(self, watcher: Callable[[Any], object]) -> None:
-        """Remove a watcher."""
-        ...
+    def watch(self, watcher: Callable[[Any], object]) -> None: ...
+    def unwatch(self, watcher: Callable[[Any], object]) -> None: ...
 
 
 class Context:
@@ -73,15 +72,7 @@ class Context:
 
     async def sleep(self, seconds: float) -> None:
         """Wait this many seconds, simulated or real."""
-        kernel, over = self._kernel, Future[None]()
-        _must_be_finite(seconds)
-        timer = kernel.at(
-            kernel.time() + seconds, EventKind.CLOCK, self._key, lambda: over.set(None)
-        )
-        try:
-            await kernel.offer(over)
-        finally:
-            timer.cancel()
+        await self._wait(Future(), self.now + _finite(seconds), EventKind.CLOCK)
 
     async def trip_ended(self, trip: Trip, *, within: float | None = None) -> bool:
         """Wait until a trip of this mission has ended; return whether it has.
@@ -89,34 +80,146 @@ class Context:
         With `within`, wait no longer than so many seconds from the trip's start: False means that
         it is still flying. At the very same instant the trip's own end wins.
         """
-        flight = self._latest()
+        flight, over = self._latest(), Future[object]()
         if trip.ended or flight is None or flight.trip is not trip:
             return trip.ended
-        kernel, over = self._kernel, Future[None]()
-
-        def wake(_: object = None) -> None:
-            over.set(None)
-
-        flight.watch(wake)
-        timer = None
-        if within is not None:
-            _must_be_finite(within)
-            until = (trip.start_time or 0.0) + within
-            timer = kernel.at(until, EventKind.TIMER, self._key, wake)
+        until = None if within is None else (trip.start_time or 0.0) + _finite(within)
+        flight.watch(over.set)
         try:
-            await kernel.offer(over)
+            await self._wait(over, until, EventKind.TIMER)
         finally:
-            flight.unwatch(wake)
-            if timer is not None:
-                timer.cancel()
+            flight.unwatch(over.set)
         return flight.is_set
 
-    @property
-    def _key(self) -> Key:
-        return mission_key(self._mission.index)
+    async def _wait(self, over: Future[Any], until: float | None, kind: EventKind) -> None:
+        """Wait for something, but no longer than until then."""
+        timer = None
+        if until is not None:
+            key = mission_key(self._mission.index)
+            timer = self._kernel.at(until, kind, key, partial(over.set, None))
+        try:
+            await self._kernel.offer(over)
+        finally:
+            if timer is not None:
+                timer.cancel()
 
 
-def _must_be_finite(seconds: float) -> None:
-    """A hook that waits for ever would keep its mission for ever."""
+def _finite(seconds: float) -> float:
+    """Return seconds to wait; a hook that waits for ever would keep its mission for ever."""
     if not isfinite(seconds):
         raise ValueError(f"{seconds} seconds is no time to wait for")
+    return seconds
+
+
+class Instruments(Protocol):
+    """The part of a navigation that reads and sets values of a hovering drone."""
+
+    async def read(self, drone: str, name: str) -> float: ...
+    async def write(self, drone: str, name: str, value: float) -> None: ...
+
+
+class LiveDrone:
+    """The drone of an action: its sensors, and the parameters that can be set.
+
+    Raises `ActionFailed` for a name that the drone does not have, or if it cannot be reached.
+    """
+
+    __slots__ = ("_drone", "_is_over", "_kernel", "_key", "_navigation")
+
+    def __init__(self, kernel: Kernel, navigation: Instruments, drone: Drone, key: Key) -> None:
+        self._kernel, self._navigation, self._drone, self._key = kernel, navigation, drone, key
+        self._is_over = False
+
+    @property
+    def position(self) -> Point:
+        """Where it is now: metres in the map's frame."""
+        return self._now.location
+
+    @property
+    def battery(self) -> float:
+        """The charge of its battery, from 0 to 1."""
+        return self._now.battery_level
+
+    async def read(self, name: str) -> float:
+        """Return the current value of a sensor or variable, such as `range.front`."""
+        _must_be_a_name(name)
+        return await self._asked(lambda drone: self._navigation.read(drone, name), name)
+
+    async def write(self, name: str, value: float) -> None:
+        """Set a parameter; returns when the drone has it."""
+        _must_be_a_name(name)
+        number = float(value)
+        if not isfinite(number):
+            raise ValueError(f"{name} cannot be set to {number}")
+        await self._asked(lambda drone: self._navigation.write(drone, name, number), name)
+
+    def release(self) -> None:
+        """End the access to the drone: the action has ended."""
+        self._is_over = True
+
+    def is_of(self, drone: Drone) -> bool:
+        """Return whether it is this drone."""
+        return drone is self._drone
+
+    @property
+    def _now(self) -> Drone:
+        if self._is_over:
+            raise RuntimeError(f"the action of {self._drone.id} is over: it does other things now")
+        return self._drone
+
+    async def _asked(self, ask: Callable[[str], Coroutine[Any, Any, T]], name: str) -> T:
+        """Make the request within the kernel, and wait for the answer in a hook."""
+        kernel, drone = self._kernel, self._now.id
+        answer: Future[T] = Future()
+        asking: list[Task[T]] = []
+
+        def begin() -> None:
+            task = kernel.spawn(ask(drone), self._key, f"{drone} is asked for {name}")
+            task.over = lambda task: _hand_on(task, answer)
+            asking.append(task)
+
+        kernel.post(begin)
+        try:
+            return await kernel.offer(answer)
+        except FlightFailed as error:
+            raise ActionFailed(str(error)) from error
+        finally:
+            if not answer.is_set:
+                kernel.post(asking[0].cancel)
+
+
+def can_wait(hook: Callable[..., object]) -> bool:
+    """Return whether this is an `async def`, decorated or not."""
+    inner = unwrap(getattr(hook, "func", hook))  # a partial carries its function
+    return iscoroutinefunction(inner)
+
+
+def _hand_on(task: Task[T], answer: Future[T]) -> None:
+    if task.error is None:
+        answer.set(task.result())
+    else:
+        answer.fail(task.error)
+
+
+_LONGEST = 100
+"""Characters of a name."""
+
+
+def _must_be_a_name(name: str) -> None:
+    if not isinstance(name, str) or not 0 < len(name) <= _LONGEST:
+        raise ValueError(f"what a drone is asked for is a text of 1 to {_LONGEST} characters")
+
+
+class Verdict(NamedTuple):
+    """An evaluator's verdict; the runtime sets the mission's status from it."""
+
+    ok: bool = True
+    """False with nothing to redo and nothing to add: the mission has FAILED."""
+    redo: tuple[Trip, ...] = ()
+    """Completed trips of this mission that must be flown again."""
+    add: tuple[Trip, ...] = ()
+    """New trips for this mission; they are not repeated by a later round."""
+    log: tuple[str, ...] = ()
+    """Lines for the console."""
+    fail: str | None = None
+    """The mission has FAILED, and this is why."""

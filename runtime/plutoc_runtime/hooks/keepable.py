@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from itertools import islice
 from typing import Any
 
 from ..domain.errors import ANY_ERROR
@@ -19,12 +20,10 @@ _DEEPEST, _MOST, _LONGEST = 50, 300_000, 10_000_000
 def keepable(value: object) -> object:
     """Return a hook's result, or its text if it is too large, too deep or circular."""
     try:
-        if type(value) not in _HARMLESS:
-            _Measure().take(value)
+        return value if type(value) in _HARMLESS or _fits(value) else shown(value)
     except ANY_ERROR as error:  # its own: a value may be an object of any kind
         unless_by_a_person(error)
         return shown(value)
-    return value
 
 
 def are_named(items: Iterable[tuple[Any, Any]]) -> bool:
@@ -32,34 +31,28 @@ def are_named(items: Iterable[tuple[Any, Any]]) -> bool:
     return all(issubclass(type(name), str) and not str.startswith(name, "$") for name, _ in items)
 
 
-class _Measure:
-    """Measures the size and depth of a value without calling its methods."""
-
-    def __init__(self) -> None:
-        self._parts = self._characters = 0
-
-    def take(self, value: Any, depth: int = 0) -> None:
-        """Count a part and everything in it; raise an error beyond the limits."""
-        self._parts += 1
-        if depth > _DEEPEST or self._parts > _MOST:
-            raise OverflowError
-        kind = type(value)
-        if value is None or issubclass(kind, (int, float)):
-            return
-        texts: tuple[str, ...] = ()
-        if issubclass(kind, (list, tuple)):
-            for part in (list if issubclass(kind, list) else tuple).__iter__(value):
-                self.take(part, depth + 1)
-        elif issubclass(kind, dict) and are_named(items := tuple(dict.items(value))):
-            texts = tuple(name for name, _ in items)
-            for _, part in items:
-                self.take(part, depth + 1)
-        elif isinstance(value, Photo) and kind is Photo:
-            x, y, z = value.position
-            _ = [float(number) for number in (x, y, z, value.width, value.height, value.sharpness)]
-            texts = (*map(str, value.sees), str(value.file))
-        else:
-            texts = (value if issubclass(kind, str) else shown(value),)
-        self._characters += sum(map(str.__len__, texts))
-        if self._characters > _LONGEST:
-            raise OverflowError
+def _fits(value: Any) -> bool:
+    """Return whether all parts of a value are within the limits; its methods are not called."""
+    left, parts, characters = [(value, 0)], 0, 0
+    while left:
+        part, depth = left.pop()
+        kind, texts = type(part), list[str]()
+        inner: Iterator[Any] = iter(())
+        if issubclass(kind, list):
+            inner = list.__iter__(part)
+        elif issubclass(kind, tuple):
+            inner = tuple.__iter__(part)
+        elif issubclass(kind, dict) and are_named(items := tuple(dict.items(part))):
+            texts, inner = [name for name, _ in items], (one for _, one in items)
+        elif kind is Photo:
+            x, y, z = part.position
+            _ = [float(one) for one in (x, y, z, part.width, part.height, part.sharpness)]
+            texts = [*map(str, part.sees), str(part.file)]
+        elif part is not None and not issubclass(kind, (int, float)):
+            texts = [part if issubclass(kind, str) else shown(part)]
+        left += [(one, depth + 1) for one in islice(inner, _MOST)]
+        parts += 1
+        characters += sum(map(str.__len__, texts))
+        if depth > _DEEPEST or parts > _MOST or characters > _LONGEST:
+            return False
+    return True

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, ParamSpec, cast
 
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import number_of
@@ -19,57 +19,44 @@ if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.model import Mission, Point, Trip
 
+P = ParamSpec("P")
 
+
+def _of_any_class(check: Callable[P, str | None]) -> Callable[P, str | None]:
+    """Take all that a check raises for a fault: what a hook has put there may be of any class."""
+
+    def checked(*args: P.args, **named: P.kwargs) -> str | None:
+        try:
+            return check(*args, **named)
+        except ANY_ERROR as error:
+            unless_by_a_person(error)
+            return f"it cannot be read: {said(error)}"
+
+    return checked
+
+
+@_of_any_class
 def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
     """Return what is wrong with a trip, or None; a point without a height gets the map's default."""
-    try:
-        return _unsound(app, airspace, trip)
-    except ANY_ERROR as error:  # what a hook has put there may be of any class
-        unless_by_a_person(error)
-        return f"it cannot be read: {said(error)}"
-
-
-def _unsound(app: App, airspace: Airspace, trip: object) -> str | None:
     if not issubclass(type(trip), app.trip):
         return f"it must be a Trip of this app, not {class_of(trip)}"
     found = cast("Trip", trip)
-    return (
-        (None if _is_usual(found) else _wrong_facts(found, _TRIP))
-        or _wrong_action(app, found)
-        or _wrong_place(airspace, found)
-    )
+    return _wrong_facts(found, _TRIP) or _wrong_action(app, found) or _wrong_place(airspace, found)
 
 
+@_of_any_class
 def unsound_mission(app: App, mission: Mission[Any]) -> str | None:
     """Return what is wrong with the mission's own attributes, or None."""
-    try:
-        wrong = None if _is_usual_mission(mission) else _wrong_facts(mission, _MISSION)
-        if wrong is not None:
-            return wrong
-        kind = app.trip
-        for trip in mission.completed_trips:
-            if type(trip) is not kind:
-                return f"completed_trips holds {class_of(trip)}"
-        return None
-    except ANY_ERROR as error:
-        unless_by_a_person(error)
-        return f"it cannot be read: {said(error)}"
+    wrong = None if _is_usual(mission) else _wrong_facts(mission, _MISSION)
+    kind = app.trip
+    for trip in () if wrong else mission.completed_trips:
+        if type(trip) is not kind:
+            return f"completed_trips holds {class_of(trip)}"
+    return wrong
 
 
-def _is_usual(trip: Trip) -> bool:
-    """Return whether a trip is obviously valid: a shortcut for a check that runs very often."""
-    return (
-        type(trip.name) is type(trip.action) is type(trip.reason) is str
-        and type(trip.status) is TripStatus
-        and type(trip.attempt) is type(trip.index) is int
-        and 0 <= trip.attempt < _MOST > trip.index >= 0
-        and trip.item is None
-        and trip.start_time is trip.end_time is None
-        and type(trip.added) is bool
-    )
-
-
-def _is_usual_mission(mission: Mission[Any]) -> bool:
+def _is_usual(mission: Mission[Any]) -> bool:
+    """Return whether a mission is obviously sound: a shortcut, as each evaluation asks."""
     return (
         type(mission.name) is type(mission.reason) is str
         and type(mission.completed_trips) is list

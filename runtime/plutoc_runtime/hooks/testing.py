@@ -14,15 +14,13 @@ from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar, cast, overload
 from ..domain.actions import Plain
 from ..domain.app import App
 from ..domain.errors import Failure, FlightFailed
-from ..domain.model import Drone, Mission, Point, Trip
-from ..domain.results import Results, ResultStore
+from ..domain.model import Drone, Mission, Point, Results, ResultStore, Trip
 from ..domain.status import COMPLETED, FAILED, RUNNING, STANDBY, Status, TripStatus
 from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Task
 from ..time.virtual import Stuck, VirtualTime
 from .calls import hook_name
-from .context import Context
-from .live_drone import LiveDrone, can_wait
+from .context import Context, LiveDrone, can_wait
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.fields import Entity
 from ..domain.mission_data import MOST_BITS, Data, fields_of, trip_data
-from ..domain.model import NOTHING, Item, Photo
+from ..domain.model import Item, Photo
 from ..domain.status import TripStatus
 from ..domain.text import shown
 from .keepable import are_named, keepable
@@ -35,7 +35,7 @@ def trip_of(app: App, data: Mapping[str, Any], status: TripStatus = TripStatus.W
         action=data["action"],
         target=point_of(data["target"]),
         source=None if data.get("source") is None else point_of(data["source"]),
-        parameters=data.get("parameters") or NOTHING,
+        parameters=data.get("parameters") or {},
         item=item_of(data.get("item")),
         index=data["index"],
         **data.get("fields", {}),

@@ -16,8 +16,7 @@ from ..domain.status import (
 from ..domain.text import bounded, shown
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Mission, Trip
-    from ..domain.results import ResultStore
+    from ..domain.model import Drone, Mission, ResultStore, Trip
     from ..domain.trace import Trace
     from ..time.kernel import Kernel
 

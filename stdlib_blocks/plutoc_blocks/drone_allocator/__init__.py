@@ -3,11 +3,9 @@
 from plutoc.block import Block, Choice, HookKind, Param, emits, same
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.policies.batch_optimal import batch_optimal
-from plutoc_runtime.fleet.policies.first import first
-from plutoc_runtime.fleet.policies.least_used import least_used
-from plutoc_runtime.fleet.policies.nearest import nearest
-from plutoc_runtime.fleet.policies.own import own_policy
+from plutoc_runtime.fleet.batch_optimal import batch_optimal
+from plutoc_runtime.fleet.own_policy import own_policy
+from plutoc_runtime.fleet.policies import first, least_used, nearest
 
 from .step import allocate_drone
 

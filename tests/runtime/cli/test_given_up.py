@@ -17,7 +17,7 @@ from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
 from plutoc_runtime.alone import simulate as enough
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.fleet.policies import nearest
 from plutoc_runtime.flow.run import Run
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, FieldMission

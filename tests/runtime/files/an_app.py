@@ -18,7 +18,7 @@ from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.model import Category, Drone, Mission, Trip
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.fleet.policies import nearest
 from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.flow.run import Run
 from plutoc_runtime.hooks.context import Context

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from plutoc_runtime.domain.model import Drone
-from plutoc_runtime.fleet.policies.nearest import nearest
+from plutoc_runtime.fleet.policies import nearest
 from tests.runtime.policies.fleets import anyone, fleet, trip
 
 

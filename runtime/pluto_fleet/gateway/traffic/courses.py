@@ -9,9 +9,9 @@ from itertools import pairwise
 from math import ceil, dist, sqrt
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.geometry import between
 from plutoc_runtime.fleet.reach import CLIMB_SPEED
 
+from .legs import between
 from .reservations import Box, box_of, part_way
 from .ways import Section
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.geometry import between
+from .legs import between
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Point, Telemetry

@@ -6,15 +6,15 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ...domain.errors import HookFault
-from ...domain.guard import guarded, unless_by_a_person
-from ...domain.model import Drone
-from ...domain.text import class_of
-from ...hooks.calls import hook_name, said, trace_of
+from ..domain.errors import HookFault
+from ..domain.guard import guarded, unless_by_a_person
+from ..domain.model import Drone
+from ..domain.text import class_of
+from ..hooks.calls import hook_name, said, trace_of
 
 if TYPE_CHECKING:
-    from ...domain.model import Trip
-    from ..queue import Able, Choice, OneByOne
+    from ..domain.model import Trip
+    from .policies import Able, Choice, OneByOne
 
 
 def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne:

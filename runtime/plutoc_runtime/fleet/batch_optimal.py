@@ -5,18 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from ..queue import Batch
 from .assignment import assign
+from .policies import Batch
 
 if TYPE_CHECKING:
-    from ...domain.model import Drone, Trip
-    from ..queue import Able, Choice
+    from ..domain.model import Drone
+    from .policies import Choice, Offers
 
 
 @Batch
-def batch_optimal(
-    offers: Sequence[tuple[Trip, Able]], free: Sequence[Drone]
-) -> Sequence[Choice | None]:
+def batch_optimal(offers: Offers, free: Sequence[Drone]) -> Sequence[Choice | None]:
     """Give as many trips a drone as can be, so that the way of all together is shortest."""
     goals = [trip.source or trip.target for trip, _ in offers]
 

@@ -1,0 +1,73 @@
+"""Allocation policies: what one is, and those that choose a drone for trip after trip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import update_wrapper
+from math import inf
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..domain.model import Drone, Trip
+
+Able = Callable[["Drone"], bool]
+"""Returns whether a drone can fly the trip now. It may search a route: call it for few drones."""
+
+Choice = tuple["Drone", str]
+"""The drone that gets a trip, and why it was chosen."""
+
+OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
+"""Chooses one of the free drones, in the fleet's order, for a trip, or None."""
+
+Offers = Sequence[tuple["Trip", Able]]
+"""The trips that wait with one priority, and which drones can fly each."""
+
+AllAtOnce = Callable[[Offers, Sequence["Drone"]], Sequence[Choice | None]]
+"""Chooses a different free drone, or None, for each of them."""
+
+
+class Batch:
+    """Decorates a policy that chooses for all waiting trips at once."""
+
+    def __init__(self, policy: AllAtOnce) -> None:
+        self._policy = policy
+        update_wrapper(self, policy)
+
+    def __call__(self, offers: Offers, free: Sequence[Drone]) -> Sequence[Choice | None]:
+        """Return a drone, or None, for each trip."""
+        return self._policy(offers, free)
+
+
+Policy = OneByOne | Batch
+
+
+def lowest(
+    free: Sequence[Drone], able: Able, rank: Callable[[Drone], float]
+) -> tuple[Drone, float] | None:
+    """Return the able drone of the lowest rank, and that rank; of equals, the fleet's first."""
+    found: Drone | None = None
+    least = inf
+    for drone in free:
+        here = rank(drone)
+        if here < least and able(drone):
+            found, least = drone, here
+    return None if found is None else (found, least)
+
+
+def nearest(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
+    """Give each trip, in turn, the closest free drone."""
+    goal = trip.source or trip.target
+    found = lowest(free, able, lambda drone: drone.distance(goal))
+    return found and (found[0], f"nearest of {len(free)} free: {found[1]:.1f} m away")
+
+
+def first(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
+    """Give each trip, in turn, the first free drone of the fleet."""
+    drone = next(filter(able, free), None)
+    return None if drone is None else (drone, f"first of {len(free)} free in the fleet's order")
+
+
+def least_used(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
+    """Give each trip, in turn, the free drone with the fewest trips behind it."""
+    found = lowest(free, able, lambda drone: drone.trips)
+    return found and (found[0], f"least used of {len(free)} free: {found[1]} trips so far")

@@ -1,1 +1,0 @@
-"""The allocation policies that a graph can name, one file each."""
