@@ -1,4 +1,4 @@
-"""Starting this program again, as another process."""
+"""Starting this program again, or the library's own, as another process."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..scaffolding import app_package
+from ..scaffolding import LIBRARY, app_package
 
 _START = (
     "import sys; from importlib import import_module as load; "
@@ -20,7 +20,15 @@ _START = (
 
 def command(*arguments: str) -> list[str]:
     """Return the command line that starts this package's program with these arguments."""
-    package = app_package()
+    return _command(app_package(), *arguments)
+
+
+def library(*arguments: str) -> list[str]:
+    """Return the command line that starts the library's own program, which knows no app."""
+    return _command(LIBRARY, *arguments)
+
+
+def _command(package: str, *arguments: str) -> list[str]:
     home = Path(sys.modules[package].__path__[0]).absolute().parent
     return [sys.executable, "-P", "-c", _START, str(home), package, *arguments]
 
