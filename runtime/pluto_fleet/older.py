@@ -43,6 +43,7 @@ _RENAMED = {
     "State": "MissionState",
     "WHATEVER": "ANY_ERROR",
     "Kind": "EventKind",
+    "standing": "open_trips",
 }
 
 _ELSEWHERE = ("domain.errors", "flow.run", "flow.mission")
