@@ -111,7 +111,11 @@ def test_it_is_resumed(seam: str, end: signal.Signals, tmp_path: Path) -> None:
     assert "missions completed" in resumed.stdout.splitlines()[-1]
 
 
-@pytest.mark.parametrize("compiled_anew", [False, True], ids=["as_it_is", "compiled_anew"])
+@pytest.mark.parametrize(
+    "compiled_anew",
+    [False, pytest.param(True, marks=pytest.mark.long)],  # whole flights once more
+    ids=["as_it_is", "compiled_anew"],
+)
 @pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=["stopped", "killed"])
 @pytest.mark.parametrize("seam", SEAMS)
 def test_an_action_that_was_cut_short_is_decided_on(
