@@ -21,6 +21,25 @@ from tests.gateway.processes import Brain, pid, played, settings
 from tests.library.installed import installed
 
 APP = "drugs_distribution"
+WRENS = [Path(__file__).parents[2] / "docs/navigation"]
+FLEET = """
+[map]
+size = [20.0, 20.0]
+[fleet]
+navigation = "drugs_distribution.drones:Own"
+[[drone]]
+id = "w1"
+category = "nurse"
+home = [1.0, 0.5]
+uri = "wren:100,50"
+"""
+MISSIONS = """
+[[mission]]
+name = "M"
+[[mission.trip]]
+action = "measure"
+target = [2, 2]
+"""
 
 
 @pytest.fixture(scope="module")
@@ -85,7 +104,27 @@ def test_both_are_the_library_s_own_processes() -> None:
     """Whichever app flies: its package is not named."""
     home = str(Path(sys.modules["pluto_fleet"].__path__[0]).parent)
     command = respawn.library("gateway")
-    assert (command[0], command[-3:]) == (sys.executable, [home, "pluto_fleet", "gateway"])
+    assert (command[0], command[-4:]) == (sys.executable, [home, "pluto_fleet", home, "gateway"])
+
+
+def test_a_navigation_in_an_app_s_own_package_is_found(tmp_path: Path) -> None:
+    """Also where the app is not installed: the gateway looks where the app was found."""
+    home = compiled(APP, tmp_path) / "src"
+    own = "from wren import Wren\n\n\nclass Own(Wren):\n    pass\n"
+    (home / APP / "drones.py").write_text(own, encoding="utf-8")
+    (tmp_path / "fleet.toml").write_text(FLEET, encoding="utf-8")
+    (tmp_path / "missions.toml").write_text(MISSIONS, encoding="utf-8")
+    journal = tmp_path / "flight.journal"
+    files = (tmp_path / "missions.toml", "--fleet", tmp_path / "fleet.toml", "--journal", journal)
+    done = subprocess.run(
+        [sys.executable, "-m", APP, "fly", *map(str, files)],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([*map(str, WRENS), *sys.path])},
+        cwd=home,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, "w1 has no action measure" in done.stderr) == (2, True), done.stderr
 
 
 def test_a_gateway_that_an_earlier_library_has_started_is_found(tmp_path: Path) -> None:

@@ -11,8 +11,8 @@ from ..scaffolding import LIBRARY, app_package
 
 _START = (
     "import sys; from importlib import import_module as load; "
-    "home, name = sys.argv[1:3]; del sys.argv[1:3]; "
-    "sys.path.insert(0, home); load(name); sys.path.append(sys.path.pop(0)); "
+    "home, name, also = sys.argv[1:4]; del sys.argv[1:4]; "
+    "sys.path.insert(0, home); load(name); sys.path += [sys.path.pop(0), also]; "
     "sys.exit(load(name + '.__main__').main())"
 )
 """Imports the package from where it was found now, even if another has its name."""
@@ -24,13 +24,20 @@ def command(*arguments: str) -> list[str]:
 
 
 def library(*arguments: str) -> list[str]:
-    """Return the command line that starts the library's own program, which knows no app."""
+    """Return the command line that starts the library's own program, which imports no app.
+
+    What lies beside the app, such as a navigation of its own, is found there as it is here.
+    """
     return _command(LIBRARY, *arguments)
 
 
 def _command(package: str, *arguments: str) -> list[str]:
-    home = Path(sys.modules[package].__path__[0]).absolute().parent
-    return [sys.executable, "-P", "-c", _START, str(home), package, *arguments]
+    found = (_home(package), package, _home(app_package()))
+    return [sys.executable, "-P", "-c", _START, *found, *arguments]
+
+
+def _home(package: str) -> str:
+    return str(Path(sys.modules[package].__path__[0]).absolute().parent)
 
 
 def start(command: Sequence[str], log: Path) -> subprocess.Popen[bytes]:
