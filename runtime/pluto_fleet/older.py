@@ -46,6 +46,7 @@ _RENAMED = {
     "State": "MissionState",
     "WHATEVER": "ANY_ERROR",
     "Kind": "EventKind",
+    "standing": "open_trips",
 }
 
 _ELSEWHERE = ("domain.errors", "flow.run", "flow.mission")

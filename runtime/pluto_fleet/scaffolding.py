@@ -1,8 +1,8 @@
 """Scaffolding: gives the library the app's own brain under the name `plutoc_runtime`.
 
 The library says `from plutoc_runtime.time.kernel import Kernel`; in an app's process that is the very module
-`<app>._runtime.time.kernel`. Modules that an app does not carry come from the library's copy.
-All this goes once the seam is plain data.
+`<app>._runtime.time.kernel`. Modules that an app does not carry come from the library's copy, and so do all of
+them in a process without an app. All this goes once the seam is plain data.
 """
 
 from __future__ import annotations
@@ -16,13 +16,19 @@ from importlib.util import find_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 
-BRAIN = "plutoc_runtime"
+BRAIN, LIBRARY = "plutoc_runtime", "pluto_fleet"
 
 _HERE = Path(__file__).parent
 _COPY = _HERE / "_brain"
 """The library's copy of the brain; an editable install has it beside itself instead."""
 
 _bound = BRAIN
+
+
+def provide_brain() -> None:
+    """Make the library's own copy of the brain importable, for a process without an app."""
+    if _COPY.is_dir():
+        sys.meta_path.insert(0, _Copy(BRAIN))
 
 
 def bind(brain: str, *, carries: bool = True) -> None:
@@ -38,14 +44,14 @@ def bind(brain: str, *, carries: bool = True) -> None:
     _bound = brain
     sys.meta_path.insert(0, _Brain())
     if carries:
-        sys.meta_path.append(_Copy())
+        sys.meta_path.append(_Copy(brain))
     else:
-        sys.meta_path.insert(0, _Copy())
+        sys.meta_path.insert(0, _Copy(brain))
 
 
 def app_package() -> str:
     """Return the package of the running program: the app's, or the library's if there is none."""
-    return __package__ if _bound == BRAIN else _bound.rpartition(".")[0]
+    return LIBRARY if _bound == BRAIN else _bound.rpartition(".")[0]
 
 
 class _Brain(MetaPathFinder):
@@ -61,15 +67,18 @@ class _Brain(MetaPathFinder):
 
 
 class _Copy(MetaPathFinder):
-    """Finds modules that the app does not carry; the last finder."""
+    """Finds a brain's modules in the library's copy: those that an app does not carry, or all."""
+
+    def __init__(self, brain: str) -> None:
+        self._brain = brain
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        if not fullname.startswith(f"{_bound}."):
+        if not f"{fullname}.".startswith(f"{self._brain}."):
             return None
         folder = _COPY if _COPY.is_dir() else _HERE.parent / BRAIN
-        place = folder.joinpath(*fullname.removeprefix(f"{_bound}.").split("."))
+        place = folder.joinpath(*fullname.removeprefix(self._brain).split(".")[1:])
         if (place / "__init__.py").is_file():
             home = [str(place)]
             return spec_from_file_location(

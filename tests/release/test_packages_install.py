@@ -97,6 +97,9 @@ def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> 
         return run(program, *words, PYTHONPATH=OURS, XDG_STATE_HOME=state)
 
     assert f"seam {written(NEWEST)}, pluto-fleet {__version__}" in told("--version").out
+    own = succeed(programs / "pluto-fleet", "--version")
+    assert own.startswith(f"pluto-fleet {__version__}, speaks seam ")
+    assert own.endswith("extras: not installed: crazyflie, plot, station\n")
 
     fleet = ("--fleet", str(example / "fleet.toml"))
     flight = ("fly", str(example / "missions.toml"), *fleet, "--sim", "--speed", "50")

@@ -1,6 +1,6 @@
 """Packages as they were compiled when their seam was the newest: today's library must fly them all.
 
-`python -m tests.seam.packages` keeps one of today's seam, once it is settled.
+`python -m tests.seam.packages` keeps those of today's seam, once it is settled; with names only these.
 """
 
 from __future__ import annotations
@@ -9,27 +9,51 @@ import os
 import subprocess
 import sys
 import tarfile
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from pluto_fleet.seam import written
 from plutoc_runtime.command import SEAM
-from tests.flying import EXAMPLES, compiled
+from tests.flying import EXAMPLES, compiled_file
 
 HERE = Path(__file__).parent
-NAME = "drugs_distribution_retry"
-EXAMPLE = EXAMPLES / NAME
-PLAN = (str(EXAMPLE / "missions.toml"), "--fleet", str(EXAMPLE / "fleet.toml"))
+NAME, WITH_HOOKS = "drugs_distribution_retry", "watered_garden"
+SOURCES = {NAME: EXAMPLES / NAME, WITH_HOOKS: HERE / WITH_HOOKS}
+"""The apps that are kept, and the folders with their sources, missions and fleets."""
 BEFORE = "before"
 """The last package that carried everything, and knows of no seam."""
-SEAMS = sorted(path.parent.name for path in HERE.glob(f"*.*/{NAME}.tar.xz"))
 
 
-def unpacked(seam: str, folder: Path) -> Path:
+@dataclass(frozen=True)
+class Kept:
+    """An app that is kept of a seam."""
+
+    seam: str
+    name: str
+
+    def __str__(self) -> str:
+        return f"{self.seam}-{self.name}"
+
+
+KEPT = sorted(
+    (Kept(path.parent.name, path.name.partition(".")[0]) for path in HERE.glob("*.*/*.tar.xz")),
+    key=str,
+)
+SEAMS = sorted({kept.seam for kept in KEPT})
+
+
+def plan(name: str) -> tuple[str, ...]:
+    """Return the missions and the fleet of an app, as words of a command line."""
+    return (str(SOURCES[name] / "missions.toml"), "--fleet", str(SOURCES[name] / "fleet.toml"))
+
+
+def unpacked(kept: Kept, folder: Path) -> Path:
     """Return the folder of the package that is kept of a seam."""
-    with tarfile.open(HERE / seam / f"{NAME}.tar.xz") as archive:
+    with tarfile.open(HERE / kept.seam / f"{kept.name}.tar.xz") as archive:
         archive.extractall(folder, filter="data")
-    return folder / NAME
+    return folder / kept.name
 
 
 def environment(package: Path) -> dict[str, str]:
@@ -39,34 +63,36 @@ def environment(package: Path) -> dict[str, str]:
 
 def said(package: Path, *words: str) -> subprocess.CompletedProcess[str]:
     """Run a command of a package to its end."""
-    command = [sys.executable, "-m", NAME, *words]
+    command = [sys.executable, "-m", package.name, *words]
     return subprocess.run(
         command, env=environment(package), capture_output=True, text=True, check=False
     )
 
 
-def begun(package: Path, journal: Path) -> subprocess.Popen[str]:
-    """Begin a flight, and return its process when the first trip flies."""
-    words = [sys.executable, "-m", NAME, "fly", *PLAN, "--sim", "--speed", "20"]
+def begun(package: Path, journal: Path, until: str = "launched") -> subprocess.Popen[str]:
+    """Begin a flight, and return its process when it says this; at first: when the first trip flies."""
+    words = [sys.executable, "-m", package.name, "fly", *plan(package.name)]
     flying = subprocess.Popen(
-        [*words, "--journal", str(journal)],
+        [*words, "--sim", "--speed", "20", "--journal", str(journal)],
         env=environment(package),
         stdout=subprocess.PIPE,
         text=True,
     )
     assert flying.stdout is not None
     for line in flying.stdout:
-        if "launched" in line:
+        if until in line:
             break
     return flying
 
 
-def keep() -> None:
-    """Keep a package of today's seam."""
-    archive = HERE / written(SEAM) / f"{NAME}.tar.xz"
-    archive.parent.mkdir(exist_ok=True)
-    with TemporaryDirectory() as folder, tarfile.open(archive, "w:xz") as kept:
-        kept.add(compiled(NAME, Path(folder)), NAME, filter=_plain)
+def keep(names: Sequence[str]) -> None:
+    """Keep packages of today's seam."""
+    home = HERE / written(SEAM)
+    home.mkdir(exist_ok=True)
+    for name in names:
+        with TemporaryDirectory() as folder, tarfile.open(home / f"{name}.tar.xz", "w:xz") as kept:
+            package = compiled_file(SOURCES[name] / "app.pluto", Path(folder, name))
+            kept.add(package, name, filter=_plain)
 
 
 def _plain(one: tarfile.TarInfo) -> tarfile.TarInfo:
@@ -77,4 +103,4 @@ def _plain(one: tarfile.TarInfo) -> tarfile.TarInfo:
 
 
 if __name__ == "__main__":
-    keep()
+    keep(sys.argv[1:] or list(SOURCES))

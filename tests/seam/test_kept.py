@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import signal
 import subprocess
 import sys
@@ -10,21 +11,37 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.seam import NEWEST, written
-from tests.flying import compiled
-from tests.seam.packages import BEFORE, NAME, PLAN, SEAMS, begun, environment, said, unpacked
+from tests.flying import compiled, compiled_file
+from tests.seam.packages import (
+    BEFORE,
+    KEPT,
+    NAME,
+    SEAMS,
+    SOURCES,
+    WITH_HOOKS,
+    Kept,
+    begun,
+    environment,
+    plan,
+    said,
+    unpacked,
+)
+
+POURS = "pours on"
+"""What the action of the app with hooks says, in the middle of a flight."""
 
 
 @pytest.fixture(scope="module")
 def before(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of that package."""
-    return unpacked(BEFORE, tmp_path_factory.mktemp("before"))
+    return unpacked(Kept(BEFORE, NAME), tmp_path_factory.mktemp("before"))
 
 
 @pytest.mark.long  # nothing of it changes but Python
 def test_a_package_from_before_still_flies_alone(before: Path, tmp_path: Path) -> None:
     """It has all that it needs, and takes nothing of the library that is beside it now."""
     journal = str(tmp_path / "flight.journal")
-    flown = said(before, "fly", *PLAN, "--sim", "--speed", "200", "--journal", journal)
+    flown = said(before, "fly", *plan(NAME), "--sim", "--speed", "200", "--journal", journal)
     assert flown.returncode == 0, flown.stderr
     assert "missions completed" in flown.stdout.splitlines()[-1]
     code = f"import sys, {NAME}.flow, {NAME}._runtime.cli.simulate; print(*sys.modules)"
@@ -50,27 +67,77 @@ def test_a_journal_from_before_is_gone_on_from(before: Path, tmp_path: Path) -> 
     assert "missions completed" in resumed.stdout.splitlines()[-1]
 
 
-def test_a_package_of_every_seam_is_kept() -> None:
-    """Todays too: tomorrow it is an old one."""
+def test_packages_of_every_seam_are_kept() -> None:
+    """Todays too: tomorrow they are old ones. One of them has a hook of each kind."""
     assert written(NEWEST) in SEAMS
+    assert [Kept(seam, name) for seam in SEAMS for name in sorted(SOURCES)] == KEPT
 
 
-@pytest.mark.parametrize("seam", SEAMS)
-def test_it_is_flown(seam: str, tmp_path: Path) -> None:
-    package = unpacked(seam, tmp_path)
-    assert f"seam {seam}," in said(package, "--version").stdout
-    assert said(package, "simulate", *PLAN).returncode == 0
+@pytest.mark.parametrize("kept", KEPT, ids=str)
+def test_it_is_flown(kept: Kept, tmp_path: Path) -> None:
+    package = unpacked(kept, tmp_path)
+    assert f"seam {kept.seam}," in said(package, "--version").stdout
+    assert said(package, "simulate", *plan(kept.name)).returncode == 0
     journal = str(tmp_path / "flight.journal")
-    flown = said(package, "fly", *PLAN, "--sim", "--speed", "200", "--journal", journal)
+    flight = ("fly", *plan(kept.name), "--sim", "--speed", "200", "--journal", journal)
+    flown = said(package, *flight)
     assert flown.returncode == 0, flown.stderr
+    assert (POURS in flown.stdout) == (kept.name == WITH_HOOKS)
+
+
+@pytest.mark.parametrize("kept", KEPT, ids=str)
+def test_it_simulates_as_if_it_were_compiled_today(kept: Kept, tmp_path: Path) -> None:
+    """Event by event, also where flights go wrong: a package changes only when it is compiled."""
+    then = unpacked(kept, tmp_path / "then")
+    now = compiled_file(SOURCES[kept.name] / "app.pluto", tmp_path / "now" / kept.name)
+    wrong = ("--seed", "3", "--fail", "crash=5%,link=20%,action=10%")
+    told = []
+    for package in (then, now):
+        trace = tmp_path / f"{package.parent.name}.trace"
+        done = said(package, "simulate", *plan(kept.name), *wrong, "--trace", str(trace))
+        assert done.returncode in (0, 1), done.stderr
+        told.append((done.returncode, done.stdout, trace.read_text(encoding="utf-8")))
+    assert told[0] == told[1]
 
 
 @pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=["stopped", "killed"])
 @pytest.mark.parametrize("seam", SEAMS)
 def test_it_is_resumed(seam: str, end: signal.Signals, tmp_path: Path) -> None:
-    package, journal = unpacked(seam, tmp_path), tmp_path / "flight.journal"
+    package, journal = unpacked(Kept(seam, NAME), tmp_path), tmp_path / "flight.journal"
     with begun(package, journal) as flying:
         flying.send_signal(end)
     resumed = said(package, "resume", str(journal))
     assert resumed.returncode == 0, resumed.stderr
     assert "missions completed" in resumed.stdout.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    "compiled_anew",
+    [False, pytest.param(True, marks=pytest.mark.long)],  # whole flights once more
+    ids=["as_it_is", "compiled_anew"],
+)
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=["stopped", "killed"])
+@pytest.mark.parametrize("seam", SEAMS)
+def test_an_action_that_was_cut_short_is_decided_on(
+    seam: str, end: signal.Signals, compiled_anew: bool, tmp_path: Path
+) -> None:
+    """Water is not poured twice by itself: a person says that none was, and the rest is flown.
+
+    By the package that began, or by the same app of today.
+    """
+    package = unpacked(Kept(seam, WITH_HOOKS), tmp_path)
+    journal = str(tmp_path / "flight.journal")
+    with begun(package, Path(journal), POURS) as flying:
+        flying.send_signal(end)
+    if compiled_anew:
+        package = compiled_file(SOURCES[WITH_HOOKS] / "app.pluto", tmp_path / "now" / WITH_HOOKS)
+    asked = said(package, "resume", journal)
+    assert asked.returncode == 4, asked.stderr
+    (answer,) = [line for line in asked.stdout.splitlines() if line.endswith(" not-done")]
+    _, *words = shlex.split(answer)
+    decided = said(package, *words)
+    assert decided.returncode == 0, decided.stderr
+    resumed = said(package, "resume", journal)
+    assert resumed.returncode == 0, resumed.stderr
+    assert "2 of 2 missions completed" in resumed.stdout.splitlines()[-1]
+    assert "COMPLETED" in said(package, "journal", journal).stdout

@@ -23,11 +23,12 @@ _WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
 
 def start(name: str, load: Callable[[], App]) -> int:
     """Load an app and run the command that the program was called with."""
-    if sys.argv[1:2] == ["gateway"]:  # it must not depend on the app's own code
+    # Earlier libraries start these two by the app's program, and must not meet its own code.
+    if sys.argv[1:2] == ["gateway"]:
         from ..gateway.process import main as gateway
 
         return gateway(sys.argv[2:])
-    if sys.argv[1:2] == ["crtp"]:  # nor must the simulated drones
+    if sys.argv[1:2] == ["crtp"]:
         from ..crtp.process import main as crtp
 
         return crtp(sys.argv[2:])

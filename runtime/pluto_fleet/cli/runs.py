@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from importlib import import_module
-from io import BytesIO
 from math import ceil, floor
 from pathlib import Path
 from statistics import mean, median
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
 from plutoc_runtime.alone.simulate import outcome_data, trips_data
@@ -37,7 +35,7 @@ if TYPE_CHECKING:
     from .options import Options
     from .plans import LoadedPlan
 
-    # was an import of itself
+    Draw = Callable[[str, str, Sequence[tuple[str, Sequence[float]]]], bytes]
 
 BROKEN = 70
 """The exit code of a run that violates an invariant, which is a bug of Pluto."""
@@ -244,9 +242,6 @@ def percentile(ordered: Sequence[float], share: float) -> float:
 
 KINDS = (".svg", ".png")
 
-_BINS = 20
-_INK = "#4c72b0"
-
 
 def kind_of(path: Path) -> str:
     """Return the image format of a file's name."""
@@ -256,44 +251,33 @@ def kind_of(path: Path) -> str:
     return kind
 
 
-def drawing() -> Any:
-    """Import matplotlib, or raise `BadInput` with how to install it."""
+def drawing() -> Draw:
+    """Import what draws, or raise `BadInput` with how to install it."""
     try:
-        return import_module("matplotlib")
-    except ImportError:
+        from .plot import picture
+    except ImportError as error:
+        if (error.name or "").startswith("pluto"):  # a bug
+            raise
         raise BadInput(
             "a plot needs matplotlib, the extra `plot` of this package: "
             'pip install "matplotlib>=3.8"'
         ) from None
+    return picture
 
 
 def plot(path: Path, title: str, runs: Sequence[RunFigures]) -> None:
     """Write the plot: the same runs give the same bytes."""
-    kind = kind_of(path)
-    matplotlib = drawing()
-    shape = import_module("matplotlib.figure").Figure(figsize=(10, 3.2), layout="constrained")
     good = [run.makespan for run in runs if run.success]
     panels = (
         ("makespan of what succeeded, s", good),
         ("flights", [float(run.attempts) for run in runs]),
         ("lowest battery, %", [100 * run.battery for run in runs if run.battery is not None]),
     )
-    for axes, (what, values) in zip(shape.subplots(1, len(panels)), panels, strict=True):
-        axes.set_xlabel(what)
-        if values:
-            axes.hist(values, bins=min(_BINS, max(1, len(set(values)))), color=_INK)
-            axes.locator_params(axis="y", integer=True)
-        else:
-            axes.set(xticks=[], yticks=[])
-    shape.axes[0].set_ylabel("runs")
     rate = percent(len(good) / len(runs))
-    shape.suptitle(f"{title}: {len(good)} of {len(runs)} succeeded ({rate})".replace("$", r"\$"))
-    picture = BytesIO()
-    metadata = {"Date": None} if kind == ".svg" else {"Software": None}
-    with matplotlib.rc_context({"svg.hashsalt": "pluto"}):
-        shape.savefig(picture, format=kind[1:], metadata=metadata)
+    title = f"{title}: {len(good)} of {len(runs)} succeeded ({rate})"
+    picture = drawing()(kind_of(path)[1:], title, panels)
     try:
-        path.write_bytes(picture.getvalue())
+        path.write_bytes(picture)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise BadInput(f"{path}: the plot cannot be written: {why}") from None

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import fcntl
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -52,7 +53,7 @@ def start(
     """Start the simulated drones of a folder, unless they run; return their URIs.
 
     Raises `BadInput` if they cannot be started. `command` starts them, with the folder appended;
-    default: this program.
+    default: the library's own program.
     """
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     with suppress(BadInput):
@@ -63,7 +64,7 @@ def start(
     kept = _kept(folder)
     drones = {id: {**kept.get(id, {}), "home": home} for id, home in homes.items()}
     _write(folder, drones)
-    words = [*(command or respawn.command(COMMAND)), str(folder)]
+    words = [*(command or respawn.library(COMMAND)), str(folder)]
     process = respawn.start(words, folder / LOG)
     _STARTED[folder] = process
     until = time.monotonic() + _PATIENCE
@@ -103,7 +104,7 @@ def end(folder: Path) -> None:
 def main(arguments: Sequence[str]) -> int:
     """Run the simulated drones of a folder until they are not needed."""
     folder = Path(*arguments[:1])
-    if len(arguments) != 1 or not (folder / DRONES).is_file():
+    if len(arguments) != 1 or not os.path.isfile(folder / DRONES):
         print(_FOR_APPS, file=sys.stderr)
         return 2
     with (folder / LOCK).open("a") as lock:

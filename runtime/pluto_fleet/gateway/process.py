@@ -127,7 +127,7 @@ _FOR_APPS = "gateway: an app starts this by itself when it flies; there is nothi
 def main(arguments: Sequence[str]) -> int:
     """Run the gateway of a folder until it is not needed any more."""
     folder = Path(*arguments[:1])
-    if len(arguments) != 1 or not (folder / SETTINGS).is_file():
+    if len(arguments) != 1 or not os.path.isfile(folder / SETTINGS):
         print(_FOR_APPS, file=sys.stderr)
         return 2
     try:
@@ -144,14 +144,22 @@ def _alone(folder: Path) -> int:
     if lock is None:
         return ANOTHER_RUNS
     try:
-        settings = settings_of(json.loads((folder / SETTINGS).read_text(encoding="utf-8")))
-        asyncio.run(run(folder, settings))
+        asyncio.run(run(folder, _settings(folder / SETTINGS)))
     except BadInput as error:
         print(error, file=sys.stderr)
         return CANNOT
     finally:
         os.close(lock)
     return 0
+
+
+def _settings(file: Path) -> Settings:
+    """Return the settings that the app has written."""
+    try:
+        return settings_of(json.loads(file.read_text(encoding="utf-8")))
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        why = f"{type(error).__name__}: {error}"
+        raise BadInput(f"{file}: these are no settings of a gateway: {why}") from None
 
 
 async def run(folder: Path, settings: Settings) -> None:

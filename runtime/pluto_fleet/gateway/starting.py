@@ -47,7 +47,7 @@ async def connect(
 ) -> RemoteLink:
     """Connect to the gateway of a folder, which is started unless it runs.
 
-    `command` starts it, with its folder appended; default: this program.
+    `command` starts it, with its folder appended; default: the library's own program.
     """
     loop = asyncio.get_running_loop()
     until = loop.time() + _WITHIN + (0.0 if settings.real is None else _LOADING)
@@ -107,7 +107,7 @@ def start(
     _STARTED[:] = [process for process in _STARTED if process.poll() is None]
     if (folder / LOG).exists() and (folder / LOG).stat().st_size > _LONG:
         (folder / LOG).replace(folder / f"{LOG}.old")
-    words = [*(command or respawn.command("gateway")), str(folder)]
+    words = [*(command or respawn.library("gateway")), str(folder)]
     process = respawn.start(words, folder / LOG)
     _STARTED.append(process)
     return process

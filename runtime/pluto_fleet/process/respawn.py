@@ -1,4 +1,4 @@
-"""Starting this program again, as another process."""
+"""Starting this program again, or the library's own, as another process."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..scaffolding import app_package
+from ..scaffolding import LIBRARY, app_package
 
 _START = (
     "import sys; from importlib import import_module as load; "
-    "home, name = sys.argv[1:3]; del sys.argv[1:3]; "
-    "sys.path.insert(0, home); load(name); sys.path.append(sys.path.pop(0)); "
+    "home, name, also = sys.argv[1:4]; del sys.argv[1:4]; "
+    "sys.path.insert(0, home); load(name); sys.path += [sys.path.pop(0), also]; "
     "sys.exit(load(name + '.__main__').main())"
 )
 """Imports the package from where it was found now, even if another has its name."""
@@ -20,9 +20,24 @@ _START = (
 
 def command(*arguments: str) -> list[str]:
     """Return the command line that starts this package's program with these arguments."""
-    package = app_package()
-    home = Path(sys.modules[package].__path__[0]).absolute().parent
-    return [sys.executable, "-P", "-c", _START, str(home), package, *arguments]
+    return _command(app_package(), *arguments)
+
+
+def library(*arguments: str) -> list[str]:
+    """Return the command line that starts the library's own program, which imports no app.
+
+    What lies beside the app, such as a navigation of its own, is found there as it is here.
+    """
+    return _command(LIBRARY, *arguments)
+
+
+def _command(package: str, *arguments: str) -> list[str]:
+    found = (_home(package), package, _home(app_package()))
+    return [sys.executable, "-P", "-c", _START, *found, *arguments]
+
+
+def _home(package: str) -> str:
+    return str(Path(sys.modules[package].__path__[0]).absolute().parent)
 
 
 def start(command: Sequence[str], log: Path) -> subprocess.Popen[bytes]:

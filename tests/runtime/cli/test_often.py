@@ -120,6 +120,7 @@ def test_without_matplotlib_nothing_flies(
 ) -> None:
     """Exit 2, and the line that mends it."""
     monkeypatch.setitem(sys.modules, "matplotlib", None)
+    monkeypatch.delitem(sys.modules, "pluto_fleet.cli.plot", raising=False)
     code, out, err = command("simulate", missions, "--runs", 2, "--plot", tmp_path / "p.svg")
     assert (code, out) == (2, "")
     assert err.endswith('pip install "matplotlib>=3.8"\n')
