@@ -12,12 +12,11 @@ from ..domain import values
 from ..domain.actions import PICK, RELEASE
 from ..domain.airspace import Airspace
 from ..domain.errors import BadInput
-from ..domain.fields import Entity
+from ..domain.fields import Entity, FieldType
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
-from ..domain.model import NOTHING, Item, Trip
+from ..domain.model import NOTHING, Item
 from ..domain.plan_rules import Cells, crowded, wrongly_carried
 from ..domain.text import number, quoted
-from ..domain.values import Read
 from .toml import parsed, text_of
 
 if TYPE_CHECKING:
@@ -25,21 +24,8 @@ if TYPE_CHECKING:
 
     from ..domain.actions import Action
     from ..domain.app import App
-    from ..domain.model import Mission, Point
-
-_KINDS: dict[str, Read] = {
-    **{kind.value: read for kind, read in values.PARAMETER.items()},
-    **{kind.name: read for kind, read in values.FIELD.items()},
-    "name": values.name,
-    "size": values.size,
-    "height": values.HEIGHT,
-    "areas": values.areas,
-    "after": values.after_trip,
-    "count": values.count,
-    "corner": values.corner,
-    "radius": values.RADIUS,
-    "weight": values.MASS,
-}
+    from ..domain.model import Mission, Point, Trip
+    from ..domain.values import Read
 
 
 class _Whole(ValueError):
@@ -48,16 +34,15 @@ class _Whole(ValueError):
 
 def load_fleet(path: Path, app: App) -> FleetData:
     """Return a fleet file's data, without what only real flights need."""
-    schema = "map:any? fleet:any? drone:any? navigation:any? localization:any? world:any?"
-    top = parsed(path, text_of(path))
-    _table(top, f"{path}", schema)
-    airspace = _airspace(top.get("map", {}), f"{path}: map")
-    schema = "after_trip:after? apart:any? max_airborne:count? navigation:any? localization:any?"
+    top, who = parsed(path, text_of(path)), f"{path}"
+    _table(top, who, "map:any? fleet:any? drone:any? navigation:any? localization:any? world:any?")
+    airspace = _airspace(top.get("map", {}), f"{who}: map")
+    schema = "apart:any? after_trip:after_trip? max_airborne:count? navigation:any?"
     return FleetData(
         airspace=airspace,
-        **_table(top.get("fleet", {}), f"{path}: fleet", schema),
-        drones=[*_drones(top, f"{path}", app, airspace)],
-        world=_world(top["world"], f"{path}: world") if "world" in top else None,
+        **_table(top.get("fleet", {}), f"{who}: fleet", f"{schema} localization:any?"),
+        drones=[*_drones(top, who, app, airspace)],
+        world=_world(top["world"], f"{who}: world") if "world" in top else None,
     )
 
 
@@ -65,29 +50,24 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
     """Return the missions of a file, each of the app's own class."""
     top, missions = parsed(path, text_of(path)), list[Any]()
     _table(top, f"{path}", "mission:any?")
-    schema = f"name:new trip:any? {_fields(app, Entity.MISSION)}"
-    kinds = {"new": _new("mission"), "EVALUATOR": _one_of("evaluator", app.evaluators)}
+    fields, kinds = _fields(app, Entity.MISSION)
+    kinds["new"] = _new("mission")
     for index, entry in enumerate(_tables(top, f"{path}", "mission", needed=True)):
         name = entry.get("name")
         who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
-        given = _table({"name": f"{index + 1}", **entry}, who, schema, **kinds)
+        data = {"name": f"{index + 1}", **entry}
+        given = _table(data, who, f"name:new trip:any? {fields}", **kinds)
         trips = _trips(entry, who, app, airspace)
         missions.append(app.mission(**given, index=index, trips=trips))
     return missions
 
 
 def _table(
-    data: object,
-    who: str,
-    schema: str,
-    lacks: str = "has no",
-    called: str = "key",
-    /,
-    **kinds: Read,
+    data: Any, who: str, schema: str, lacks: str = "has no", what: str = "key", /, **kinds: Read
 ) -> dict[str, Any]:
     """Return the values of a table: `key:kind` for each, with `?` if it may be missing.
 
-    What is of no known kind is read elsewhere, or for real drones only.
+    A kind is one of these, or a reader in `values`; any other is read elsewhere, or never.
     """
     found, keys = dict[str, Any](), dict(one.split(":") for one in schema.split())
     if not isinstance(data, dict):
@@ -95,12 +75,12 @@ def _table(
     for key in data:
         if key not in keys:
             there_are = ", ".join(keys) or "none"
-            raise BadInput(f"{who}: unknown {called} {quoted(key)}; there may be: {there_are}")
+            raise BadInput(f"{who}: unknown {what} {quoted(key)}; there may be: {there_are}")
     for key, kind in keys.items():
         if key not in data and not kind.endswith("?"):
             raise BadInput(f"{who}: {lacks} {key}")
-        read = {**_KINDS, **kinds}.get(kind.rstrip("?"))
-        if key in data and read:
+        name = kind.rstrip("?")
+        if key in data and (read := kinds.get(name) or getattr(values, name, None)):
             found[key] = _read(data, who, key, read)
     return found
 
@@ -126,10 +106,10 @@ def _tables(table: dict[str, Any], who: str, header: str, *, needed: bool = Fals
     return given
 
 
-def _airspace(data: object, who: str) -> Airspace:
-    schema = "size:size? image:any? cruise_height:height? ceiling:height? no_fly:areas?"
-    given, plain = _table(data, who, schema), Airspace()
-    areas = list[Any]()
+def _airspace(data: Any, who: str) -> Airspace:
+    plain, areas = Airspace(), list[Any]()
+    schema = "size:size? image:any? cruise_height:HEIGHT? ceiling:HEIGHT? no_fly:areas?"
+    given = _table(data, who, schema)
     for place, area in enumerate(given.get("no_fly", ()), 1):
         try:
             areas.append(values.area(area))
@@ -145,11 +125,10 @@ def _airspace(data: object, who: str) -> Airspace:
 
 def _drones(top: dict[str, Any], path: str, app: App, airspace: Airspace) -> Iterator[DroneData]:
     homes, names = Cells(), [category.name for category in app.categories]
-    schema = "id:new category:category? home:home uri:any? navigation:any? options:any?"
-    if len(names) > 1:  # the only one is the default
-        schema = schema.replace("?", "", 1)
     kinds = {"category": _one_of("category", names), "home": _point("home", airspace, 0.0)}
     kinds["new"] = _new("drone")
+    optional = "?" * (len(names) == 1)  # the only category is the default
+    schema = f"id:new category:category{optional} home:home uri:any? navigation:any? options:any?"
     for place, entry in enumerate(_tables(top, path, "drone", needed=True), 1):
         who = f"{path}: drone {place}"
         drone = DroneData(**{"category": names[0], **_table(entry, who, schema, **kinds)})
@@ -158,72 +137,66 @@ def _drones(top: dict[str, Any], path: str, app: App, airspace: Airspace) -> Ite
         yield drone
 
 
-def _world(data: object, who: str) -> WorldData:
-    table: Any = data
+def _world(data: Any, who: str) -> WorldData:
     _table(data, who, "background:any? feature:any? source:any?")
-    schema = "kind:name at:corner radius:radius?"
-    features = [
-        Feature(**_table(one, f"{who}.feature", schema))
-        for one in _tables(table, who, "world.feature")
-    ]
-    schema = "quantity:name at:corner peak:float radius:radius"
-    sources = [
-        Source(**_table(one, f"{who}.source", schema))
-        for one in _tables(table, who, "world.source")
-    ]
-    background = table.get("background", {})
+    seen, measured = _tables(data, who, "world.feature"), _tables(data, who, "world.source")
+    schema = "kind:name at:corner radius:RADIUS?"
+    features = tuple(Feature(**_table(one, f"{who}.feature", schema)) for one in seen)
+    schema = "quantity:name at:corner peak:real radius:RADIUS"
+    sources = tuple(Source(**_table(one, f"{who}.source", schema)) for one in measured)
+    background = data.get("background", {})
     if not isinstance(background, dict):
         _table(background, f"{who}, background", "")
     levels = {key: _read(background, who, key, values.real) for key in background}
-    return WorldData(features=tuple(features), sources=tuple(sources), background=levels)
+    return WorldData(features=features, sources=sources, background=levels)
 
 
 def _trips(mission: dict[str, Any], who: str, app: App, airspace: Airspace) -> list[Trip]:
+    trips, (fields, kinds) = list[Any](), _fields(app, Entity.TRIP)
     schema = "name:new action:action target:target source:source? parameters:any? item:any?"
-    schema = f"{schema} {_fields(app, Entity.TRIP)}"
-    kinds = {key: _point(key, airspace, airspace.cruise_height) for key in ("target", "source")}
-    kinds["action"] = _one_of("action", app.actions)
-    kinds |= {"EVALUATOR": _one_of("evaluator", app.evaluators), "new": _new("trip")}
-    trips = list[Trip]()
+    kinds |= {key: _point(key, airspace, airspace.cruise_height) for key in ("target", "source")}
+    kinds |= {"new": _new("trip"), "action": _one_of("action", app.actions)}
     for index, entry in enumerate(_tables(mission, who, "mission.trip", needed=True)):
-        called = f"{who}, trip {index + 1}"
-        given = _table({"name": f"{index + 1}", **entry}, called, schema, **kinds)
+        called, data = f"{who}, trip {index + 1}", {"name": f"{index + 1}", **entry}
+        given = _table(data, called, f"{schema} {fields}", **kinds)
         action = app.actions[given["action"]]
         given["parameters"] = _parameters(entry.get("parameters", {}), called, action) or NOTHING
-        trips.append(
-            app.trip(**given, index=index, item=_item(entry.get("item"), called, action.name))
-        )
+        given["item"] = _item(entry.get("item"), called, action.name)
+        trips.append(app.trip(**given, index=index))
     for index, said in wrongly_carried(trips):
         raise BadInput(f"{who}, trip {index + 1}: {said}")
     return trips
 
 
-def _parameters(data: object, who: str, action: Action) -> dict[str, Any]:
-    known = action.parameters
-    schema = " ".join(
-        f"{one.name}:{one.type.value}{'?' * (one.default is not None)}" for one in known
-    )
+def _parameters(data: Any, who: str, action: Action) -> dict[str, Any]:
+    known = {one.name: one.default for one in action.parameters}
     if isinstance(data, dict) and data and not known:
         there_is = f"{action.name} has no parameters, and {quoted(next(iter(data)))} is given"
-        raise BadInput(f"{who}, parameters: {there_is}")
+        raise BadInput(f"{who}: {there_is}")
+    schema = " ".join(f"{name}:{name}{'?' * (known[name] is not None)}" for name in known)
+    kinds = {one.name: values.PARAMETER[one.type] for one in action.parameters}
     lacks = f"{action.name} needs the parameter"
-    given = _table(data, f"{who}, parameters", schema, lacks, "parameter")
-    return {**{one.name: one.default for one in known}, **given}
+    return {**known, **_table(data, f"{who}, parameters", schema, lacks, "parameter", **kinds)}
 
 
-def _item(data: object, who: str, action: str) -> Item | None:
-    if data is None and action not in (PICK, RELEASE):
-        return None
-    if data is None:
+def _item(data: Any, who: str, action: str) -> Item | None:
+    carries = action in (PICK, RELEASE)
+    if data is None and carries:
         example = 'item = { name = "pills", mass = "4 g" }'
         raise BadInput(f"{who}: {action} needs an item, such as {example}")
-    if isinstance(data, dict) and action not in (PICK, RELEASE):
+    if isinstance(data, dict) and not carries:
         raise BadInput(f"{who}: {action} takes no item: only {PICK} and {RELEASE} do")
-    return Item(**_table(data, f"{who}, item", "name:name mass:weight"))
+    given = None if data is None else _table(data, f"{who}, item", "name:name mass:MASS")
+    return Item(**given) if given else None
 
 
-def _fields(app: App, entity: Entity) -> str:
-    return " ".join(f"{one.name}:{one.type.name}?" for one in app.fields if one.on is entity)
+def _fields(app: App, on: Entity) -> tuple[str, dict[str, Read]]:
+    """Return the schema of the fields that the app's graph needs, and how they are read."""
+    kinds = {one.name: values.FIELD[one.type] for one in app.fields if one.on is on}
+    names = {one.name for one in app.fields if one.type is FieldType.EVALUATOR}
+    evaluator = _one_of("evaluator", app.evaluators, values.name)
+    kinds |= dict.fromkeys(names & kinds.keys(), evaluator)
+    return " ".join(f"{name}:{name}?" for name in kinds), kinds
 
 
 def _point(key: str, airspace: Airspace, height: float) -> Read:
@@ -237,14 +210,12 @@ def _point(key: str, airspace: Airspace, height: float) -> Read:
     return read
 
 
-def _one_of(what: str, names: Collection[str]) -> Read:
-    read = values.name if what == "evaluator" else values.text
-
+def _one_of(what: str, names: Collection[str], read: Read = values.text) -> Read:
     def read_one(value: object) -> object:
-        if read(value) not in names:
+        if (name := read(value)) not in names:
             there_is = ", ".join(names) or "none"
-            raise _Whole(f"unknown {what} {quoted(f'{value}')}; this app has: {there_is}")
-        return value
+            raise _Whole(f"unknown {what} {quoted(name)}; this app has: {there_is}")
+        return name
 
     return read_one
 

@@ -30,46 +30,39 @@ LARGEST, LONGEST_NAME = 1e9, 200
 def shown(value: object) -> str:
     """Format a value as in the file, shortened."""
     match value:
-        case bool():
-            return f"{value}".lower()
-        case int() if abs(value) > 10**30:
-            return "this number"  # 0xfff… may have more digits than Python likes to write
-        case int() | float():
-            return f"{value}"
         case str():
             return quoted(value)
-        case list():
-            return "[…]" if value else "[]"
-        case dict():
-            return "{…}"
+        case list() | dict():
+            return "{…}" if isinstance(value, dict) else "[…]" if value else "[]"
         case date() | time():
             return value.isoformat()
-        case _:
-            return "this value"
+        case float() | bool():
+            return f"{value}".lower()
+        case int() if abs(value) <= 10**30:  # 0xfff… may have more digits than Python writes
+            return f"{value}"
+    return "this number" if isinstance(value, int) else "this value"
 
 
-def _such_as(*rules: tuple[Callable[[Any], object], str]) -> Read:
+def _such_as(*rules: tuple[Callable[[Any], object], str], to: Read | None = None) -> Read:
     """Return a reader of what keeps these rules; each has the message about what breaks it."""
 
     def read(value: object) -> object:
         for holds, said in rules:
             if not holds(value):
                 raise ValueError(said)
-        return value
+        return value if to is None else to(value)
 
     return read
 
 
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-_WHOLE = (lambda value: type(value) is int, "is not a whole number")
-_FINITE = (lambda value: isinstance(value, int) or isfinite(value), "is not a finite number")
-_SMALL = (lambda value: abs(value) <= LARGEST, "is too large")
 _TEXT = (lambda value: isinstance(value, str), "is not a text: put it in quotes")
-_BOUNDED = _such_as(_FINITE, _SMALL)
-_LIST = "is not a list of"
+_NUMBER = (lambda value: type(value) in (int, float), "is not a number")
+_WHOLE = (lambda value: type(value) is int, "is not a whole number")
+_FINITE = (lambda value: type(value) is int or isfinite(value), "is not a finite number")
+_SMALL = (lambda value: abs(value) <= LARGEST, "is too large")
+_ROUNDS = "is neither a whole number from 0 on nor true"
+_AREAS = "is not a list of areas, each a list of corners [x, y]"
+_AFTER = [one.value for one in AfterTrip]
 
 text = _such_as(_TEXT)
 name = _such_as(
@@ -81,27 +74,13 @@ name = _such_as(
 )
 """A word that will stand in lists and logs."""
 boolean = _such_as((lambda value: isinstance(value, bool), "is neither true nor false"))
+real = _such_as(_NUMBER, _FINITE, _SMALL, to=float)
 integer = _such_as(_WHOLE, _SMALL)
 count = _such_as(_WHOLE, _SMALL, (lambda value: value >= 1, "is less than 1"))
-rounds = _such_as(
-    (
-        lambda value: value is True or (type(value) is int and value >= 0),
-        "is neither a whole number from 0 on nor true",
-    ),
-    _SMALL,
-)
+rounds = _such_as((lambda v: v is True or (type(v) is int and v >= 0), _ROUNDS), _SMALL)
 """How many more; true: until stopped."""
-areas = _such_as(
-    (
-        lambda value: isinstance(value, list),
-        f"{_LIST} areas, each a list of corners [x, y]",
-    )
-)
-
-
-def real(value: object) -> float:
-    """Read a number."""
-    return float(_such_as((_is_number, "is not a number"), _FINITE, _SMALL)(value))
+after_trip = _such_as((_AFTER.__contains__, f"is none of: {', '.join(_AFTER)}"), to=AfterTrip)
+areas = _such_as((lambda value: isinstance(value, list), _AREAS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,10 +95,10 @@ class Quantity:
     def __call__(self, value: object) -> float:
         """Read one."""
         given = parse_quantity(value, self.kind) if isinstance(value, str) else value
-        if not _is_number(given):
+        if type(given) not in (int, float):
             wanted = f"write a number, or a text with a unit ({', '.join(units_of(self.kind))})"
             raise ValueError(f"is not a {self.kind.value}: {wanted}")
-        amount = float(_BOUNDED(given))
+        amount: float = real(given)
         if self.least <= amount <= self.most or (self.or_none and amount == 0):
             return amount
         least, most = self._written(self.least), self._written(self.most)
@@ -133,18 +112,12 @@ class Quantity:
         return f"{number(amount) if abs(amount) < 10_000 else f'{amount:,.0f}'} {unit}"
 
 
+SIDE = Quantity(Type.LENGTH, 0.1, 10_000.0)  # of a map
 HEIGHT = Quantity(Type.LENGTH, 0.1, 1000.0)
-"""At which drones cruise, or above which none flies."""
-SIDE = Quantity(Type.LENGTH, 0.1, 10_000.0)
-"""Of a map."""
-PLACE = Quantity(Type.LENGTH, -100_000.0, 100_000.0)
-"""A coordinate, be it on the map or not."""
-RADIUS = Quantity(Type.LENGTH, 0.01, 100_000.0)
-"""Of something that is seen or measured."""
-MASS = Quantity(Type.MASS, 0.0, 1000.0)
-"""Of an item."""
-TIME = Quantity(Type.TIME, 0.001, LARGEST, or_none=True)
-"""A delay, a limit, a distance of rounds."""
+PLACE = Quantity(Type.LENGTH, -100_000.0, 100_000.0)  # a coordinate, be it on the map or not
+RADIUS = Quantity(Type.LENGTH, 0.01, 100_000.0)  # of something that is seen or measured
+MASS = Quantity(Type.MASS, 0.0, 1000.0)  # of an item
+TIME = Quantity(Type.TIME, 0.001, LARGEST, or_none=True)  # a delay, a limit, between two rounds
 
 
 def numbers(*counts: int, each: Quantity = PLACE) -> Read:
@@ -152,7 +125,7 @@ def numbers(*counts: int, each: Quantity = PLACE) -> Read:
 
     def read(value: object) -> object:
         if not isinstance(value, list) or len(value) not in counts:
-            raise ValueError(f"{_LIST} {' or '.join(map(str, counts))} numbers")
+            raise ValueError(f"is not a list of {' or '.join(map(str, counts))} numbers")
         try:
             return tuple(map(each, value))
         except ValueError as error:
@@ -168,7 +141,7 @@ size, corner, point = numbers(2, each=SIDE), numbers(2), numbers(2, 3)
 def area(value: object) -> tuple[Corner, ...]:
     """Read the corners of a no-fly area."""
     if not isinstance(value, list) or len(value) < 3:
-        raise ValueError(f"{_LIST} at least three corners [x, y]")
+        raise ValueError("is not a list of at least three corners [x, y]")
     corners: list[Corner] = []
     for place, element in enumerate(value, 1):
         try:
@@ -178,14 +151,6 @@ def area(value: object) -> tuple[Corner, ...]:
     if not covers_ground(corners):
         raise ValueError("covers no ground: its corners lie on one line")
     return tuple(corners)
-
-
-def after_trip(value: object) -> AfterTrip:
-    """Read where a drone goes after a trip."""
-    try:
-        return AfterTrip(value)
-    except ValueError:
-        raise ValueError(f"is none of: {', '.join(one.value for one in AfterTrip)}") from None
 
 
 PARAMETER: dict[Type, Read] = {

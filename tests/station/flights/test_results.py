@@ -6,8 +6,7 @@ import json
 from typing import Any
 
 from pluto_fleet.journal.values import value_data
-from pluto_fleet.station.feed import FACTS, Feed
-from plutoc_runtime.alone.world import UNITS
+from pluto_fleet.station.feed import FACTS, UNITS, Feed
 from plutoc_runtime.domain.actions import BUILT_IN, Parameter
 from plutoc_runtime.domain.model import Photo
 from plutoc_runtime.domain.quantities import Type
