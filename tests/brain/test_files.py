@@ -1,4 +1,4 @@
-"""The small reader takes what the full one takes, and refuses what that refuses for a simulation."""
+"""The small reader takes what the full one takes, and makes the same of it."""
 
 from __future__ import annotations
 

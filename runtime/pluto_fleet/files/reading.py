@@ -209,11 +209,10 @@ class Table:
     def tables(self, key: str, header: str) -> Iterator[Table]:
         """Yield the tables of a list of tables."""
         given = self.data.get(key, [])
-        every = given if isinstance(given, list) else [given]
-        bad = [index for index, one in enumerate(every) if not isinstance(one, dict)]
-        if bad or every is not given:
-            inside = bad[:1] if every is given else []
-            self.problem(f"{key} {errors.single_table(header)}", key, *inside)
+        every = given if isinstance(given, list) else []
+        wrong = [index for index, one in enumerate(every) if not isinstance(one, dict)]
+        if wrong or not isinstance(given, list):
+            self.problem(f"{key} {errors.single_table(header)}", key, *wrong[:1])
         for index, element in enumerate(every):
-            if index not in bad and every is given:
+            if isinstance(element, dict):
                 yield Table(self.document, element, (*self.place, key, index), self.who)
