@@ -108,8 +108,9 @@ class Quantity:
         raise ValueError(f"is {beyond}: it may be {'0, or ' * self.or_none}{least} to {most}")
 
     def _written(self, amount: float) -> str:
-        unit = next(one for one in units_of(self.kind) if UNITS[one][1:] == (1.0, 0.0))
-        return f"{number(amount) if abs(amount) < 10_000 else f'{amount:,.0f}'} {unit}"
+        plain = (one for one in units_of(self.kind) if UNITS[one][1:] == (1.0, 0.0))
+        unit = next(plain, "")  # none for a percentage
+        return f"{number(amount) if abs(amount) < 10_000 else f'{amount:,.0f}'} {unit}".strip()
 
 
 SIDE = Quantity(Type.LENGTH, 0.1, 10_000.0)  # of a map
