@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 from importlib import import_module
+from importlib.util import find_spec
 from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -34,31 +35,23 @@ _WORLD = "each drone alone in the air"
 
 def start(name: str, load: Callable[[], App]) -> int:
     """Run the command that the program was called with, and return its exit code."""
-    library = _library()
-    if library is None:
-        return alone(name, load, sys.argv[1:])
-    return int(library.start(name, load, brain=__package__, seam=SEAM))
+    if library := _library():
+        return int(library.start(name, load, brain=__package__, seam=SEAM))
+    return alone(name, load, sys.argv[1:])
 
 
 def main(app: App, argv: Sequence[str] | None = None) -> int:
     """Run one command of an app that is loaded, and return its exit code."""
-    library = _library()
-    if library is None:
-        return alone(app.name, lambda: app, sys.argv[1:] if argv is None else argv)
-    return int(library.main(app, argv, brain=__package__, seam=SEAM))
+    if library := _library():
+        return int(library.main(app, argv, brain=__package__, seam=SEAM))
+    return alone(app.name, lambda: app, sys.argv[1:] if argv is None else argv)
 
 
 def _library() -> ModuleType | None:
     carried = str(Path(__file__).parents[1] / "_fleet")
     if os.path.isdir(carried) and carried not in sys.path:
         sys.path.insert(0, carried)
-    try:
-        import_module("pluto_fleet")
-    except ModuleNotFoundError as error:
-        if error.name != "pluto_fleet":
-            raise  # it is there, and something of it is missing
-        return None
-    return import_module("pluto_fleet.entry")
+    return import_module("pluto_fleet.entry") if find_spec("pluto_fleet") else None
 
 
 def alone(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
@@ -148,8 +141,7 @@ def _told(name: str, outcome: SimulationResult, options: Any) -> int:
 
     if options.trace is not None:
         try:
-            lines = [dumped(event) + "\n" for event in outcome.events]
-            options.trace.write_text("".join(lines), "utf-8")
+            options.trace.write_text("".join(f"{dumped(one)}\n" for one in outcome.events), "utf-8")
         except (OSError, ValueError) as error:
             raise BadInput(f"{options.trace}: the trace cannot be written: {error}") from None
     if options.json:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import partial
-from math import dist
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.alone.files import HOME_SIZE
+from plutoc_runtime.domain import values
 from plutoc_runtime.domain.fleet_data import DroneData
+from plutoc_runtime.domain.plan_rules import Cells, crowded
 from plutoc_runtime.domain.text import quoted
 
-from . import errors, values
+from . import errors
 from .options import Options, options_under
 
 if TYPE_CHECKING:
@@ -19,9 +18,6 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
     from .reading import Table
-
-Cell = tuple[int, int]
-"""A square of the map with sides of that length."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,12 +38,11 @@ def read_drones(top: Table, app: App, airspace: Airspace | None) -> tuple[DroneE
     drones: list[DroneEntry] = []
     ids: dict[str, Table] = {}
     uris: dict[str, Table] = {}
-    homes: dict[Cell, list[DroneEntry]] = {}
+    homes = Cells()
     for index, table in enumerate(top.tables("drone", "drone")):
-        drone = _drone(table, index, app, airspace, ids)
+        drone = _drone(table, index, app, airspace, ids, homes)
         _answers_alone(table, uris)
         if drone is not None:
-            _stands_alone(drone, homes, table)
             drones.append(drone)
     if top.data.get("drone", []) == []:
         top.problem(errors.none_given("drone"))
@@ -63,25 +58,27 @@ def named_navigations(top: Table, of_fleet: str) -> list[str]:
 
 
 def _drone(
-    table: Table, index: int, app: App, airspace: Airspace | None, ids: dict[str, Table]
+    table: Table,
+    index: int,
+    app: App,
+    airspace: Airspace | None,
+    ids: dict[str, Table],
+    homes: Cells,
 ) -> DroneEntry | None:
-    table.who = f"drone {index + 1}"
+    known = table.valid_name("id")
+    table.who = f"drone {index + 1 if known is None else quoted(known)}"
     table.only(("id", "category", "home", "uri", "navigation", "options"), "a drone")
     name = table.read("id", values.name, required=True)
     if name is not None:
-        table.who = f"drone {quoted(name)}"
-        other = ids.setdefault(name, table)
-        if other is not table:
-            table.problem(errors.not_unique("drone", name, other.line("id")), "id")
+        table.differs("drone", "id", name, ids)
     category = _category(table, app)
-    home = table.read("home", partial(values.position, height=0.0), required=True)
+    home = table.position("home", airspace, 0.0, required=True)
     uri = table.read("uri", values.name)
     navigation = table.read("navigation", values.name)
     options = options_under(table, "options", "drone.options")
-    if home is not None and airspace is not None:
-        problem = airspace.problem(home)
-        if problem is not None:
-            table.problem(f"home {problem}", "home")
+    crowd = None if home is None else crowded(home, name or f"{index + 1}", homes)
+    if crowd is not None:
+        table.problem(crowd, "home")
     if name is None or category is None or home is None:
         return None
     return DroneEntry(
@@ -107,17 +104,6 @@ def _category(table: Table, app: App) -> str | None:
         table.problem(errors.unknown_name("category", name, names, "this app has"), "category")
         return None
     return name
-
-
-def _stands_alone(drone: DroneEntry, homes: dict[Cell, list[DroneEntry]], table: Table) -> None:
-    """Report a home too near to another: only this cell and its neighbours need be checked."""
-    column, row = (int(along // HOME_SIZE) for along in drone.home[:2])
-    around = [(column + x, row + y) for x in (-1, 0, 1) for y in (-1, 0, 1)]
-    others = (other for cell in around for other in homes.get(cell, ()))
-    near = next((other for other in others if dist(drone.home, other.home) < HOME_SIZE), None)
-    if near is not None:
-        table.problem(errors.shared_home(near.id), "home")
-    homes.setdefault((column, row), []).append(drone)
 
 
 def _answers_alone(table: Table, uris: dict[str, Table]) -> None:

@@ -3,30 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from datetime import date, datetime, time
 
 from plutoc_runtime.domain.text import number, quoted
-
-
-def shown(value: object) -> str:
-    """Format a value as in the file, shortened."""
-    match value:
-        case bool():
-            return "true" if value else "false"
-        case int() if abs(value) > 10**30:
-            return "this number"  # 0xfff… may have more digits than Python likes to write
-        case int() | float():
-            return f"{value}"
-        case str():
-            return quoted(value)
-        case list():
-            return "[…]" if value else "[]"
-        case dict():
-            return "{…}"
-        case datetime() | date() | time():
-            return value.isoformat()
-        case _:
-            return "this value"
 
 
 def listed(words: Iterable[str]) -> str:
@@ -43,36 +21,6 @@ def near(word: str, words: Iterable[str]) -> str:
 
 
 # The file
-
-
-def unreadable(error: Exception) -> str:
-    match error:
-        case FileNotFoundError():
-            return "there is no such file"
-        case IsADirectoryError():
-            return "is a folder, not a file"
-        case PermissionError():
-            return "may not be read: its permissions forbid it"
-        case OSError():
-            return f"cannot be read: {error.strerror or error}"
-        case _:
-            return "is not a file name"
-
-
-def too_large(largest: int) -> str:
-    return f"is larger than {largest // 1024} KiB: this is not a plan file"
-
-
-def not_utf_8() -> str:
-    return "is not UTF-8 text"
-
-
-def nested_too_deep() -> str:
-    return "is nested too deep"
-
-
-def syntax(message: str) -> str:
-    return f"is not valid TOML: {message[:1].lower()}{message[1:]}"
 
 
 def and_more(count: int) -> str:
@@ -94,8 +42,8 @@ def unknown_key(key: str, keys: Sequence[str], what: str) -> str:
 
 def no_such_field(key: str, what: str, keys: Sequence[str]) -> str:
     return (
-        f"{quoted(key)} is not a field of this app's {what}s: its graph has no block that needs "
-        f"it; a {what} of this app has: {listed(keys)}"
+        f"unknown key {quoted(key)}: this app's graph has no block that needs it; a {what} of this "
+        f"app has: {listed(keys)}"
     )
 
 
@@ -124,10 +72,6 @@ def unknown_name(what: str, name: str, names: Sequence[str], there_are: str) -> 
     return f"unknown {what} {quoted(name)}" + (hint or f"; {there_are}: {listed(names)}")
 
 
-def no_evaluators() -> str:
-    return "this app has no evaluators"
-
-
 # Trips
 
 
@@ -153,35 +97,11 @@ def item_unwanted(action: str, carriers: Sequence[str]) -> str:
     return f"{action} takes no item: only {' and '.join(carriers)} do"
 
 
-def carries_already(item: str, carried: str, since: str) -> str:
-    return f"picks {quoted(item)}, but {quoted(carried)} is still aboard since trip {since}"
-
-
-def never_picked(item: str) -> str:
-    return f"releases {quoted(item)}, which no trip before it has picked"
-
-
-def other_item(item: str, carried: str, since: str) -> str:
-    return f"releases {quoted(item)}, but trip {since} picked {quoted(carried)}"
-
-
-def other_mass(item: str, since: str) -> str:
-    return f"{quoted(item)} has another mass here than in trip {since}"
-
-
-def never_released(item: str) -> str:
-    return f"picks {quoted(item)}, which no trip after it releases"
-
-
 # Fleet
 
 
 def category_missing(categories: Sequence[str]) -> str:
     return f"has no category; this app has: {listed(categories)}"
-
-
-def shared_home(other: str) -> str:
-    return f"home is where drone {quoted(other)} has its own: each needs a place to stand"
 
 
 def shared_uri(other: str, line: int | None) -> str:

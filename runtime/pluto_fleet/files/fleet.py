@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import partial
 from itertools import cycle, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.domain import values
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.fleet_data import Feature, FleetData, Source, WorldData
-from plutoc_runtime.domain.geometry import covers_ground
 from plutoc_runtime.domain.model import AfterTrip
 from plutoc_runtime.domain.quantities import Type
 
-from . import errors, values
+from . import errors
 from .drones import DroneEntry, named_navigations, read_drones
 from .options import Options, navigation_options, options_under
 from .reading import Document, Table, read
-from .values import HEIGHT, RADIUS, SIDE
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -31,6 +29,9 @@ if TYPE_CHECKING:
 
 APART = 0.5
 """Metres: two Crazyflies closer than this disturb each other with their downwash."""
+
+BETWEEN = values.Quantity(Type.LENGTH, 0.05, 10.0, or_none=True)
+"""What may lie between two drones."""
 
 CRAZYFLIE = "crazyflie"
 """The default navigation."""
@@ -56,21 +57,14 @@ def read_behaviour(top: Table) -> Behaviour:
     if table is None:
         return Behaviour()
     table.only(("after_trip", "apart", "max_airborne", "navigation", "localization"), "[fleet]")
-    apart = table.read("apart", partial(values.quantity, kind=Type.LENGTH, limit=values.APART))
+    apart = table.read("apart", BETWEEN)
     return Behaviour(
-        after_trip=table.read("after_trip", _after_trip) or AfterTrip.HOME,
+        after_trip=table.read("after_trip", values.after_trip) or AfterTrip.HOME,
         apart=APART if apart is None else apart,
-        max_airborne=table.read("max_airborne", partial(values.integer, least=1)),
+        max_airborne=table.read("max_airborne", values.count),
         navigation=table.read("navigation", values.name) or CRAZYFLIE,
         localization=table.read("localization", values.name) or OWN,
     )
-
-
-def _after_trip(value: object) -> AfterTrip:
-    for choice in AfterTrip:
-        if value == choice.value:
-            return choice
-    raise values.Wrong(f"is none of: {', '.join(choice.value for choice in AfterTrip)}")
 
 
 def read_map(top: Table) -> tuple[Airspace | None, str | None]:
@@ -81,7 +75,7 @@ def read_map(top: Table) -> tuple[Airspace | None, str | None]:
     table.only(("size", "image", "cruise_height", "ceiling", "no_fly"), "[map]")
     image = table.read("image", values.name)
     plain = Airspace()
-    size = table.read("size", _size) if "size" in table.data else plain.size
+    size = table.read("size", values.size) if "size" in table.data else plain.size
     cruise = _height(table, "cruise_height", plain.cruise_height)
     ceiling = _height(table, "ceiling", max(plain.ceiling, cruise or 0.0))
     no_fly = _no_fly(table)
@@ -96,45 +90,20 @@ def read_map(top: Table) -> tuple[Airspace | None, str | None]:
 def _height(table: Table, key: str, default: float) -> float | None:
     if key not in table.data:
         return default
-    return table.read(key, partial(values.quantity, kind=Type.LENGTH, limit=HEIGHT))
-
-
-def _size(value: object) -> Corner:
-    width, depth = values.numbers(value, (2,), SIDE)
-    return width, depth
+    return table.read(key, values.HEIGHT)
 
 
 def _no_fly(table: Table) -> tuple[tuple[Corner, ...], ...] | None:
-    given = table.read("no_fly", _list)
+    given = table.read("no_fly", values.areas)
     areas: list[tuple[Corner, ...]] = []
     bad = given is None and "no_fly" in table.data
     for index, element in enumerate(given or ()):
         try:
-            areas.append(_area(element))
+            areas.append(values.area(element))
         except ValueError as error:
             table.problem(errors.no_fly_area(index + 1, str(error)), "no_fly", index)
             bad = True
     return None if bad else tuple(areas)
-
-
-def _list(value: object) -> list[object]:
-    if not isinstance(value, list):
-        raise values.Wrong("is not a list of areas, each a list of corners [x, y]")
-    return value
-
-
-def _area(value: object) -> tuple[Corner, ...]:
-    if not isinstance(value, list) or len(value) < 3:
-        raise values.Wrong("is not a list of at least three corners [x, y]")
-    corners: list[Corner] = []
-    for place, element in enumerate(value, start=1):
-        try:
-            corners.append(values.corner(element))
-        except ValueError as error:
-            raise values.Wrong(f"has a corner {place} that {error}") from None
-    if not covers_ground(corners):
-        raise values.Wrong("covers no ground: its corners lie on one line")
-    return tuple(corners)
 
 
 def read_world(top: Table) -> WorldData | None:
@@ -167,7 +136,7 @@ def _feature(entry: Table) -> Feature | None:
     at = entry.read("at", values.corner, required=True)
     if "radius" not in entry.data:
         return None if kind is None or at is None else Feature(kind=kind, at=at)
-    radius = entry.read("radius", partial(values.quantity, kind=Type.LENGTH, limit=RADIUS))
+    radius = entry.read("radius", values.RADIUS)
     if kind is None or at is None or radius is None:
         return None
     return Feature(kind=kind, at=at, radius=radius)
@@ -179,9 +148,7 @@ def _source(entry: Table) -> Source | None:
     quantity = entry.read("quantity", values.name, required=True)
     at = entry.read("at", values.corner, required=True)
     peak = entry.read("peak", values.real, required=True)
-    radius = entry.read(
-        "radius", partial(values.quantity, kind=Type.LENGTH, limit=RADIUS), required=True
-    )
+    radius = entry.read("radius", values.RADIUS, required=True)
     if quantity is None or at is None or peak is None or radius is None:
         return None
     return Source(quantity=quantity, at=at, peak=peak, radius=radius)

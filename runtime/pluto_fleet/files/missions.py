@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime.domain import values
 from plutoc_runtime.domain.actions import PICK, RELEASE, Action, Plain
 from plutoc_runtime.domain.fields import Entity, FieldType
 from plutoc_runtime.domain.model import Item, Point, Trip
-from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.domain.plan_rules import wrongly_carried
 from plutoc_runtime.domain.text import quoted
 
-from . import errors, values
+from . import errors
 from .reading import Document, Table, read
-from .values import MASS
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
@@ -30,22 +29,12 @@ ELSEWHERE = {
 """Fields that other apps have: the message says why this app has none."""
 
 
-def read_fields(table: Table, app: App, entity: Entity, basic: Sequence[str]) -> dict[str, Any]:
-    """Return the fields beyond the basic ones, and report unknown keys."""
-    fields = [field for field in app.fields if field.on is entity]
-    keys = [*basic, *(field.name for field in fields)]
+def only_fields(table: Table, app: App, entity: Entity, basic: Sequence[str]) -> None:
+    """Report the keys that are neither basic ones nor fields that the app's graph needs."""
+    keys = [*basic, *(field.name for field in app.fields if field.on is entity)]
     for key in table.data:
         if key not in keys:
             table.problem(_unknown(key, keys, entity), key)
-    given: dict[str, Any] = {}
-    for field in fields:
-        value = table.read(field.name, values.field_reader(field.type))
-        if value is None:
-            continue
-        given[field.name] = value
-        if field.type is FieldType.EVALUATOR and value not in app.evaluators:
-            table.problem(_unknown_evaluator(str(value), list(app.evaluators)), field.name)
-    return given
 
 
 def _unknown(key: str, keys: Sequence[str], entity: Entity) -> str:
@@ -54,46 +43,19 @@ def _unknown(key: str, keys: Sequence[str], entity: Entity) -> str:
     return errors.unknown_key(key, keys, f"a {entity.value} of this app")
 
 
-def _unknown_evaluator(name: str, evaluators: Sequence[str]) -> str:
-    if not evaluators:
-        return errors.no_evaluators()
-    return errors.unknown_name("evaluator", name, evaluators, "this app has")
-
-
-def check_items(trips: Sequence[tuple[Trip, Table]]) -> None:
-    """Report every pick without a release, release without a pick, and second item aboard."""
-    aboard: tuple[Item, Trip, Table] | None = None
-    for trip, table in trips:
-        if trip.item is None:
-            if trip.action in (PICK, RELEASE):
-                return  # its item is invalid: errors after it would be guesses
+def read_fields(table: Table, app: App, entity: Entity) -> dict[str, Any]:
+    """Return the fields beyond the basic ones."""
+    given: dict[str, Any] = {}
+    for field in app.fields:
+        if field.on is not entity or field.name not in table.data:
             continue
-        if trip.action == PICK:
-            if aboard is not None:
-                carried, since, _ = aboard
-                table.problem(
-                    errors.carries_already(trip.item.name, carried.name, since.name), "item"
-                )
-            aboard = trip.item, trip, table
-        elif trip.action == RELEASE:
-            problem = _release(trip.item, aboard)
-            if problem is not None:
-                table.problem(problem, "item")
-            aboard = None
-    if aboard is not None:
-        item, _, table = aboard
-        table.problem(errors.never_released(item.name), "item")
-
-
-def _release(item: Item, aboard: tuple[Item, Trip, Table] | None) -> str | None:
-    if aboard is None:
-        return errors.never_picked(item.name)
-    carried, since, _ = aboard
-    if carried.name != item.name:
-        return errors.other_item(item.name, carried.name, since.name)
-    if carried.mass != item.mass:
-        return errors.other_mass(item.name, since.name)
-    return None
+        value = table.read(field.name, values.FIELD[field.type])
+        if value is not None:
+            given[field.name] = value
+            if field.type is FieldType.EVALUATOR and value not in app.evaluators:
+                said = errors.unknown_name("evaluator", value, [*app.evaluators], "this app has")
+                table.problem(said, field.name)
+    return given
 
 
 BASIC = ("name", "action", "target", "source", "parameters", "item")
@@ -109,27 +71,28 @@ def read_trips(mission: Table, app: App, airspace: Airspace) -> list[Trip]:
         trips.append((_trip(table, index, app, airspace, names), table))
     if mission.data.get("trip", []) == []:
         mission.problem(mission.document.words.no_trips())
-    check_items(trips)
+    for place, problem in wrongly_carried([trip for trip, _ in trips]):
+        trips[place][1].problem(problem, "item")
     return [trip for trip, _ in trips]
 
 
 def _trip(table: Table, index: int, app: App, airspace: Airspace, names: dict[str, Table]) -> Trip:
     mission, number = table.who, str(index + 1)
-    table.who = f"{mission}, trip {number}"
+    known = table.valid_name("name") or number
+    table.who = f"{mission}, trip {number if known == number else quoted(known)}"
+    only_fields(table, app, Entity.TRIP, BASIC)
     name = table.read("name", values.name) or number
-    if name != number:
-        table.who = f"{mission}, trip {quoted(name)}"
-    other = names.setdefault(name, table)
-    if other is not table:
-        table.problem(errors.not_unique("trip", name, other.line("name")), "name")
-    given = read_fields(table, app, Entity.TRIP, BASIC)
+    table.differs("trip", "name", name, names)
     action = _action(table, app)
-    target = _point(table, "target", airspace, required=True)
+    height = airspace.cruise_height
+    target = table.position("target", airspace, height, required=True)
+    source = table.position("source", airspace, height)
+    given = read_fields(table, app, Entity.TRIP)
     return app.trip(
         name=name,
         action=action.name if action else "",
         target=target or NOWHERE,
-        source=_point(table, "source", airspace, required=False),
+        source=source,
         parameters=_parameters(table, action) if action else {},
         item=_item(table, action),
         index=index,
@@ -145,16 +108,6 @@ def _action(table: Table, app: App) -> Action | None:
     return None
 
 
-def _point(table: Table, key: str, airspace: Airspace, *, required: bool) -> Point | None:
-    height = airspace.cruise_height
-    point = table.read(key, partial(values.position, height=height), required=required)
-    if point is not None:
-        problem = airspace.problem(point)
-        if problem is not None:
-            table.problem(f"{table.called(key)} {problem}", key)
-    return point
-
-
 def _parameters(table: Table, action: Action) -> dict[str, Plain]:
     given = table.table("parameters")
     known = [parameter.name for parameter in action.parameters]
@@ -165,7 +118,7 @@ def _parameters(table: Table, action: Action) -> dict[str, Plain]:
                 given.problem(errors.unknown_parameter(action.name, key, known), key)
     for parameter in action.parameters:
         if given is not None and parameter.name in given.data:
-            value = given.read(parameter.name, partial(values.parameter, kind=parameter.type))
+            value = given.read(parameter.name, values.PARAMETER[parameter.type])
         else:
             value = parameter.default
             if value is None:
@@ -188,7 +141,7 @@ def _item(table: Table, action: Action | None) -> Item | None:
     item.who = f"{table.who}, item"
     item.only(("name", "mass"), "an item")
     name = item.read("name", values.name, required=True)
-    mass = item.read("mass", partial(values.quantity, kind=Type.MASS, limit=MASS), required=True)
+    mass = item.read("mass", values.MASS, required=True)
     return None if name is None or mass is None else Item(name=name, mass=mass)
 
 
@@ -221,12 +174,12 @@ def read_missions(document: Document, app: App, airspace: Airspace) -> list[Miss
 def _mission(
     table: Table, index: int, app: App, airspace: Airspace, names: dict[str, Table]
 ) -> Mission[Any]:
-    table.who = f"mission {index + 1}"
-    name = table.read("name", values.name) or str(index + 1)
-    table.who = f"mission {quoted(name)}"
-    other = names.setdefault(name, table)
-    if other is not table:
-        table.problem(errors.not_unique("mission", name, other.line("name")), "name")
-    given = read_fields(table, app, Entity.MISSION, ("name", "trip"))
+    number = str(index + 1)
+    known = table.valid_name("name") or ("name" not in table.data and number)
+    table.who = f"mission {quoted(known) if known else number}"
+    only_fields(table, app, Entity.MISSION, ("name", "trip"))
+    name = table.read("name", values.name) or number
+    table.differs("mission", "name", name, names)
+    given = read_fields(table, app, Entity.MISSION)
     trips = read_trips(table, app, airspace)
     return app.mission(name=name, trips=trips, index=index, **given)

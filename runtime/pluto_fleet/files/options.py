@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from . import errors, values
+from . import errors
 
 if TYPE_CHECKING:
     from .reading import Table
@@ -54,34 +54,34 @@ def navigation_options(top: Table, used: Sequence[str]) -> Mapping[str, Options]
 def plain(value: object, depth: int = 1) -> object:
     """Read a value that JSON can hold without change."""
     if depth > DEEPEST:
-        raise values.Wrong("is nested too deep")
+        raise ValueError("is nested too deep")
     match value:
         case str() | bool():
             return value
         case int() if abs(value) < _LARGEST_WHOLE:
             return value
         case int():
-            raise values.Wrong("is too large")
+            raise ValueError("is too large")
         case float() if isfinite(value):
             return value
         case float():
-            raise values.Wrong("is not a finite number")
+            raise ValueError("is not a finite number")
         case list():
             return [_inner(element, depth) for element in value]
         case dict():
             return {key: _inner(element, depth) for key, element in value.items()}
         case _:
-            raise values.Wrong("is a date or a time: put it in quotes")
+            raise ValueError("is a date or a time: put it in quotes")
 
 
 def _inner(value: object, depth: int) -> object:
     try:
         return plain(value, depth + 1)
-    except values.Wrong as wrong:
+    except ValueError as wrong:
         words = str(wrong)
         if words.startswith(_HAS) or words.endswith("too deep"):
             raise
-        raise values.Wrong(f"{_HAS}{words}") from None
+        raise ValueError(f"{_HAS}{words}") from None
 
 
 _HAS = "has an element that "

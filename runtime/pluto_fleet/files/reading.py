@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import os
-import re
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from plutoc_runtime.alone.toml import line_of_long_key
+from plutoc_runtime.alone import toml
 from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.values import name, point, shown
 
 from . import errors
 from .toml import TomlLines, TomlPath, line_of, places
 
 if TYPE_CHECKING:
+    from plutoc_runtime.domain.airspace import Airspace
+    from plutoc_runtime.domain.model import Point
+
     from .toml import TomlPath
 
 
@@ -40,9 +43,6 @@ IN_A_FILE = Wording(
     item_missing=errors.item_missing,
 )
 
-
-LARGEST = 1 << 20
-"""Bytes. A plan is written by people: anything larger is another file."""
 
 MOST_SHOWN = 50
 
@@ -85,8 +85,7 @@ class Document:
     def refuse_if_bad(self) -> None:
         """Raise `BadInput` with a line for each problem, if there is one."""
         if self.problems:
-            found = sorted(self.problems, key=lambda problem: problem.line or 0)
-            raise BadInput(shortened([f"{self._at(one)}: {one.sentence}" for one in found]))
+            raise BadInput(shortened([f"{self._at(one)}: {one.sentence}" for one in self.problems]))
 
     def _at(self, problem: Problem) -> str:
         return f"{self.path}:{problem.line}" if problem.line else self.path
@@ -107,32 +106,12 @@ def read(path: Path) -> Document:
 
 def parsed(path: str, text: str) -> Document:
     """Parse a plan file's text; raise `BadInput` if it is not TOML."""
-    line = line_of_long_key(text)
-    if line is not None:
-        raise BadInput(f"{path}:{line}: {errors.nested_too_deep()}")
-    try:
-        data = tomllib.loads(text)
-    except RecursionError:
-        raise BadInput(f"{path}: {errors.nested_too_deep()}") from None
-    except ValueError as error:  # TOMLDecodeError, and a number with thousands of digits
-        raise BadInput(_syntax(path, text, str(error))) from None
-    return Document(path, data, places(text))
+    return Document(path, toml.parsed(path, text), places(text))
 
 
 def text_of(path: Path) -> str:
     """Return the text of a plan file; raise `BadInput` if it cannot be one."""
-    try:
-        with open(path, "rb", opener=_opened) as file:
-            content = file.read(LARGEST + 1)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        raise BadInput(f"{path}: {errors.unreadable(error)}") from None
-    if len(content) > LARGEST:
-        raise BadInput(f"{path}: {errors.too_large(LARGEST)}")
-    try:
-        return content.decode("utf-8-sig")  # some editors put a byte-order mark before the text
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        raise BadInput(f"{path}:{line}: {errors.not_utf_8()}") from None
+    return toml.text_of(path, _opened)
 
 
 def _opened(path: str, flags: int) -> int:
@@ -142,16 +121,6 @@ def _opened(path: str, flags: int) -> int:
     descriptor = os.open(path, flags | os.O_NONBLOCK)
     os.set_blocking(descriptor, True)  # one with a writer is read to its end
     return descriptor
-
-
-def _syntax(path: str, text: str, message: str) -> str:
-    place = re.search(r" \(at line (\d+), column (\d+)\)$", message)
-    if place is not None:
-        return f"{path}:{place[1]}: {errors.syntax(message[: place.start()])}, column {place[2]}"
-    shorter = message.removesuffix(" (at end of document)")
-    if shorter != message:
-        return f"{path}:{len(text.splitlines())}: {errors.syntax(shorter)}, at the end of the file"
-    return f"{path}: {errors.syntax(message)}"
 
 
 T = TypeVar("T")
@@ -177,6 +146,13 @@ class Table:
         """Return the name of a key in messages."""
         return self.document.words.called(key)
 
+    def valid_name(self, key: str) -> str | None:
+        """Return the name under a key, by which messages call the table, if it is one."""
+        word: str | None = None
+        with suppress(ValueError):
+            word = name(self.data.get(key))
+        return word
+
     def line(self, *inside: str | int) -> int | None:
         """Return the line where something in this table stands."""
         return self.document.line((*self.place, *inside))
@@ -191,8 +167,28 @@ class Table:
         try:
             return convert(value)
         except ValueError as error:
-            self.problem(f"{self.called(key)} {errors.shown(value)} {error}", key)
+            self.problem(f"{self.called(key)} {shown(value)} {error}", key)
             return None
+
+    def position(
+        self, key: str, airspace: Airspace | None, height: float, *, required: bool = False
+    ) -> Point | None:
+        """Return a position, at this height if it has none; report it if it is not on the map."""
+        found = self.read(key, point, required=required)
+        if found is None:
+            return None
+        x, y, *z = found
+        place = x, y, z[0] if z else height
+        problem = None if airspace is None else airspace.problem(place)
+        if problem is not None:
+            self.problem(f"{self.called(key)} {problem}", key)
+        return place
+
+    def differs(self, what: str, key: str, word: str, others: dict[str, Table]) -> None:
+        """Report a name that another table has."""
+        other = others.setdefault(word, self)
+        if other is not self:
+            self.problem(errors.not_unique(what, word, other.line(key)), key)
 
     def only(self, keys: Sequence[str], what: str) -> None:
         """Report the keys that are not among these."""
@@ -212,15 +208,11 @@ class Table:
 
     def tables(self, key: str, header: str) -> Iterator[Table]:
         """Yield the tables of a list of tables."""
-        value = self.data.get(key)
-        if value is None:
-            return
-        if not isinstance(value, list):
-            self.problem(f"{key} {errors.single_table(header)}", key)
-            return
-        for index, element in enumerate(value):
+        given = self.data.get(key, [])
+        every = given if isinstance(given, list) else []
+        wrong = [index for index, one in enumerate(every) if not isinstance(one, dict)]
+        if wrong or not isinstance(given, list):
+            self.problem(f"{key} {errors.single_table(header)}", key, *wrong[:1])
+        for index, element in enumerate(every):
             if isinstance(element, dict):
                 yield Table(self.document, element, (*self.place, key, index), self.who)
-            else:
-                self.problem(f"{key} {errors.single_table(header)}", key, index)
-                return

@@ -36,6 +36,10 @@ class VersionedRows:
         return (text for changed, _, text in self._rows.values() if changed > number)
 
 
+UNITS: Mapping[str, str] = {"temperature": "°C", "pm10": "µg/m³"}
+"""What the numbers of a simulated world mean; any other quantity has the unit that its author had
+in mind."""
+
 LINES_KEPT = 20_000
 """The number of lines, and of results, that are kept; older ones are only in the journal."""
 

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc_runtime import output
-from plutoc_runtime.alone.world import UNITS
 from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
 
 from ..flight.config import End, Stops
@@ -26,7 +25,7 @@ from ..journal.place import written
 from ..journal.reader import Reader
 from . import rows
 from .between_flights import IdleDrones
-from .feed import Feed, VersionedRows
+from .feed import UNITS, Feed, VersionedRows
 from .plan.shape import BROKEN_OFF
 from .wait_reasons import WaitReasons
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from random import Random
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,13 @@ OUTAGE = 20.0
 """Seconds until a lost link is restored."""
 CARRYING_HOME = 300.0
 """Seconds until someone has carried a drone home."""
+
+_BEFALL = {
+    Failure.CRASH: "crashed",
+    Failure.LINK: "lost its link",
+    Failure.BATTERY: "ran out of battery",
+}
+"""What happens at one moment of a flight; each has the name of its field below."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,6 +46,10 @@ class Faults:
     battery: float = 0.0
 
 
+FAULTS = tuple(fault.name for fault in fields(Faults))
+"""The faults of `--fail`."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drawn:
     """The faults of one flight, in seconds from take-off."""
@@ -50,11 +61,7 @@ class Drawn:
 
     def moments(self, began: float) -> list[tuple[float, Failure | None]]:
         """Return the faults with their times, for a flight that took off at this time."""
-        drawn = (
-            (self.crash, Failure.CRASH),
-            (self.link, Failure.LINK),
-            (self.battery, Failure.BATTERY),
-        )
+        drawn = ((getattr(self, what.value), what) for what in _BEFALL)
         return [(began + after, what) for after, what in drawn if after is not None]
 
 
@@ -62,40 +69,23 @@ def draw(faults: Faults, seed: int, order: Order | None) -> Drawn:
     """Draw the faults of a flight. The way home, which has no order, has none."""
     if order is None:
         return Drawn()
-    chance = Random(f"{seed}/{order.id}")
-
-    def moment(probability: float) -> float | None:
+    chance, moments = Random(f"{seed}/{order.id}"), dict[str, float]()
+    for name in (what.value for what in _BEFALL):
         # Both numbers are drawn in any case, so one probability does not change the other's outcome.
-        happens, when = chance.random() < probability, chance.random() * order.seconds
-        return when if happens else None
-
-    return Drawn(
-        crash=moment(faults.crash),
-        link=moment(faults.link),
-        battery=moment(faults.battery),
-        action=chance.random() < faults.action,
-    )
+        happens, when = chance.random() < getattr(faults, name), chance.random() * order.seconds
+        if happens:
+            moments[name] = when
+    return Drawn(**moments, action=chance.random() < faults.action)
 
 
 def befell(drone: str, what: Failure, at: Point) -> FlightFailed:
     """Return the failure of every command after a fault."""
-    return FlightFailed(what, f"{drone} {_SAID[what]} at {place(at)}")
+    return FlightFailed(what, f"{drone} {_BEFALL[what]} at {place(at)}")
 
 
 def failed(what: str, why: str, at: Point) -> FlightFailed:
     """Return the failure of an action, with its place."""
     return FlightFailed(Failure.ACTION, f"{what}: {why} at {place(at)}")
-
-
-_SAID = {
-    Failure.CRASH: "crashed",
-    Failure.LINK: "lost its link",
-    Failure.BATTERY: "ran out of battery",
-}
-
-
-FAULTS = ("crash", "link", "action", "battery")
-"""The faults of `--fail`."""
 
 
 def shares(text: str) -> dict[str, float]:

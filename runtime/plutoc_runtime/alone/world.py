@@ -1,9 +1,8 @@
-"""The simulated world: what drones see and measure. The same seed gives the same world."""
+"""What simulated drones see and measure. The same seed gives the same world."""
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from random import Random
 from typing import TYPE_CHECKING
 
@@ -18,11 +17,7 @@ if TYPE_CHECKING:
     from ..domain.model import Point
 
 BACKGROUND: Mapping[str, float] = {"temperature": 21.0, "pm10": 20.0}
-"""What is measured far from every source, in `UNITS`. Any other quantity is 0 there."""
-
-UNITS: Mapping[str, str] = {"temperature": "°C", "pm10": "µg/m³"}
-"""What the numbers of a simulated world mean; any other quantity has the unit that its author had
-in mind."""
+"""What is measured far from every source, in °C and µg/m³. Any other quantity is 0 there."""
 
 _NOISE = 0.001
 """The sensors' error, as a share of what they measure."""
@@ -33,21 +28,23 @@ _GROUND_EACH = 4.0
 _AT_MOST = 10_000
 """Features of such a world: more would take longer to make than the missions to fly."""
 
+_WIDTH, _HEIGHT = 1.6, 1.2
+"""Metres of ground on a photo for each metre of height: a 4:3 camera sees 77° across and 62° along."""
+_DRIFT = 0.05
+"""The standard deviation of a drone's horizontal position, in metres; its height is exact to a
+centimetre."""
+_BLURRED = 0.1
+"""The share of photos that are not sharp."""
+
 
 class World:
     """What can be seen and measured on a map; without data it is made up from the seed."""
 
-    def __init__(
-        self,
-        seed: int,
-        airspace: Airspace,
-        data: WorldData | None = None,
-    ) -> None:
+    def __init__(self, seed: int, airspace: Airspace, data: WorldData | None = None) -> None:
         data = invented(seed, airspace) if data is None else data
         self.features, self.sources = data.features, data.sources
         self.background = {**BACKGROUND, **data.background}
         self._seed = seed
-        self._by_x = sorted((*feature.at, feature.kind) for feature in self.features)
 
     def gives(
         self, action: str, parameters: Mapping[str, Plain], point: Point, time: float
@@ -68,8 +65,28 @@ class World:
         return round(value * (1 + error), 3)
 
     def photo(self, point: Point, time: float) -> Photo:
-        """Return a photo straight down from a point."""
-        return take_photo(point, self._by_x, self._random("photo", point, time))
+        """Return a photo straight down from about this point.
+
+        Each thing whose middle is on it is seen once, be the photo sharp or not.
+        """
+        chance = self._random("photo", point, time)
+        x, y = (round(along + chance.gauss(0.0, _DRIFT), 3) for along in point[:2])
+        z = round(point[2], 3)
+        width, height = round(z * _WIDTH, 3), round(z * _HEIGHT, 3)
+        sees = sorted(
+            one.kind
+            for one in self.features
+            if x - width / 2 <= one.at[0] <= x + width / 2
+            and y - height / 2 <= one.at[1] <= y + height / 2
+        )
+        blurred = chance.random() < _BLURRED
+        return Photo(
+            position=(x, y, z),
+            width=width,
+            height=height,
+            sees=tuple(sees),
+            sharpness=round(chance.uniform(0.3, 0.6), 3) if blurred else 1.0,
+        )
 
     def _random(self, what: str, point: Point, time: float) -> Random:
         """Randomness that depends on the event, its place and its time, and not on earlier draws."""
@@ -81,61 +98,20 @@ def invented(seed: int, airspace: Airspace) -> WorldData:
     """Make up a world: something to find, two places with dust and a warm one."""
     chance = Random(f"{seed}/world")
     width, depth = airspace.size
+    number = min(_AT_MOST, max(1, round(width * depth / _GROUND_EACH)))
 
     def somewhere() -> Corner:
         return round(chance.uniform(0, width), 3), round(chance.uniform(0, depth), 3)
+
+    def feature() -> Feature:
+        kind, at = chance.choice(_KINDS), somewhere()
+        return Feature(kind=kind, at=at, radius=round(chance.uniform(0.1, 0.5), 2))
 
     def source(quantity: str, lowest: float, highest: float) -> Source:
         peak = round(chance.uniform(lowest, highest), 1)
         spread = round(chance.uniform(0.05, 0.15) * min(width, depth), 3)
         return Source(quantity=quantity, at=somewhere(), peak=peak, radius=max(spread, 0.1))
 
-    number = min(_AT_MOST, max(1, round(width * depth / _GROUND_EACH)))
-    features = tuple(
-        Feature(
-            kind=chance.choice(_KINDS),
-            at=somewhere(),
-            radius=round(chance.uniform(0.1, 0.5), 2),
-        )
-        for _ in range(number)
-    )
-    sources = (
-        source("pm10", 40, 120),
-        source("pm10", 40, 120),
-        source("temperature", 3, 8),
-    )
-    return WorldData(features=features, sources=sources)
-
-
-# A 4:3 camera with a wide lens sees 77° across and 62° along: twice the tangent of half the angle
-# is the ground that it covers from a height of one metre.
-_WIDTH, _HEIGHT = 1.6, 1.2
-
-_DRIFT = 0.05
-"""The standard deviation of a drone's horizontal position, in metres; its height is exact to a
-centimetre."""
-
-_BLURRED = 0.1
-"""The share of photos that are not sharp."""
-
-
-def take_photo(point: Point, by_x: Sequence[tuple[float, float, str]], chance: Random) -> Photo:
-    """Return a photo from about this point; what there is to see is given as (x, y, kind), sorted.
-
-    Each thing whose middle is on the photo is seen once, be the photo sharp or not.
-    """
-    x = round(point[0] + chance.gauss(0.0, _DRIFT), 3)
-    y = round(point[1] + chance.gauss(0.0, _DRIFT), 3)
-    z = round(point[2], 3)
-    width, height = round(z * _WIDTH, 3), round(z * _HEIGHT, 3)
-    first = bisect_left(by_x, x - width / 2, key=lambda thing: thing[0])
-    last = bisect_right(by_x, x + width / 2, key=lambda thing: thing[0])
-    sees = sorted(
-        kind for _, at_y, kind in by_x[first:last] if y - height / 2 <= at_y <= y + height / 2
-    )
-    sharpness = 1.0
-    if chance.random() < _BLURRED:
-        sharpness = round(chance.uniform(0.3, 0.6), 3)
-    return Photo(
-        position=(x, y, z), width=width, height=height, sees=tuple(sees), sharpness=sharpness
-    )
+    features = tuple(feature() for _ in range(number))
+    dust = source("pm10", 40, 120), source("pm10", 40, 120)
+    return WorldData(features=features, sources=(*dust, source("temperature", 3, 8)))

@@ -93,30 +93,6 @@ def parse_quantity(text: str, kind: Type) -> float:
     return to_si(number, unit)
 
 
-LARGEST = 1e9
-"""The largest number in a plan: 30 years, for a time; nothing computed from it overflows."""
-
-
-def number_from(
-    kind: Type, least: float = -LARGEST, most: float = LARGEST, *, or_none: bool = False
-) -> Callable[[object], float]:
-    """Return a reader for a number of a plan, with a unit or in SI units, within limits.
-
-    `or_none`: 0 is as good.
-    """
-
-    def read(value: object) -> float:
-        has_unit = isinstance(value, str) and kind in QUANTITIES
-        amount = parse_quantity(str(value), kind) if has_unit else value
-        if isinstance(amount, int | float) and not isinstance(amount, bool):
-            if least <= amount <= most or (or_none and amount == 0):
-                return float(amount)
-            raise ValueError(f"is not from {least:,} to {most:,}")
-        raise ValueError("is not a number")
-
-    return read
-
-
 def time_from(text: str) -> float:
     """Read a positive time: 7200, "2 h"."""
     try:

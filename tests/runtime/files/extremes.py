@@ -7,8 +7,9 @@ from functools import lru_cache
 from math import exp, log
 from random import Random
 
-from pluto_fleet.files.values import APART, HEIGHT, MASS, PLACE, RADIUS, SIDE, TIME, Limit
+from pluto_fleet.files.fleet import BETWEEN
 from plutoc_runtime.domain.app import App
+from plutoc_runtime.domain.values import HEIGHT, MASS, PLACE, RADIUS, SIDE, TIME, Quantity
 from tests.trials.examples import app_of
 
 LONGEST = 100_000.0
@@ -62,7 +63,7 @@ class Extremes:
         self.cruise = self.number(HEIGHT, (1.2, 0.8))
         self.ceiling = max(self.cruise, self.number(HEIGHT, (3.0, 10.0)))
 
-    def number(self, limit: Limit, plain: Sequence[float]) -> float:
+    def number(self, limit: Quantity, plain: Sequence[float]) -> float:
         """Draw a number: an ordinary one, one of the ends, or any between."""
         way = self.rng.random()
         if way < 0.5:
@@ -97,7 +98,7 @@ class Extremes:
             far = [PLACE.most, PLACE.least]
             lines.append(f"no_fly = [{[*corners, far] if rng.random() < 0.1 else corners!r}]")
         lines += ["[fleet]", f'after_trip = "{rng.choice(("home", "stay", "next"))}"']
-        lines.append(f"apart = {self.number(APART, (0.0, 0.5, 1.0))!r}")
+        lines.append(f"apart = {self.number(BETWEEN, (0.0, 0.5, 1.0))!r}")
         if rng.random() < 0.3:
             lines.append(f"max_airborne = {rng.choice((1, 10**9))}")
         for place in range(rng.choice((1, 2, 3))):

@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.files import drones
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import (
     FleetFile,
@@ -22,6 +21,7 @@ from pluto_fleet.files.fleet import (
     options_of,
 )
 from pluto_fleet.files.fleet_text import fleet_text
+from plutoc_runtime.domain import plan_rules
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.errors import BadInput
@@ -172,11 +172,11 @@ def test_all_problems_of_a_file_are_told_in_one_go(tmp_path: Path) -> None:
         ':25: drone "cf1": unknown category "scot"; did you mean "scout"?',
         ':32: drone "cf1": there is another drone "cf1", in line 24: names must differ',
         ':34: drone "cf1": home (8.5, 0.5) is inside no-fly area 1',
-        ":46: [[world.source]]: has no peak",
         (
             ':49: [[world.source]]: unknown key "peek"; did you mean "peak"? '
             "a source has: quantity, at, peak, radius"
         ),
+        ":46: [[world.source]]: has no peak",
     ]
 
 
@@ -341,7 +341,7 @@ def test_a_great_fleet_is_read_in_proportion(
         asked += 1
         return dist(a, b)
 
-    monkeypatch.setattr(drones, "dist", counted)
+    monkeypatch.setattr(plan_rules, "dist", counted)
     many = [
         f'[[drone]]\nid = "d{i}"\ncategory = "scout"\nhome = [{i % 30 / 5}, {i // 30 / 5}]\n'
         for i in range(900)

@@ -10,14 +10,14 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.files.fleet import FleetFile, load_fleet
+from pluto_fleet.files.fleet import BETWEEN, FleetFile, load_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.plan_check import problems
-from pluto_fleet.files.values import APART, RADIUS, SIDE
 from pluto_fleet.trials.case import Case, Strike, StrikeKind, Weather
 from pluto_fleet.trials.lives import TrialRun
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Mission
+from plutoc_runtime.domain.values import RADIUS, SIDE
 from tests.runtime.files.extremes import CATEGORIES, Extremes, extreme_app
 
 DRONE = '[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n'
@@ -80,7 +80,7 @@ def test_what_is_beyond_is_refused(tmp_path: Path, fleet: str, missions: str, pl
         f"{SOURCE}at = [1, 1]\nradius = {RADIUS.least}\n",
         f"{SOURCE}at = [1, 1]\nradius = {RADIUS.most}\n",
         f"[map]\nsize = [{SIDE.most}, {SIDE.most}]\n{DRONE}",
-        f"[fleet]\napart = {APART.least}\n{DRONE}",
+        f"[fleet]\napart = {BETWEEN.least}\n{DRONE}",
         f"[fleet]\napart = 0\n{DRONE}",
     ],
 )

@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.files.reading import LARGEST, read
+from pluto_fleet.files.reading import read
+from plutoc_runtime.alone.toml import LARGEST
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Item, Mission
@@ -140,8 +141,8 @@ def test_a_field_without_a_block_that_needs_it_does_not_exist(tmp_path: Path) ->
     said = problems(tmp_path, trip(f"{PHOTO}delay = 3"), PLAIN)
     assert said == [
         (
-            'missions.toml:6: mission "M", trip 1: "delay" is not a field of this app\'s trips: its '
-            "graph has no block that needs it; a trip of this app has: name, action, target, source, "
+            'missions.toml:6: mission "M", trip 1: unknown key "delay": this app\'s graph has no '
+            "block that needs it; a trip of this app has: name, action, target, source, "
             "parameters, item"
         )
     ]
@@ -159,9 +160,9 @@ def test_a_field_without_a_block_that_needs_it_does_not_exist(tmp_path: Path) ->
         (
             "[[missions]]",
             [
-                "missions.toml: has no [[mission]]: nothing to fly",
                 ('missions.toml:1: unknown key "missions"; did you mean "mission"? '
                 "a missions file has: mission"),
+                "missions.toml: has no [[mission]]: nothing to fly",
             ],
         ),
         ('[[mission]]\nname = "M"', ['missions.toml:1: mission "M": has no [[mission.trip]]']),

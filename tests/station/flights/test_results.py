@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from pluto_fleet.station.feed import FACTS, Feed
-from plutoc_runtime.alone.world import UNITS
+from pluto_fleet.station.feed import FACTS, UNITS, Feed
 from plutoc_runtime.domain.actions import BUILT_IN, Parameter
 from plutoc_runtime.domain.model import Photo
 from plutoc_runtime.domain.quantities import Type

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.text import printable
+from plutoc_runtime.domain.values import shown
 
-from ...files.errors import listed, shown
+from ...files.errors import listed
 from .shape import MISSION_KEYS, TRIP_KEYS, Shape, fields_of, missions_from
 
 if TYPE_CHECKING:

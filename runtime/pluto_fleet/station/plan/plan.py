@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import BadInput, PlutoError
 from plutoc_runtime.domain.text import counted, printable, quoted
+from plutoc_runtime.domain.values import shown
 
-from ...files.errors import shown
 from . import kept as on_disk
 from .example import example_missions
 from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, read

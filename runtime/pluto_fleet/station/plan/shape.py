@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.text import quoted
+from plutoc_runtime.domain.values import shown
 
-from ...files.errors import listed, shown
+from ...files.errors import listed
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App

@@ -7,11 +7,11 @@ from datetime import time
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.fields import Entity
+from plutoc_runtime.domain.values import point
 
 from ...files.missions import missions_of
 from ...files.reading import parsed
 from ...files.toml import toml_value
-from ...files.values import numbers
 from .problems import as_in_a_file
 from .shape import Shape, fields_of, trips_of
 
@@ -83,7 +83,7 @@ def _plain(given: object) -> object:
 
 def _metres(place: Sequence[object]) -> list[object]:
     """Return a point in metres: files may have "80 cm"."""
-    read = numbers(place, (2, 3))
+    read = point(place)
     return [
         metres if isinstance(given, str) else given
         for given, metres in zip(place, read, strict=True)
