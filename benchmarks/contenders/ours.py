@@ -9,12 +9,13 @@ from __future__ import annotations
 import argparse
 import asyncio
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from .flights import HOME, AllTogether, Flights, FromTheLoop, Hear, ThroughTheKernel
-from .process import Notes, parser, report
+from .process import Ask, Notes, parser, report
 from .work import Done, Work
 
 if TYPE_CHECKING:
@@ -99,9 +100,9 @@ def brain(work: Work, flights: Flights, hooks: Any) -> Brain:
     return made
 
 
-def told(standing: Mapping[str, Any]) -> Done:
+def told(brain: Brain) -> Done:
     """Return what came of the missions."""
-    missions = standing["missions"].values()
+    missions = brain.standing()["missions"].values()
     completed = sum(len(mission["done"]) for mission in missions)
     return Done(
         missions=sum(mission["status"] == "COMPLETED" for mission in missions),
@@ -123,22 +124,22 @@ def listener(given: argparse.Namespace) -> Hear:
     return hear
 
 
-async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> Done:
+async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> Ask:
     """Fly on asyncio."""
     flights = (AllTogether if given.together else FromTheLoop)(listener(given), work, notes)
     hooks = runtime("pluto_fleet.process.hook_runner").RealHooks(flights)
     flights.brain = brain(work, flights, hooks)
     hooks.ended = lambda number: flights.tell({"hook": number})
     await flights.run(missions(work, AN_HOUR if given.together else None), work.drones)
-    return told(flights.brain.standing())
+    return partial(told, flights.brain)
 
 
-def in_virtual_time(given: argparse.Namespace, work: Work) -> Done:
+def in_virtual_time(given: argparse.Namespace, work: Work) -> Ask:
     """Fly in a simulation."""
     flights = ThroughTheKernel(listener(given))
     flights.brain = brain(work, flights, None)
     flights.run(missions(work, AN_HOUR if given.together else None), work.drones)
-    return told(flights.brain.standing())
+    return partial(told, flights.brain)
 
 
 def main() -> None:
@@ -154,7 +155,7 @@ def main() -> None:
     sys.path.insert(0, given.package)
     load()
 
-    def fly(work: Work, notes: Notes) -> Done:
+    def fly(work: Work, notes: Notes) -> Ask:
         if given.virtual:
             return in_virtual_time(given, work)
         return asyncio.run(in_real_time(given, work, notes))
