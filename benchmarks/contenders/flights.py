@@ -45,15 +45,13 @@ class Flights:
     def obey(self, order: Order) -> None:
         """Fly; a drone that shall be recovered stands at home already."""
         if order["do"] == "fly":
-            mission, trip, _, attempt = order["flight"].split("/")
-            failed = fails(int(mission), int(trip), int(attempt) - 1)
-            self.fly(order, int(trip), failed)
+            self.fly(order)
         else:
             self.answer({"done": order["id"], "value": True})
 
-    def fly(self, order: Order, trip: int, failed: bool) -> None:
+    def fly(self, order: Order) -> None:
         """Fly, then tell."""
-        raise NotImplementedError
+        self.answer(outcome(order))
 
     def answer(self, message: Message) -> None:
         """Tell something, and never from within this call."""
@@ -66,9 +64,10 @@ class Flights:
                 self.hear(event)
 
 
-def outcome(order: Order, failed: bool) -> Message:
+def outcome(order: Order) -> Message:
     """Return what is told of a flight."""
-    if failed:
+    mission, trip, _, attempt = order["flight"].split("/")
+    if fails(int(mission), int(trip), int(attempt) - 1):
         return {"failed": order["id"], "failure": "CRASH", "reason": "the hash says so"}
     return {"done": order["id"]}
 
@@ -78,11 +77,7 @@ class ThroughTheKernel(Flights):
 
     def __init__(self, hear: Hear) -> None:
         super().__init__(hear)
-        self.told: deque[Message] = deque()
-
-    def fly(self, order: Order, trip: int, failed: bool) -> None:
-        """Fly, then tell."""
-        self.told.append(outcome(order, failed))
+        self.told: list[Message] = []
 
     def answer(self, message: Message) -> None:
         """Tell something when its turn comes."""
@@ -90,14 +85,15 @@ class ThroughTheKernel(Flights):
 
     def run(self, missions: Sequence[Mapping[str, Any]], drones: int) -> None:
         """Fly until everything has ended."""
-        brain, told, now = self.brain, self.told, 0.0
+        brain, now = self.brain, 0.0
         self.begin(missions, drones, now)
         while brain.over is None:
             for order in brain.orders():
                 self.obey(order)
-            if told:
-                brain.tell(told.popleft(), now)
-            else:
+            told, self.told = self.told, []
+            for message in told:
+                brain.tell(message, now)
+            if not told:
                 due = brain.due
                 if due is None:
                     raise SystemExit("nothing will ever happen again")
@@ -124,22 +120,22 @@ class FromTheLoop(Flights):
     def post(self, call: Callable[..., object], *args: object) -> None:
         """Call what a hook wants to be called, and go on."""
         call(*args)
-        self.go_on()
+        self.go_on(self.time())
 
     async def run(self, missions: Sequence[Mapping[str, Any]], drones: int) -> None:
         """Fly until everything has ended."""
-        self.begin(missions, drones, self.time())
-        self.go_on()
+        now = self.time()
+        self.begin(missions, drones, now)
+        self.go_on(now)
         await self.ended
 
-    def fly(self, order: Order, trip: int, failed: bool) -> None:
+    def fly(self, order: Order) -> None:
         """Fly, then tell."""
-        message = outcome(order, failed)
         if self.flight:
             self.notes.launched(order["drone"], self.loop.time())
-            self.loop.call_later(self.flight, self.land, order["drone"], message)
+            self.loop.call_later(self.flight, self.land, order["drone"], outcome(order))
         else:
-            self.answer(message)
+            self.loop.call_soon(self.tell, outcome(order))
 
     def land(self, drone: str, message: Message) -> None:
         """A flight that took time is over."""
@@ -152,21 +148,21 @@ class FromTheLoop(Flights):
 
     def tell(self, message: Message) -> None:
         """Tell the brain what has happened."""
-        self.brain.tell(message, self.time())
-        self.go_on()
+        now = self.time()
+        self.brain.tell(message, now)
+        self.go_on(now)
 
-    def go_on(self) -> None:
-        """Do what the brain says, and let happen what is due."""
-        brain = self.brain
-        while True:
+    def go_on(self, now: float) -> None:
+        """Let happen what is due, and do what the brain says."""
+        brain, due = self.brain, now
+        while due <= now:
+            brain.advance(now)
             for order in brain.orders():
                 self.obey(order)
-            due, now = brain.due, self.time()
-            if due is None or due > now:
-                break
-            brain.advance(now)
+            then = brain.due
+            due = inf if then is None else then
         self.listen()
-        if due is not None and due < self.armed_for:
+        if due < self.armed_for:
             if self.armed is not None:
                 self.armed.cancel()
             self.armed_for = due
@@ -177,7 +173,7 @@ class FromTheLoop(Flights):
     def due(self) -> None:
         """Called when something is due."""
         self.armed, self.armed_for = None, inf
-        self.go_on()
+        self.go_on(self.time())
 
 
 class AllTogether(FromTheLoop):
@@ -185,15 +181,16 @@ class AllTogether(FromTheLoop):
 
     def __init__(self, hear: Hear, work: Work, notes: Notes) -> None:
         super().__init__(hear, work, notes)
-        self.left, self.last = work.missions, work.trips - 1
+        self.left, self.last = work.missions, str(work.trips - 1)
         self.flying = self.ending = 0
         self.up: deque[Message] = deque()
 
-    def fly(self, order: Order, trip: int, failed: bool) -> None:
+    def fly(self, order: Order) -> None:
         """Wait for the others."""
-        self.up.append(outcome(order, failed))
+        message = outcome(order)
+        self.up.append(message)
         self.flying += 1
-        self.ending += trip == self.last and not failed
+        self.ending += "done" in message and order["flight"].split("/")[1] == self.last
         if self.flying == self.left:
             self.loop.call_soon(self.come_down, self.flying)
             self.left -= self.ending
