@@ -73,15 +73,13 @@ class Listener:
 
 def missions(work: Work, safe_time: float | None) -> list[dict[str, Any]]:
     """Return the plan; flights may take 30 s, as the app has it, or what the missions say."""
-    names = [str(number) for number in range(work.trips)]
     fields = {} if safe_time is None else {"safe_time": safe_time}
+    trips = [
+        {"name": str(number), "action": "take_photo", "target": TARGET}
+        for number in range(work.trips)
+    ]
     return [
-        {
-            "name": str(number),
-            "fields": fields,
-            "trips": [{"name": name, "action": "take_photo", "target": TARGET} for name in names],
-        }
-        for number in range(work.missions)
+        {"name": str(number), "fields": fields, "trips": trips} for number in range(work.missions)
     ]
 
 
