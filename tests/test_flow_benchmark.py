@@ -7,9 +7,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any, cast
 from xml.etree import ElementTree
 
@@ -174,25 +172,30 @@ def test_no_drone_lands_before_all_are_in_the_air() -> None:
     """Then all come down, in the order in which they took off."""
     told: list[object] = []
 
-    class Kernel:
-        def post(self, report: Callable[[object], None], result: object) -> None:
-            report(result)
+    class Heard:
+        over = due = None
+
+        def tell(self, message: object, now: float) -> None:
+            told.append(message)
+
+        def advance(self, now: float) -> None:
+            """Nothing is due."""
+
+        def orders(self) -> list[object]:
+            return []
 
     async def fly() -> list[int]:
-        navigation: Any = AllTogether(
-            RuntimeError("crashed"), cast("Any", Kernel()), Work(missions=3, trips=1), Notes()
-        )
+        flights = AllTogether(None, Work(missions=3, trips=1), Notes())
+        flights.brain = cast("Any", Heard())
         before = []
         for mission in range(3):
             before.append(len(told))
-            trip = SimpleNamespace(index=0, attempt=1)
-            job = SimpleNamespace(trip=trip, mission=SimpleNamespace(index=mission))
-            navigation.fly(job, told.append)
+            flights.obey({"id": mission, "do": "fly", "flight": f"{mission}/0/0/1"})
         await asyncio.sleep(0)  # one turn of the loop
         return before
 
     assert asyncio.run(fly()) == [0, 0, 0]
-    assert told == [None, None, None]
+    assert told == [{"done": 0}, {"done": 1}, {"done": 2}]
 
 
 def test_a_picture_has_its_numbers_as_text_and_the_shortest_bar_first() -> None:

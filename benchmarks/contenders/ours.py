@@ -1,7 +1,7 @@
 """Ours: the package that plutoc makes of `flow/app.pluto`, as it is, with the runtime it carries.
 
 It does all that it does for its users: results and reasons are recorded, batteries and capabilities
-looked at, `async def` hooks called. Only the drones are made up, by the navigations of `flights.py`.
+looked at, `async def` hooks called. Only the drones are made up, by the drivers of `flights.py`.
 """
 
 from __future__ import annotations
@@ -9,18 +9,18 @@ from __future__ import annotations
 import argparse
 import asyncio
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .flights import HOME, AllTogether, FromTheLoop, Still, ThroughTheKernel
-from .process import Notes, parser, report
+from .flights import HOME, AllTogether, Flights, FromTheLoop, Hear, ThroughTheKernel
+from .process import Ask, Notes, parser, report
 from .work import Done, Work
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Mission
+    from plutoc_runtime.brain import Brain
     from plutoc_runtime.domain.trace import Event
-    from plutoc_runtime.time.kernel import Kernel, Task
 
 TARGET = (1.0, 1.0, 1.2)
 """Where all trips go: straight up from home."""
@@ -41,13 +41,9 @@ def load() -> None:
     import_module("measured.flow")
     for name in (
         "plutoc_runtime.domain.airspace",
-        "plutoc_runtime.domain.errors",
-        "pluto_fleet.files.fleet",
         "pluto_fleet.journal.event_line",
-        "plutoc_runtime.time.kernel",
-        "pluto_fleet.process.realtime",
-        "plutoc_runtime.flow.engine",
-        "plutoc_runtime.time.virtual",
+        "pluto_fleet.process.hook_runner",
+        "plutoc_runtime.brain",
     ):
         runtime(name)
 
@@ -75,83 +71,73 @@ class Listener:
         self.heard += 1
 
 
-def missions(work: Work, safe_time: float | None) -> list[Mission[Any]]:
+def missions(work: Work, safe_time: float | None) -> list[dict[str, Any]]:
     """Return the plan; flights may take 30 s, as the app has it, or what the missions say."""
-    model = import_module("measured.model")
-    names = [str(number) for number in range(work.trips)]
+    fields = {} if safe_time is None else {"safe_time": safe_time}
+    trips = [
+        {"name": str(number), "action": "take_photo", "target": TARGET}
+        for number in range(work.trips)
+    ]
     return [
-        model.Mission(
-            name=str(number),
-            index=number,
-            safe_time=safe_time,
-            trips=[
-                model.Trip(name=name, action="take_photo", target=TARGET, index=index)
-                for index, name in enumerate(names)
-            ],
-        )
-        for number in range(work.missions)
+        {"name": str(number), "fields": fields, "trips": trips} for number in range(work.missions)
     ]
 
 
-def started(
-    given: argparse.Namespace, work: Work, kernel: Kernel, navigation: Still
-) -> tuple[list[Mission[Any]], Task[float]]:
-    """Set the missions on their way; the task is done when the last of them is over."""
-    app, files = import_module("measured.flow").APP, runtime("pluto_fleet.files.fleet")
-    category = app.categories[0].name
-    fleet = files.FleetFile(
-        airspace=runtime("plutoc_runtime.domain.airspace").Airspace(),
-        drones=tuple(
-            files.DroneEntry(id=str(number), category=category, home=HOME)
-            for number in range(work.drones)
-        ),
+def brain(work: Work, flights: Flights, hooks: Any) -> Brain:
+    """Return the app's brain, which says what has happened if anybody wants to hear it."""
+    app = import_module("measured.flow").APP
+    made: Brain = runtime("plutoc_runtime.brain").Brain(
+        app,
+        {
+            "drones": [{"id": str(number), "home": HOME} for number in range(work.drones)],
+            "silent": flights.hear is None,
+        },
+        space=runtime("plutoc_runtime.domain.airspace").Airspace(),
+        hooks=hooks,
     )
-    session = runtime("plutoc_runtime.flow.engine").Session(
-        app, fleet, kernel, navigation, listeners(given)
-    )
-    plan = missions(work, AN_HOUR if given.together else None)
-    return plan, session.start(plan)
+    return made
 
 
-def told(plan: Sequence[Mission[Any]]) -> Done:
+def told(brain: Brain) -> Done:
     """Return what came of the missions."""
-    completed = sum(len(mission.completed_trips) for mission in plan)
+    missions = brain.standing()["missions"].values()
+    completed = sum(len(mission["done"]) for mission in missions)
     return Done(
-        missions=sum(mission.status.value == "COMPLETED" for mission in plan),
+        missions=sum(mission["status"] == "COMPLETED" for mission in missions),
         completed=completed,
-        failed=sum(mission.attempts for mission in plan) - completed,
+        failed=sum(mission["attempts"] for mission in missions) - completed,
     )
 
 
-def crash() -> Exception:
-    """Return what is reported of a flight that failed."""
-    errors = runtime("plutoc_runtime.domain.errors")
-    failed: Exception = errors.FlightFailed(errors.Failure.CRASH, "the hash says so")
-    return failed
+def listener(given: argparse.Namespace) -> Hear:
+    """Return what hears of every transition."""
+    if not given.journal:
+        return None
+    journal, second = Journal(), Listener()
+
+    def hear(event: Event) -> None:
+        journal.note(event)
+        second.hear(event)
+
+    return hear
 
 
-def listeners(given: argparse.Namespace) -> list[Callable[[Event], object]]:
-    """Return who hears of every transition."""
-    return [Journal().note, Listener().hear] if given.journal else []
-
-
-async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> Done:
+async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> Ask:
     """Fly on asyncio."""
-    kernel = runtime("pluto_fleet.process.realtime").RealTime()
-    flights = AllTogether if given.together else FromTheLoop
-    plan, over = started(given, work, kernel, flights(crash(), kernel, work, notes))
-    await kernel.run(over)
-    return told(plan)
+    flights = (AllTogether if given.together else FromTheLoop)(listener(given), work, notes)
+    hooks = runtime("pluto_fleet.process.hook_runner").RealHooks(flights)
+    flights.brain = brain(work, flights, hooks)
+    hooks.ended = lambda number: flights.tell({"hook": number})
+    await flights.run(missions(work, AN_HOUR if given.together else None), work.drones)
+    return partial(told, flights.brain)
 
 
-def in_virtual_time(given: argparse.Namespace, work: Work) -> Done:
+def in_virtual_time(given: argparse.Namespace, work: Work) -> Ask:
     """Fly in a simulation."""
-    kernel = runtime("plutoc_runtime.time.virtual").VirtualTime()
-    events = runtime("plutoc_runtime.time.kernel")
-    navigation = ThroughTheKernel(crash(), kernel, events.EventKind.FLIGHT, events.mission_key)
-    plan, over = started(given, work, kernel, navigation)
-    kernel.run(over)
-    return told(plan)
+    flights = ThroughTheKernel(listener(given))
+    flights.brain = brain(work, flights, None)
+    flights.run(missions(work, AN_HOUR if given.together else None), work.drones)
+    return partial(told, flights.brain)
 
 
 def main() -> None:
@@ -167,7 +153,7 @@ def main() -> None:
     sys.path.insert(0, given.package)
     load()
 
-    def fly(work: Work, notes: Notes) -> Done:
+    def fly(work: Work, notes: Notes) -> Ask:
         if given.virtual:
             return in_virtual_time(given, work)
         return asyncio.run(in_real_time(given, work, notes))

