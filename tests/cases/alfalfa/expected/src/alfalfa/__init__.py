@@ -11,9 +11,7 @@ if TYPE_CHECKING:
     from ._runtime.domain.errors import ActionFailed
     from ._runtime.domain.model import Category, Drone, Item, Photo, Point
     from ._runtime.domain.status import Status
-    from ._runtime.flow.verdict import Verdict
-    from ._runtime.hooks.context import Context
-    from ._runtime.hooks.live_drone import LiveDrone
+    from ._runtime.hooks.context import Context, LiveDrone, Verdict
     from .model import Mission, Result, Results, Trip
 
 __all__ = [
@@ -40,7 +38,7 @@ if not TYPE_CHECKING:
         "Context": "._runtime.hooks.context",
         "Drone": "._runtime.domain.model",
         "Item": "._runtime.domain.model",
-        "LiveDrone": "._runtime.hooks.live_drone",
+        "LiveDrone": "._runtime.hooks.context",
         "Mission": ".model",
         "Photo": "._runtime.domain.model",
         "Point": "._runtime.domain.model",
@@ -48,7 +46,7 @@ if not TYPE_CHECKING:
         "Results": ".model",
         "Status": "._runtime.domain.status",
         "Trip": ".model",
-        "Verdict": "._runtime.flow.verdict",
+        "Verdict": "._runtime.hooks.context",
     }
 
     def __getattr__(name: str) -> object:

@@ -17,7 +17,7 @@ from ._runtime.domain.actions import BUILT_IN, Parameter
 from ._runtime.domain.app import App
 from ._runtime.domain.quantities import Type
 from ._runtime.domain.status import COMPLETED, FAILED, STANDBY, Status
-from ._runtime.fleet.policies.nearest import nearest
+from ._runtime.fleet.policies import nearest
 from ._runtime.flow.own_action import OwnAction
 from ._runtime.flow.run import Run, watch
 from .model import CATEGORIES, FIELDS, Mission, Trip

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ._runtime.domain import model, results
+from ._runtime.domain import model
 from ._runtime.domain.fields import Entity, Field, FieldType
 from ._runtime.domain.model import Category
 
@@ -37,10 +37,10 @@ class Mission(model.Mission[Trip]):
     """How many more rounds to fly after the first; true: until it is stopped."""
 
 
-Result = results.Result[Mission, Trip]
+Result = model.Result[Mission, Trip]
 """What one action of this app gave."""
 
-Results = results.Results[Mission, Trip]
+Results = model.Results[Mission, Trip]
 """What an evaluator of this app gets to judge."""
 
 FIELDS: tuple[Field, ...] = (
