@@ -8,18 +8,17 @@ and mappings, except for the app, the space and the hooks. Seconds since the app
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from .domain.fleet_data import DroneData, FleetData
 from .domain.model import AfterTrip
+from .fleet.orders import Order, Orders
 from .flow.control import Control
 from .flow.engine import Session
 from .flow.recording import Recording
 from .flow.restore import Restorer
 from .flow.standing import drone_standing, mission_of, standing_of
 from .hooks.values import value_data
-from .orders import Order, Orders
 from .time.told import AT_ONCE, HookRunner, ToldTime
 
 if TYPE_CHECKING:
@@ -86,7 +85,7 @@ class Brain:
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
         """Begin missions: each has `trips`, and perhaps `name`, `index` and `fields`."""
-        self._kernel.call(now, AT_ONCE, partial(self._begin, missions))
+        self._kernel.call(now, AT_ONCE, self._begin, missions)
 
     def _begin(self, missions: Sequence[Mapping[str, Any]]) -> None:
         first = len(self._states)
@@ -105,9 +104,10 @@ class Brain:
         each drone has `flown`, and which drones are `lost` or `retired`. `drones` are the reports of
         those that no mission may need: `reached`, `landed`, `carrying`, `problems`.
         """
-        self._kernel.call(now, AT_ONCE, partial(self._go_on, standing, drones))
+        self._kernel.call(now, AT_ONCE, self._go_on, (standing, drones))
 
-    def _go_on(self, standing: Mapping[str, Any], drones: Mapping[str, Any]) -> None:
+    def _go_on(self, told: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
+        standing, drones = told
         fleet = self._session.core.fleet
         for drone in fleet.drones:
             if drone.id in standing.get("retired", ()):
@@ -125,7 +125,7 @@ class Brain:
         `probe` whether a flight's action was done: the answer is an order to note what was `probed`.
         """
         said: list[str] = []
-        self._kernel.call(now, AT_ONCE, lambda: said.append(self._control.perform(request)))
+        self._kernel.call(now, AT_ONCE, lambda _: said.append(self._control.perform(request)))
         return said[0]
 
     def tell(self, message: Mapping[str, Any], now: float) -> None:
@@ -140,22 +140,18 @@ class Brain:
             for drone, told in message["telemetry"].items():
                 if drone in self._orders.drones:
                     self._orders.drones[drone].take(told)
-        match message:
-            case {"done": order}:
-                call = partial(self._orders.done, order, message.get("value"))
-            case {"failed": order}:
-                call = partial(self._orders.failed, order, message)
-            case {"hook": number}:
-                call = partial(self._kernel.hook_ended, number)
-            case {"durable": number}:
-                call = partial(self._recording.durable, number)
-            case _:
-                return
-        self._kernel.call(now, AT_ONCE, call)
+        if "done" in message:
+            self._kernel.call(now, AT_ONCE, self._orders.done, message)
+        elif "failed" in message:
+            self._kernel.call(now, AT_ONCE, self._orders.failed, message)
+        elif "hook" in message:
+            self._kernel.call(now, AT_ONCE, self._kernel.hook_ended, message)
+        elif "durable" in message:
+            self._kernel.call(now, AT_ONCE, self._recording.durable, message)
 
     def advance(self, now: float) -> None:
         """Let everything happen that is due, up to the first orders: take those, and call it again."""
-        self._kernel.call(now, self._orders.pending)
+        self._kernel.call(now, self._orders.pending, _nothing)
 
     @property
     def due(self) -> float | None:
@@ -230,3 +226,7 @@ def _drone(data: Mapping[str, Any], app: App) -> DroneData:
     x, y, *z = data["home"]
     category = data.get("category", app.categories[0].name)
     return DroneData(id=data["id"], category=category, home=(x, y, z[0] if z else 0.0))
+
+
+def _nothing(_: object) -> None:
+    """Only what is due happens."""

@@ -20,7 +20,7 @@ from .reach import docked
 if TYPE_CHECKING:
     from ..domain.model import Drone
     from ..domain.trace import Trace
-    from .navigation import Navigation
+    from .orders import Orders
     from .queue import Queue
 
 
@@ -31,14 +31,14 @@ class Fleet:
         self,
         kernel: Kernel,
         trace: Trace,
-        navigation: Navigation[Any],
+        orders: Orders,
         drones: Sequence[Drone],
         queue: Queue,
         after_trip: AfterTrip,
     ) -> None:
         self.drones, self.queue = tuple(drones), queue
         self._kernel, self._trace = kernel, trace
-        self._navigation, self._after_trip = navigation, after_trip
+        self._orders, self._after_trip = orders, after_trip
         self._stays = after_trip is AfterTrip.STAY
         self.errands: dict[Drone, Task[None]] = {}
         """The tasks of drones that return, land, recover or charge."""
@@ -67,7 +67,7 @@ class Fleet:
 
         async def land(drone: Drone) -> None:
             try:
-                await self._navigation.land(drone.id)
+                await self._orders.land(drone.id)
             except FlightFailed as error:
                 lose(str(error))
                 await self._bring_back(drone, str(error))
@@ -85,7 +85,7 @@ class Fleet:
             and telemetry.battery_level > drone.category.reserve
             and (self._stays or docked(telemetry.location, drone.home))
         ):
-            # navigation has it down already where it shall be, with enough in its battery
+            # it is down already where it shall be, with enough in its battery
             self._become(drone, _FREE)
         elif self._after_trip is AfterTrip.HOME or self.is_low(drone):
             self.send_home(drone)
@@ -153,7 +153,7 @@ class Fleet:
 
     async def _stay(self, drone: Drone) -> None:
         try:
-            await self._navigation.land(drone.id)
+            await self._orders.land(drone.id)
         except FlightFailed as error:
             await self._bring_back(drone, str(error))
             return
@@ -171,7 +171,7 @@ class Fleet:
 
     async def _return(self, drone: Drone) -> None:
         try:
-            await self._navigation.home(drone.id)
+            await self._orders.home(drone.id)
         except FlightFailed as error:
             await self._bring_back(drone, str(error))
         else:
@@ -180,7 +180,7 @@ class Fleet:
     async def _bring_back(self, drone: Drone, reason: str) -> None:
         """Bring a drone home after a failed flight, or give it up as lost."""
         self._become(drone, DroneStatus.RECOVERING)
-        why = await self._navigation.recover(drone.id)
+        why = await self._orders.recover(drone.id)
         if why is None:
             self.unready.pop(drone, None)
             await self._settle(drone)
@@ -214,7 +214,7 @@ class Fleet:
                 self.unready[drone] = why
 
     async def _bring_down(self, drone: Drone) -> None:
-        await self._navigation.recover(drone.id)
+        await self._orders.recover(drone.id)
         self._lose(drone, self.lost[drone])
 
     def _not_ready(self, drone: Drone, why: str) -> str:
@@ -239,7 +239,7 @@ class Fleet:
         self.retired.discard(drone)
         self.lost.pop(drone, None)
         if drone.status is DroneStatus.LOST or drone in self.unready:
-            self._navigation.mended(drone.id)  # its errand may be waiting for this
+            self._orders.mended(drone.id)  # its errand may be waiting for this
         if drone.status is DroneStatus.LOST:
             self._send(drone, DroneStatus.RECOVERING, self._come_back, "comes back")
         elif drone.status is DroneStatus.OFFLINE and not self._rests(drone):
@@ -248,7 +248,7 @@ class Fleet:
     async def _come_back(self, drone: Drone) -> None:
         """Bring a repaired drone home, or say why that failed."""
         self._become(drone, DroneStatus.RECOVERING)
-        why = await self._navigation.recover(drone.id)
+        why = await self._orders.recover(drone.id)
         if why is None:
             await self._settle(drone)
         else:

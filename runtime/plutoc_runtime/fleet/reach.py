@@ -250,8 +250,8 @@ class Reach:
 
         `NO_WAY` where only the exact check can tell: an item, or a place that is not on the map.
         """
-        problem, start = self.airspace.problem, trip.source or trip.target
-        if trip.item is not None or problem(start) or problem(trip.target):
+        problem, source = self.airspace.problem, trip.source
+        if trip.item is not None or problem(trip.target) or (source and problem(source)):
             return self._unknown
         return self._levels[trip.action]
 

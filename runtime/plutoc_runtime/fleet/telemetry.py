@@ -85,12 +85,14 @@ class KnownState:
     @property
     def location(self) -> Point:
         """Where it is."""
-        return self._leg.at(self._clock.now)
+        leg, now = self._leg, self._clock.now
+        return leg.end if now >= leg.arrives else leg.at(now)
 
     @property
     def battery_level(self) -> float:
         """The charge of its battery, from 0 to 1."""
-        return self._charge.at(self._clock.now)
+        charge = self._charge
+        return charge.at(self._clock.now) if charge.rate else charge.level
 
     def take(self, told: Mapping[str, Any]) -> None:
         """Take over a message about it; what the message does not say stays as it was."""

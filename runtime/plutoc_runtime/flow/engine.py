@@ -24,8 +24,7 @@ from .run import Run
 if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
-    from ..fleet.navigation import Navigation
-    from ..trips.flight import Flight
+    from ..fleet.orders import Orders
 
 
 class Engine:
@@ -171,14 +170,14 @@ Listener = Callable[[Event], object]
 
 
 class Session:
-    """One running app: its engine, with a navigation and a kernel."""
+    """One running app: its engine and its fleet."""
 
     def __init__(
         self,
         app: App,
         fleet: FleetData,
         kernel: Kernel,
-        navigation: Navigation[Flight],
+        orders: Orders,
         listeners: Sequence[Listener],
         on_record: Callable[[], Awaitable[None]] | None = None,
     ) -> None:
@@ -190,7 +189,7 @@ class Session:
                 id=entry.id,
                 category=categories[entry.category],
                 home=entry.home,
-                telemetry=navigation.telemetry(entry.id),
+                telemetry=orders.drones[entry.id],
                 status=known,
                 index=index,
             )
@@ -202,12 +201,12 @@ class Session:
             app=app,
             kernel=kernel,
             airspace=fleet.airspace,
-            navigation=navigation,
+            orders=orders,
             trace=trace,
             results=results,
             transitions=Transitions(kernel, trace, results),
             queue=queue,
-            fleet=Fleet(kernel, trace, navigation, self.drones, queue, fleet.after_trip),
+            fleet=Fleet(kernel, trace, orders, self.drones, queue, fleet.after_trip),
             on_record=on_record,
         )
         self.engine = Engine(self.core)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.actions import PICK, RELEASE
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from ..domain.model import Drone, Item, Mission, ResultStore, Trip
     from ..domain.trace import Trace
     from ..fleet.fleet import Fleet
-    from ..fleet.navigation import Navigation
+    from ..fleet.orders import Orders
     from ..fleet.queue import Queue
     from ..time.kernel import Kernel, Task
     from ..trips.transitions import Transitions
@@ -46,7 +47,7 @@ class Core:
     app: App
     kernel: Kernel
     airspace: Airspace
-    navigation: Navigation[Flight]
+    orders: Orders
     trace: Trace
     results: ResultStore
     transitions: Transitions
@@ -150,7 +151,7 @@ class MissionState:
         )
         self.allocated, self.calls = None, 0
         core.transitions.launch(mission, trip, drone)
-        core.navigation.fly(flight, flight.report)
+        core.orders.fly(drone.id, partial(self.reported, flight), flight.order)
 
     def new_flight(self, trip: Trip, drone: Drone, retry: bool) -> Flight:
         """Return a flight of one of its trips, which tells this mission what comes of it."""
@@ -158,7 +159,7 @@ class MissionState:
         return Flight(self.mission, trip, drone, action, now, retry, self.reported)
 
     def reported(self, flight: Flight, result: object) -> None:
-        """Called by navigation when a flight has arrived, is done, or has failed."""
+        """Called when a flight has arrived, is done, or has failed."""
         if self.flight is not flight or flight.trip.status is not _EXECUTING:
             return  # it was aborted meanwhile
         if isinstance(result, FlightFailed):
@@ -177,7 +178,7 @@ class MissionState:
         flight.called_off = True
         if flight.own_action is not None:
             flight.own_action.cancel()
-        self.core.navigation.break_off(flight.flier.id)
+        self.core.orders.break_off(flight.flier.id)
 
     def complete(self, flight: Flight, value: object) -> None:
         """Complete a flight's trip; its drone is free, unless it carries an item."""
@@ -236,13 +237,15 @@ class MissionState:
         core, flight = self.core, self.in_flight
         if flight is None or flight.called_off:
             return
-        repeatable = flight.action is None or core.app.actions[flight.action].repeat == "safe"
+        repeatable = (
+            flight.hook is not None or core.app.actions[flight.trip.action].repeat == "safe"
+        )
         if core.on_record is None or repeatable:
             self.break_off(flight)
             self.fail(flight, reason)
         else:
             flight.called_off, flight.overdue = True, reason
-            core.navigation.settle(flight)
+            core.orders.settle(flight.drone, flight.id)
 
 
 _EXECUTING = TripStatus.EXECUTING

@@ -45,11 +45,11 @@ class OwnAction(Action):
         core.transitions.begin_action(mission, trip, drone)
         if core.on_record is not None:
             await core.on_record()
-        live = LiveDrone(kernel, core.navigation, drone, key) if can_wait(hook) else None
+        live = LiveDrone(kernel, core.orders, drone, key) if can_wait(hook) else None
         context = Context(kernel, core.results, core.log, mission, lambda: state.flight, live)
         call = kernel.call_hook(hook, drone, trip, context, **trip.parameters)
         work = kernel.spawn(_faults(hook, call), key, f"{mission.name}: {self.name}")
-        hover = kernel.spawn(core.navigation.hold(drone.id), key, f"{drone.id} hovers")
+        hover = kernel.spawn(core.orders.hold(drone.id), key, f"{drone.id} hovers")
         held = ProtectedFacts(trip, "name", "action", "item", "index", "attempt", "status")
         over: Future[None] = Future()
         work.watch(over.set)

@@ -41,9 +41,9 @@ class Recording:
             self._waiting.append((self._said, durable))
             await durable
 
-    def durable(self, number: int) -> None:
+    def durable(self, message: Mapping[str, int]) -> None:
         """Called when so many events are durable."""
-        self._durable = max(self._durable, number)
+        self._durable = max(self._durable, message["durable"])
         while self._waiting and self._waiting[0][0] <= self._durable:
             self._waiting.popleft()[1].set(None)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import Failure, FlightFailed
 from ..domain.status import RUNNING, STANDBY, UNEXECUTED, Status
+from ..fleet.orders import failure_of
 from ..hooks.values import item_of, value_of
 from .standing import update
 
@@ -136,10 +136,9 @@ class Restorer:
         flight = state.flight
         assert flight is not None
         if report is None:
-            self._core.navigation.attach(flight, flight.report)
+            self._core.orders.attach(flight.drone, flight.report, flight.id)
         elif "failure" in report:
-            failure = Failure.__members__.get(report["failure"], Failure.UNKNOWN)
-            flight.report(FlightFailed(failure, report.get("reason", "")))
+            flight.report(failure_of(report))
         else:
             flight.report(value_of(report.get("value")))
 

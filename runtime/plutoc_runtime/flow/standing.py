@@ -14,7 +14,7 @@ from ..domain.mission_data import Data, fields_of, trip_data
 from ..domain.model import Drone
 from ..domain.status import DroneStatus, Status, TripStatus
 from ..hooks import values
-from ..hooks.values import item_data, trip_of
+from ..hooks.values import item_data, known_fields, trip_of
 
 if TYPE_CHECKING:
     from ..domain.app import App
@@ -25,19 +25,9 @@ if TYPE_CHECKING:
 
 def mission_of(app: App, data: Mapping[str, Any], index: int) -> Mission[Any]:
     """Return a new mission; what the app does not know is left out."""
-    trips = [
-        trip_of(app, {"name": f"{place}", "index": place - 1, **_known(app, Entity.TRIP, one)})
-        for place, one in enumerate(data["trips"], 1)
-    ]
-    index, fields = data.get("index", index), _known(app, Entity.MISSION, data).get("fields", {})
+    trips = [trip_of(app, one, place) for place, one in enumerate(data["trips"])]
+    index, fields = data.get("index", index), known_fields(app, Entity.MISSION, data)
     return app.mission(name=data.get("name", f"{index + 1}"), trips=trips, index=index, **fields)
-
-
-def _known(app: App, entity: Entity, data: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Return the data without fields that the app does not have."""
-    names = {field.name for field in app.fields if field.on is entity}
-    given = data.get("fields", {})
-    return {**data, "fields": {name: value for name, value in given.items() if name in names}}
 
 
 def standing_of(app: App, state: MissionState) -> Data:
@@ -117,7 +107,7 @@ def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[s
     for which, status in _LISTS.items():
         lists[which] = []
         for data in record.get(which, ()):
-            now = trip_of(app, data, status)
+            now = trip_of(app, data, status=status)
             trip = trips.setdefault(now.name, now)
             for one in dataclass_fields(now):
                 setattr(trip, one.name, getattr(now, one.name))

@@ -112,7 +112,7 @@ def _finite(seconds: float) -> float:
 
 
 class Instruments(Protocol):
-    """The part of a navigation that reads and sets values of a hovering drone."""
+    """The orders that read and set values of a hovering drone."""
 
     async def read(self, drone: str, name: str) -> float: ...
     async def write(self, drone: str, name: str, value: float) -> None: ...
@@ -124,10 +124,10 @@ class LiveDrone:
     Raises `ActionFailed` for a name that the drone does not have, or if it cannot be reached.
     """
 
-    __slots__ = ("_drone", "_is_over", "_kernel", "_key", "_navigation")
+    __slots__ = ("_drone", "_is_over", "_kernel", "_key", "_orders")
 
-    def __init__(self, kernel: Kernel, navigation: Instruments, drone: Drone, key: Key) -> None:
-        self._kernel, self._navigation, self._drone, self._key = kernel, navigation, drone, key
+    def __init__(self, kernel: Kernel, orders: Instruments, drone: Drone, key: Key) -> None:
+        self._kernel, self._orders, self._drone, self._key = kernel, orders, drone, key
         self._is_over = False
 
     @property
@@ -143,7 +143,7 @@ class LiveDrone:
     async def read(self, name: str) -> float:
         """Return the current value of a sensor or variable, such as `range.front`."""
         _must_be_a_name(name)
-        return await self._asked(lambda drone: self._navigation.read(drone, name), name)
+        return await self._asked(lambda drone: self._orders.read(drone, name), name)
 
     async def write(self, name: str, value: float) -> None:
         """Set a parameter; returns when the drone has it."""
@@ -151,7 +151,7 @@ class LiveDrone:
         number = float(value)
         if not isfinite(number):
             raise ValueError(f"{name} cannot be set to {number}")
-        await self._asked(lambda drone: self._navigation.write(drone, name, number), name)
+        await self._asked(lambda drone: self._orders.write(drone, name, number), name)
 
     def release(self) -> None:
         """End the access to the drone: the action has ended."""

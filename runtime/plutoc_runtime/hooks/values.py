@@ -27,25 +27,40 @@ def mission_data(app: App, mission: Mission[Any]) -> Data:
     }
 
 
-def trip_of(app: App, data: Mapping[str, Any], status: TripStatus = TripStatus.WAITING) -> Trip:
-    """Return a stored trip; raise `KeyError` or `TypeError` if it does not fit the app."""
+def trip_of(
+    app: App, data: Mapping[str, Any], index: int = 0, status: TripStatus = TripStatus.WAITING
+) -> Trip:
+    """Return a stored trip, or a new one; raise `KeyError` or `TypeError` if it does not fit the app."""
     app.actions[data["action"]]
-    trip = app.trip(
-        name=data["name"],
-        action=data["action"],
-        target=point_of(data["target"]),
-        source=None if data.get("source") is None else point_of(data["source"]),
-        parameters=data.get("parameters") or {},
-        item=item_of(data.get("item")),
-        index=data["index"],
-        **data.get("fields", {}),
-    )
-    trip.added = bool(data.get("added"))
-    trip.attempt = data.get("attempt", 1)
-    trip.status = TripStatus(data["status"]) if "status" in data else status
-    trip.reason = data.get("reason", "")
-    trip.start_time, trip.end_time = data.get("start_time"), data.get("end_time")
+    index = data.get("index", index)
+    name, target = data.get("name", f"{index + 1}"), point_of(data["target"])
+    trip = app.trip(name=name, action=data["action"], target=target, index=index)
+    trip.status = status
+    if len(data) > _LEAST:  # most new trips have no more
+        source = data.get("source")
+        trip.source = None if source is None else point_of(source)
+        trip.parameters = data.get("parameters") or trip.parameters
+        trip.item = item_of(data.get("item"))
+        for field, value in known_fields(app, Entity.TRIP, data).items():
+            setattr(trip, field, value)
+        trip.added, trip.attempt = bool(data.get("added")), data.get("attempt", 1)
+        trip.status = TripStatus(data["status"]) if "status" in data else status
+        trip.reason = data.get("reason", "")
+        trip.start_time, trip.end_time = data.get("start_time"), data.get("end_time")
     return trip
+
+
+_LEAST = 4
+"""Name, action, target and index."""
+
+
+def known_fields(app: App, entity: Entity, data: Mapping[str, Any]) -> Data:
+    """Return the fields that the app has."""
+    given = data.get("fields")
+    if not given:
+        return {}
+    names = [field.name for field in app.fields if field.on is entity]
+    return {name: given[name] for name in names if name in given}
 
 
 def point_of(data: Sequence[float]) -> Point:

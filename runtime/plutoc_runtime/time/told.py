@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from functools import partial
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from .future import Future, Watcher
 from .kernel import Call, EventKind, Key
@@ -62,12 +62,13 @@ class ToldTime(VirtualTime):
         """The hooks that take their time, by their numbers."""
         self._calls = 0
 
-    def call(self, now: float, stop: Sequence[object], *calls: Callable[[], object]) -> None:
-        """Make calls at a time, and process what follows; raise the error with which a task crashed."""
+    def call(
+        self, now: float, stop: Sequence[object], call: Callable[[Any], object], what: object = None
+    ) -> None:
+        """Make a call at a time, and process what follows; raise the error with which a task crashed."""
         self.now, self._inside = now, True
         try:
-            for call in calls:
-                call()
+            call(what)
             self.drain(stop)
         finally:
             self._inside = False
@@ -98,7 +99,7 @@ class ToldTime(VirtualTime):
         if self._inside or self._runner is None:
             call(*args)
         else:
-            self.call(self.time(), AT_ONCE, partial(call, *args))
+            self.call(self.time(), AT_ONCE, lambda _: call(*args))
             self._runner.stirred()
 
     async def call_hook(
@@ -119,10 +120,10 @@ class ToldTime(VirtualTime):
                     runner.cancel(number)
         return await self.finished(runner.result(number))
 
-    def hook_ended(self, number: int) -> None:
+    def hook_ended(self, message: Mapping[str, Any]) -> None:
         """Called when a hook that took its time has ended."""
-        if number in self._hooks:
-            self._hooks[number].set(None)
+        if message["hook"] in self._hooks:
+            self._hooks[message["hook"]].set(None)
 
     async def offer(self, future: Future[T]) -> T:
         """Return what a hook may await for this future."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..time.kernel import EventKind, Kernel
 
@@ -26,12 +26,13 @@ class LimitOwner(Protocol):
         ...
 
 
-class Limit(NamedTuple):
+class Limit:
     """How long a trip may take, from when on, and the reason that is given if it takes longer."""
 
-    since: float
-    span: float
-    overdue: Callable[[Trip, float], str]
+    __slots__ = ("overdue", "since", "span")
+
+    def __init__(self, since: float, span: float, overdue: Callable[[Trip, float], str]) -> None:
+        self.since, self.span, self.overdue = since, span, overdue
 
     def set(
         self,
@@ -90,7 +91,7 @@ class EqualLimits:
         kernel, span, waiting = self._kernel, self.limit.span, self.waiting
         while waiting and (waiting[0][0].is_set or waiting[0][0].launched_at + span <= kernel.now):
             flight, branch = waiting.popleft()
-            expires = self.limit._replace(since=flight.launched_at)
+            expires = Limit(flight.launched_at, span, self.limit.overdue)
             expires.schedule(kernel, branch, flight, self.number)
         if waiting:
             self.arm()

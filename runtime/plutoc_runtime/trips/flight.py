@@ -1,21 +1,22 @@
-"""One trip's flight by one drone: the job that navigation is given, and its outcome."""
+"""One trip's flight by one drone: what is ordered, and its outcome."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ..domain.status import FAILED, Status
+from ..hooks.values import item_data
 from ..time.future import Future
 
 if TYPE_CHECKING:
-    from ..domain.actions import Action, Plain
-    from ..domain.model import Drone, Item, Mission, Point, Trip
+    from ..domain.actions import Action
+    from ..domain.model import Drone, Mission, Trip
     from ..time.kernel import Task
 
 
 class Flight(Future[Status]):
-    """A job for navigation; as a future it is set to the mission's status when the trip has ended."""
+    """As a future it is set to the mission's status when the trip has ended."""
 
     __slots__ = (
         "_action",
@@ -50,7 +51,7 @@ class Flight(Future[Status]):
         self.retry = retry
         """The mission's previous flight was of the same trip, and failed."""
         self._reported = reported
-        """Called with what navigation reports."""
+        """Called with what came of it."""
         self.own_action: Task[None] | None = None
         """The task of an action of the app's own, once it has begun."""
         self.called_off = False
@@ -70,30 +71,21 @@ class Flight(Future[Status]):
         return self.flier.id
 
     @property
-    def stops(self) -> tuple[Point, ...]:
-        """The points to fly to, in order."""
-        source, target = self.trip.source, self.trip.target
-        return (target,) if source is None else (source, target)
+    def order(self) -> dict[str, object]:
+        """What is ordered: the stops in order, and the action at the last one.
 
-    @property
-    def action(self) -> str | None:
-        """The action at the last stop; None: hover, for an action of the app's own."""
-        return self.trip.action if self.hook is None else None
-
-    @property
-    def seconds(self) -> float:
-        """The expected duration of the action."""
-        return self._action.seconds
-
-    @property
-    def parameters(self) -> Mapping[str, Plain]:
-        """The parameters of the action."""
-        return self.trip.parameters
-
-    @property
-    def item(self) -> Item | None:
-        """The item to pick or release."""
-        return self.trip.item
+        Without an action it hovers there, for one of the app's own.
+        """
+        trip = self.trip
+        source, item = trip.source, trip.item
+        return {
+            "flight": self.id,
+            "stops": (trip.target,) if source is None else (source, trip.target),
+            "action": trip.action if self.hook is None else None,
+            "parameters": trip.parameters,
+            "item": None if item is None else item_data(item),
+            "seconds": self._action.seconds,
+        }
 
     @property
     def failed(self) -> bool:
@@ -101,5 +93,5 @@ class Flight(Future[Status]):
         return self._value is FAILED
 
     def report(self, result: object) -> None:
-        """Called with the action's result, or with the `FlightFailed` that ended the job."""
+        """Called with the action's result, or with the `FlightFailed` that ended it."""
         self._reported(self, result)

@@ -1,0 +1,143 @@
+"""What the brain says shall be done: orders for drones, and what is told of them.
+
+An order is a mapping with an `id`, what to `do`, and the `drone`: `fly` a trip's flight, `attach` (report the
+end of a flight that began before an interruption), `break_off` (with `settle`, report then what came of the
+flight of that order), `hold` (hover), `read` and `write` (a value of a hovering drone), `home`, `land`,
+`recover`, `mended` (a person has repaired it), `probed` (note whether a flight's action was done), and
+`cancel` (another `order`). Metres, seconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from ..domain.errors import Failure, FlightFailed
+from ..hooks.values import value_of
+from ..time.future import Future
+from .telemetry import KnownState
+
+if TYPE_CHECKING:
+    from ..domain.fleet_data import DroneData
+    from ..domain.trace import Clock
+
+Order = dict[str, Any]
+Answer = Callable[[object], object]
+"""Called with what came of an order: its value, or a `FlightFailed`."""
+
+
+class Orders:
+    """The orders of one brain. A cancelled command leaves its drone hovering where it is."""
+
+    def __init__(self, clock: Clock, drones: Mapping[str, DroneData]) -> None:
+        self.pending: list[Order] = []
+        """The orders that have not been taken yet."""
+        self.drones = {drone: KnownState(clock, data.home) for drone, data in drones.items()}
+        """What was told of the drones, by their ids; always current."""
+        self._answers: dict[int, Answer] = {}
+        """What to call with the outcome of each order that is under way, by its id."""
+        self._flying: dict[str, int] = {}
+        """The latest order to fly of each drone."""
+        self._count = 0
+
+    def take(self) -> list[Order]:
+        """Return the orders that were given since the last call."""
+        pending, self.pending = self.pending, []
+        return pending
+
+    # What is told
+
+    def done(self, message: Mapping[str, Any]) -> None:
+        """Called when an order was carried out; one that is not known, or was answered, is ignored."""
+        answer = self._answers.pop(message["done"], None)
+        if answer is not None:
+            answer(value_of(message["value"]) if "value" in message else None)
+
+    def failed(self, message: Mapping[str, Any]) -> None:
+        """Called when an order failed, with the `failure` and the `reason`."""
+        answer = self._answers.pop(message["failed"], None)
+        if answer is not None:
+            answer(failure_of(message))
+
+    # Flights
+
+    def fly(self, drone: str, answer: Answer, flight: Order) -> None:
+        """Order a flight: take off, fly to its stops and do its action; without one, arrive and hover."""
+        self._flying[drone] = self._give({"do": "fly", "drone": drone, **flight}, answer)
+
+    def attach(self, drone: str, answer: Answer, flight: str) -> None:
+        """Order the report of a flight that began before an interruption."""
+        order = {"do": "attach", "drone": drone, "flight": flight}
+        self._flying[drone] = self._give(order, answer)
+
+    def break_off(self, drone: str) -> None:
+        """Stop what a drone does, and hover; nothing of its flight is answered any more."""
+        self._answers.pop(self._flying.pop(drone, 0), None)
+        self._give({"do": "break_off", "drone": drone})
+
+    def settle(self, drone: str, flight: str) -> None:
+        """Stop a flight; what came of it is the answer to the order to fly."""
+        settle = self._flying.get(drone)
+        self._give({"do": "break_off", "drone": drone, "flight": flight, "settle": settle})
+
+    # Commands to one drone, which return when they are done, and raise `FlightFailed`
+
+    async def hold(self, drone: str) -> None:
+        """Hover, for as long as an action of the app's own takes."""
+        await self._ask("hold", drone)
+
+    async def read(self, drone: str, name: str) -> float:
+        """Return a sensor or variable of a hovering drone."""
+        return float(await self._ask("read", drone, name=name))
+
+    async def write(self, drone: str, name: str, value: float) -> None:
+        """Set a parameter of a hovering drone."""
+        await self._ask("write", drone, name=name, value=value)
+
+    async def home(self, drone: str) -> None:
+        """Fly to its dock, and land there."""
+        await self._ask("home", drone)
+
+    async def land(self, drone: str) -> None:
+        """Land here."""
+        await self._ask("land", drone)
+
+    async def recover(self, drone: str) -> str | None:
+        """Bring a drone home after a failed flight, landed; else it is lost: return what it says of that."""
+        home = await self._ask("recover", drone)
+        return None if home is True else str(home or "")
+
+    def mended(self, drone: str) -> None:
+        """A person has looked after a lost drone: it can be recovered once more."""
+        self._give({"do": "mended", "drone": drone})
+
+    def probed(self, drone: str, flight: str, answer: bool | None) -> None:
+        """Order to note whether the action of a flight was done; None: the app cannot tell."""
+        self._give({"do": "probed", "drone": drone, "flight": flight, "value": answer})
+
+    def _give(self, order: Order, answer: Answer | None = None) -> int:
+        self._count = order["id"] = number = self._count + 1
+        if answer is not None:
+            self._answers[number] = answer
+        self.pending.append(order)
+        return number
+
+    async def _ask(self, do: str, drone: str, **more: object) -> Any:
+        """Give an order, and wait for its outcome; cancelling this cancels the order."""
+        outcome: Future[Any] = Future()
+        number = self._give({"do": do, "drone": drone, **more}, outcome.set)
+        try:
+            result = await outcome
+        finally:
+            if not outcome.is_set:
+                self._answers.pop(number, None)
+                self._give({"do": "cancel", "drone": drone, "order": number})
+        if isinstance(result, FlightFailed):
+            raise result
+        return result
+
+
+def failure_of(told: Mapping[str, Any]) -> FlightFailed:
+    """Return the failure that a message tells."""
+    failure = Failure.__members__.get(str(told.get("failure")), Failure.UNKNOWN)
+    return FlightFailed(failure, str(told.get("reason", "")))
