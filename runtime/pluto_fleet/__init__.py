@@ -2,7 +2,7 @@
 
 from .scaffolding import provide_brain
 
-__version__ = "2.0.0"
+__version__ = "3.0.0"
 """Its first two numbers are the newest seam that it speaks."""
 
 provide_brain()

@@ -15,7 +15,7 @@ from .scaffolding import bind
 
 Seam = tuple[int, int]
 
-OLDEST, NEWEST = (1, 0), (2, 0)
+OLDEST, NEWEST = (2, 0), (3, 0)
 """The range of seams that this library supports."""
 
 _met: Seam | None = None

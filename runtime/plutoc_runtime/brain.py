@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
+from .domain.app import SEAM
 from .domain.fleet_data import DroneData, FleetData
 from .domain.model import AfterTrip
 from .fleet.orders import Order, Orders
@@ -29,8 +30,7 @@ if TYPE_CHECKING:
     from .flow.mission import MissionState
     from .time.kernel import Task
 
-SEAM = (3, 0)
-"""The first number changes when earlier data would be misread, the second when more is said."""
+__all__ = ["SEAM", "Brain", "Space"]
 
 
 class Space(Protocol):

@@ -13,6 +13,7 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .domain.app import SEAM
 from .domain.errors import BadInput
 from .domain.status import Status
 from .domain.text import counted, duration, printable
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from .alone.simulate import SimulationResult
     from .domain.app import App
 
-SEAM = (2, 0)
 _SEAM = ".".join(map(str, SEAM))
 
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]", "--runs": ""}

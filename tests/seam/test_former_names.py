@@ -1,4 +1,4 @@
-"""What blocks and apps of seam 1 import from the brain that they carry is found in today's."""
+"""What blocks and apps of seam 2 import from the brain that they carry is found in today's."""
 
 from __future__ import annotations
 
@@ -10,34 +10,35 @@ from pathlib import Path
 from tests.seam.packages import NAME, Kept, environment, unpacked
 
 NAMES = {
-    "actions": ("Action", "BUILT_IN", "Parameter"),
-    "app": ("App",),
-    "context": ("Context",),
-    "errors": ("ActionFailed", "MissionFailed", "nothing_to_fly"),
-    "fields": ("Entity", "Field", "FieldType"),
-    "flight": ("launch",),
-    "handle": ("LiveDrone",),
-    "judgement": ("apply",),
-    "kernel": ("Kind", "Task"),
-    "model": ("Category", "Drone", "Item", "Photo", "Point", "Trip"),
-    "modification": ("settle", "standing"),
-    "policies.batch_optimal": ("batch_optimal",),
-    "policies.first": ("first",),
-    "policies.least_used": ("least_used",),
-    "policies.nearest": ("nearest",),
-    "policies.own": ("own_policy",),
-    "policy": ("Policy",),
-    "quantities": ("Type",),
-    "request": ("Request",),
-    "run": ("Branch", "Run"),
-    "signals": ("Signal",),
-    "status": (
+    "domain.actions": ("BUILT_IN", "Parameter"),
+    "domain.app": ("App",),
+    "domain.errors": ("ActionFailed", "MissionFailed", "nothing_to_fly"),
+    "domain.fields": ("Entity", "Field", "FieldType"),
+    "domain.model": ("Category", "Drone", "Item", "Photo", "Point", "Trip"),
+    "domain.quantities": ("Type",),
+    "domain.results": ("Result", "Results"),
+    "domain.status": (
         *("COMPLETED", "FAILED", "RUNNING", "STANDBY", "WORST_FIRST"),
         *("Status", "TripStatus"),
     ),
-    "verdict": ("Verdict",),
-    "watching": ("Limit", "watch"),
-    "words": ("duration",),
+    "domain.text": ("duration",),
+    "fleet.policies.batch_optimal": ("batch_optimal",),
+    "fleet.policies.first": ("first",),
+    "fleet.policies.least_used": ("least_used",),
+    "fleet.policies.nearest": ("nearest",),
+    "fleet.policies.own": ("own_policy",),
+    "fleet.queue": ("Policy", "Request"),
+    "flow.declared": ("declared",),
+    "flow.judgement": ("apply",),
+    "flow.modification": ("context_of", "open_trips", "settle"),
+    "flow.own_action": ("OwnAction",),
+    "flow.run": ("Branch", "Run", "watch"),
+    "flow.verdict": ("Verdict",),
+    "hooks.context": ("Context",),
+    "hooks.live_drone": ("LiveDrone",),
+    "time.future": ("Future",),
+    "time.kernel": ("EventKind", "Task"),
+    "trips.deadlines": ("Limit",),
 }
 """By former module: the imports of all blocks of that time, and of what was generated."""
 
@@ -45,7 +46,7 @@ PROGRAM = f"""
 import json, sys
 from importlib import import_module
 from pluto_fleet.seam import meet
-assert meet({NAME!r}, "{NAME}._runtime", (1, 0))
+assert meet({NAME!r}, "{NAME}._runtime", (2, 0))
 for module, names in json.loads(sys.argv[1]).items():
     found = import_module(f"{NAME}._runtime.{{module}}")
     print(*(f"{{module}}.{{name}}" for name in names if not hasattr(found, name)), end="")
@@ -54,7 +55,7 @@ for module, names in json.loads(sys.argv[1]).items():
 
 def test_each_former_name_is_found(tmp_path: Path) -> None:
     """In a process of its own, which has met an app of that time."""
-    package = unpacked(Kept("1.0", NAME), tmp_path)
+    package = unpacked(Kept("2.0", NAME), tmp_path)
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, json.dumps(NAMES)],
         env=environment(package),

@@ -54,7 +54,7 @@ def app_that_speaks(folder: Path, seam: str) -> Path:
     package = compiled(NAME, folder)
     (home,) = [
         path
-        for path in (package / "src").rglob("_runtime/*.py")
+        for path in (package / "src").rglob("_runtime/**/*.py")
         if re.search(r"^SEAM = ", path.read_text("utf-8"), re.MULTILINE)
     ]
     edit(home, r"SEAM = \(\d+, \d+\)", f"SEAM = {seam}")
@@ -69,7 +69,7 @@ def test_the_library_speaks_the_seam_of_todays_apps() -> None:
 
 @pytest.mark.parametrize(
     ("oldest", "newest", "version"),
-    [("(1, 0)", "(2, 3)", "2.3.0"), ("(2, 0)", "(3, 1)", "3.1.4")],
+    [("(2, 0)", "(3, 3)", "3.3.0"), ("(3, 0)", "(4, 1)", "4.1.4")],
 )
 def test_an_older_app_flies_with_a_newer_library(
     oldest: str, newest: str, version: str, tmp_path: Path
@@ -85,24 +85,24 @@ def test_an_older_app_flies_with_a_newer_library(
 def test_an_app_newer_than_its_library_is_refused_first_of_all(
     command: tuple[str, ...], tmp_path: Path
 ) -> None:
-    package = app_that_speaks(tmp_path, "(2, 4)")
-    library = library_that_speaks(tmp_path / "library", "(1, 0)", "(2, 2)", "2.2.0")
+    package = app_that_speaks(tmp_path, "(3, 4)")
+    library = library_that_speaks(tmp_path / "library", "(2, 0)", "(3, 2)", "3.2.0")
     done = said(package, library, *command)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
-        "drugs_distribution speaks seam 2.4, pluto-fleet 2.2.0 speaks 1.0 to 2.2:"
-        ' pip install --upgrade "pluto-fleet>=2.4"\n'
+        "drugs_distribution speaks seam 3.4, pluto-fleet 3.2.0 speaks 2.0 to 3.2:"
+        ' pip install --upgrade "pluto-fleet>=3.4"\n'
     )
 
 
 def test_an_app_that_is_too_old_is_told_to_be_compiled_anew(tmp_path: Path) -> None:
     package = compiled(NAME, tmp_path)
-    library = library_that_speaks(tmp_path / "library", "(3, 0)", "(4, 0)", "4.0.0")
+    library = library_that_speaks(tmp_path / "library", "(4, 0)", "(5, 0)", "5.0.0")
     done = said(package, library, *SIMULATE)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
-        "drugs_distribution speaks seam 2.0, pluto-fleet 4.0.0 speaks 3.0 to 4.0:"
-        ' compile drugs_distribution anew, or pip install "pluto-fleet<4"\n'
+        "drugs_distribution speaks seam 3.0, pluto-fleet 5.0.0 speaks 4.0 to 5.0:"
+        ' compile drugs_distribution anew, or pip install "pluto-fleet<5"\n'
     )
 
 

@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from .fields import Field
     from .model import Category, Mission, Trip
 
+SEAM = (3, 0)
+"""The seam to the library: the first number changes when earlier data would be misread, the second
+when more is said."""
+
 Flow = Callable[[Any], Coroutine[Any, Any, Status]]
 """The coroutine function that takes one mission from start to end."""
 
