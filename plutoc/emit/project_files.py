@@ -7,7 +7,7 @@ from plutoc.emit.python import Import, import_lines
 from plutoc.emit.render import render
 from plutoc.emit.stubs import exports_of
 from plutoc.graph.model import Graph
-from plutoc_runtime.command import SEAM
+from plutoc_runtime.domain.app import SEAM
 
 
 def init_file(graph: Graph, *, former: bool) -> str:

@@ -11,12 +11,10 @@ import pytest
 from plutoc_runtime.domain.actions import BUILT_IN, Action, Parameter
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.errors import ActionFailed
-from plutoc_runtime.domain.model import Category, Drone, Mission, Trip
+from plutoc_runtime.domain.model import Category, Drone, Mission, Results, Trip
 from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.domain.results import Results
 from plutoc_runtime.domain.status import Status, TripStatus
-from plutoc_runtime.hooks.context import Context
-from plutoc_runtime.hooks.live_drone import LiveDrone
+from plutoc_runtime.hooks.context import Context, LiveDrone
 from plutoc_runtime.hooks.testing import AppKit
 
 SCOUT = Category(name="scout", actions=frozenset({"take_photo"}))

@@ -20,13 +20,23 @@ from plutoc_runtime.time.kernel import FLEET, Task
 
 from ..jobs.reports import Down, reported_result
 from .mission_status import aside, in_order
-from .reconcile import PROBED, Outcome, ended, id_of, in_flight, outcome_of, question, trip_of
-from .recovery import ANSWERS as DONE_OR_NOT
-from .recovery import CANCELLED, for_brain
+from .reconcile import ANSWERS as DONE_OR_NOT
+from .reconcile import (
+    CANCELLED,
+    PROBED,
+    Outcome,
+    ended,
+    for_brain,
+    id_of,
+    in_flight,
+    outcome_of,
+    question,
+    trip_of,
+)
 
 if TYPE_CHECKING:
     from ..journal.fold import Record
-    from .recorded_flight import RecordedFlight
+    from .recorded_brain import RecordedBrain
 
 Then = Callable[[str, "Record"], None]
 
@@ -34,7 +44,7 @@ Then = Callable[[str, "Record"], None]
 class Control:
     """The commands of one running app."""
 
-    def __init__(self, run: RecordedFlight) -> None:
+    def __init__(self, run: RecordedBrain) -> None:
         self._run, self._link = run, run.link
         self.stopped: Future[Down] = Future()
         """Set when everything was stopped and all drones are down."""

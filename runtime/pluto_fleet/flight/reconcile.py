@@ -16,6 +16,8 @@ from plutoc_runtime.hooks.values import value_data
 from ..jobs.reports import Entry, JobState, reported_result
 
 if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
+
     from ..journal.fold import Record
 
 Data = dict[str, Any]
@@ -90,3 +92,17 @@ def ended(mission: str, flight: Record, result: object = None) -> Data:
 def question(trip: Record, drone: str) -> str:
     """Return the question whether an action was done, for a person."""
     return f"was {trip['action']} of trip {trip['name']} done by {drone}? It could not be seen"
+
+
+def for_brain(app: App, record: Record) -> Record:
+    """Return a mission's record to go on from; a block that the app has no more is replaced."""
+    at = record["at"]
+    if at is not None and at not in app.resumes and app.resumes:
+        at = app.resumes[0]  # the user has said so
+    return {**record, "at": at}
+
+
+CANCELLED = "cancelled by hand"
+
+ANSWERS = {"done": Outcome.DONE, "not-done": Outcome.NOT_DONE}
+"""What a person's answer says of an action."""

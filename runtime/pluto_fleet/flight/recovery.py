@@ -13,26 +13,32 @@ from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.status import Status
 
 from .mission_status import in_order
-from .reconcile import Outcome, ended, id_of, in_flight, outcome_of, reported
+from .reconcile import (
+    ANSWERS,
+    CANCELLED,
+    Outcome,
+    ended,
+    for_brain,
+    id_of,
+    in_flight,
+    outcome_of,
+    reported,
+)
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
 
     from ..jobs.reports import DroneReport, FleetReport
     from ..journal.fold import Record
-    from .recorded_flight import RecordedFlight
-
-CANCELLED = "cancelled by hand"
-
-ANSWERS = {"done": Outcome.DONE, "not-done": Outcome.NOT_DONE}
-"""What a person's answer says of an action."""
+    from .control import Control
+    from .recorded_brain import RecordedBrain
 
 
 class Recovery:
     """Settles what an earlier run has left, and says how a brain goes on."""
 
-    def __init__(self, run: RecordedFlight, fleet_report: FleetReport) -> None:
-        self._run, self._report = run, fleet_report
+    def __init__(self, run: RecordedBrain, control: Control, fleet_report: FleetReport) -> None:
+        self._run, self._control, self._report = run, control, fleet_report
         self._app, self._link, self._records = run.app, run.link, run.records
         self._outcomes: dict[str, Outcome] = {}
         """What came of the missions' flights that had not ended."""
@@ -59,7 +65,7 @@ class Recovery:
                 entry = self._report.jobs.get(id_of(name, flight))
                 what = outcome_of(entry, self._run.repeat_of(record), bool(flight["begun"]))
                 if what is Outcome.UNKNOWN:
-                    what = await self._run.control.probe(name, record)
+                    what = await self._control.probe(name, record)
                 self._outcomes[name] = what
 
     def settle(self) -> None:
@@ -94,7 +100,7 @@ class Recovery:
         if what is Outcome.UNKNOWN:
             answer = record["answer"] if record["question"] else None
             if answer not in ANSWERS:
-                self._run.control.doubt(name, record)
+                self._control.doubt(name, record)
                 self._suspended.add(name)
                 return
             what = ANSWERS[answer]
@@ -178,14 +184,6 @@ class Recovery:
                 self._link.break_off(drone)
                 told[drone]["landed"] = False  # it may take off before it receives that
         return told
-
-
-def for_brain(app: App, record: Record) -> Record:
-    """Return a mission's record to go on from; a block that the app has no more is replaced."""
-    at = record["at"]
-    if at is not None and at not in app.resumes and app.resumes:
-        at = app.resumes[0]  # the user has said so
-    return {**record, "at": at}
 
 
 def _as_data(report: DroneReport) -> dict[str, Any]:

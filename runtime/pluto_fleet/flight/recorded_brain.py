@@ -1,0 +1,245 @@
+"""A brain and its journal: what it says is durable before it has any effect outside.
+
+An order to fly waits until the row of its launch is on the disk; orders that bring drones down do not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from plutoc_runtime.brain import Brain
+from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.standing import drones_of, fleet_data, update
+from plutoc_runtime.time.kernel import FLEET, Kernel
+
+from ..jobs.reports import reported_result
+from ..journal.recorder import Recorder, Sink
+from ..process.signal_guard import guard_hooks
+from .driver import Driver, Message, Order
+from .mission_status import aside, in_order
+from .orders import Dispatcher, outcome
+from .reconcile import Outcome, outcome_of
+
+if TYPE_CHECKING:
+    from plutoc_runtime.domain.app import App
+    from plutoc_runtime.domain.model import Drone, Mission
+    from plutoc_runtime.domain.trace import Event
+    from plutoc_runtime.time.told import HookRunner
+
+    from ..files.fleet import FleetFile
+    from ..jobs.job import CommandLink
+    from ..journal.fold import Records
+
+Listener = Callable[["Event"], object]
+
+HELPLESS = 12.0
+"""Seconds after which a drone on the ground would have begun to fly home, if it could."""
+
+
+class RecordedBrain:
+    """A brain whose events are durable before they have any effect outside."""
+
+    def __init__(
+        self,
+        app: App,
+        fleet: FleetFile,
+        kernel: Kernel,
+        link: CommandLink,
+        sink: Sink,
+        records: Records,
+        *,
+        listeners: Sequence[Listener] = (),
+        watcher: Listener | None = None,
+        hooks: HookRunner | None = None,
+        midnight: float = 0.0,
+    ) -> None:
+        """`watcher` is called with an event only when it is durable, `listeners` at once.
+
+        `midnight`: the seconds between the midnight before the app's start and the start.
+        """
+        guard_hooks()
+        self.app, self.fleet, self.kernel, self.link = app, fleet, kernel, link
+        self.recorder = Recorder(kernel, sink, records)
+        self.brain = Brain(
+            app,
+            {**fleet_data(fleet), "recorded": True, "midnight": midnight},
+            space=fleet.airspace,
+            hooks=hooks,
+        )
+        self._listeners, self._watcher = tuple(listeners), watcher
+        keys = {drone.id: FLEET + 1 + index for index, drone in enumerate(fleet.drones)}
+        self._dispatcher = Dispatcher(kernel, link, keys)
+        self.driver = Driver(
+            kernel, self.brain, obey=self._obey, motions=self._news, hear=self._hear
+        )
+        self._dispatcher.tell = self.driver.tell
+        self.driver.pumped = self.look_for_the_end
+        self._seen: dict[str, tuple[object, ...]] = {}
+        """The telemetry that the brain was told last, by drone."""
+        self._heard = 0
+        """How many events the brain has said."""
+        self._held: dict[str, Order] = {}
+        """The flights that wait for the journal, by drone."""
+        self.patient = False
+        """Whether the flight goes on while missions wait for the user's decision."""
+        self.is_set_out = False
+        """Whether the brain has its missions."""
+        self.probed: Callable[[str, bool | None], object] = _ignore
+        """Called with a flight, and what the app's hook says: whether its action was done."""
+        self.doubted: Callable[[str, str], object] = _ignore
+        """Called with a mission and its flight that was called off, and whose action may be done."""
+
+    @property
+    def records(self) -> Records:
+        """Where everything stands."""
+        return self.recorder.records
+
+    @property
+    def missions(self) -> tuple[Mission[Any], ...]:
+        """All missions as they stand, also those that ended in earlier runs; none before they are known."""
+        return self._as_missions() if self.is_set_out else ()
+
+    def _as_missions(self) -> tuple[Mission[Any], ...]:
+        missions = []
+        for name, record in in_order(self.records):
+            mission = self.app.mission(name=name, trips=[], index=record["index"])
+            with suppress(KeyError, TypeError, ValueError):  # it may not fit the app any more
+                update(self.app, mission, record)
+            mission.status, mission.reason = Status(record["status"]), record["reason"]
+            if (waits := aside(record)) is not None:
+                mission.status, mission.reason = waits
+            missions.append(mission)
+        return tuple(missions)
+
+    @property
+    def drones(self) -> tuple[Drone, ...]:
+        """The drones as they stand."""
+        return drones_of(self.app, self.fleet, self.brain.drones(), self.link.telemetry)
+
+    def halt(self) -> None:
+        """Let the brain do nothing more: a later run goes on from the records."""
+        self.driver.halt()
+        self.brain.close()
+        self._held.clear()
+
+    def close(self) -> None:
+        """End this run where it is."""
+        self.driver.halt()
+        self.brain.close()
+
+    def look_for_the_end(self) -> None:
+        """Called when missions may have ended."""
+
+    # What happens
+
+    def note(self, event: str, **facts: object) -> None:
+        """Record an event of this run that the brain does not know."""
+        self.take({"event": event, **facts})
+
+    def take(self, event: Event) -> None:
+        """Record such an event, given as a mapping."""
+        self._take({"t": round(self.kernel.now, 6), **event})
+
+    def _hear(self, event: Event) -> None:
+        self._heard += 1
+        self._take(event)
+        self.recorder.when_durable(partial(self._tell_durable, self._heard))
+
+    def hook_ended(self, number: int) -> None:
+        """Called within the kernel when a hook that took its time has ended."""
+        self.driver.tell({"hook": number})
+
+    def _tell_durable(self, number: int) -> None:
+        self.driver.tell({"durable": number})
+
+    def _take(self, event: Event) -> None:
+        if not self.recorder.take(event):
+            return
+        if event["event"] in ("trip.completed", "trip.failed"):
+            # it is durable in the journal: the gateway's ledger need not remember it
+            mission, trip = event["mission"], event["trip"]
+            id = f"{mission}/{trip}/{event['round']}/{event['attempt']}"
+            self.recorder.when_durable(partial(self.link.forget, id))
+        for listener in self._listeners:
+            listener(event)
+        if self._watcher is not None:
+            if event["event"] == "trip.completed":
+                event = {**event, "did": self.records.flown_last(str(event["mission"]))}
+            self.recorder.when_durable(partial(self._watcher, event))
+
+    # What the brain orders
+
+    def _obey(self, order: Order) -> None:
+        """Carry out an order; a flight only once its launch is durable."""
+        drone = order["drone"]
+        match order["do"]:
+            case "fly":
+                self._held[drone] = order
+                self.recorder.when_durable(partial(self._let_fly, order))
+            case "break_off":
+                held = self._held.pop(drone, None)
+                self.link.break_off(drone)
+                if order.get("settle") is not None:
+                    self.kernel.spawn(
+                        self._settle(order, held is not None),
+                        FLEET,
+                        f"{order['flight']} is called off",
+                    )
+            case "probed":
+                self.probed(order["flight"], order["value"])
+            case _:
+                self._dispatcher.obey(order)
+
+    def _let_fly(self, order: Order) -> None:
+        if self._held.get(order["drone"]) is order:
+            del self._held[order["drone"]]
+            self._dispatcher.obey(order)
+
+    async def _settle(self, order: Order, was_held: bool) -> None:
+        """Report what came of a flight that was called off: its action may be done by now."""
+        number, id = order["settle"], order["flight"]
+        entry = None if was_held else (await self.link.fleet_report()).jobs.get(id)
+        mission = id.rsplit("/", 3)[0]
+        record = self.records.missions[mission]
+        what = outcome_of(entry, self.repeat_of(record), begun=False)
+        if what is Outcome.UNKNOWN:
+            self.doubted(mission, id)
+        elif what is Outcome.FLIES_ON and entry is not None:
+            if entry.flies:
+                self.link.attach(id, lambda result: self.driver.tell(outcome(number, result)))
+            else:
+                self.driver.tell(outcome(number, reported_result(entry)))
+        else:
+            failed: Message = {
+                "failed": number,
+                "failure": "REFUSED",
+                "reason": "it was broken off",
+            }
+            self.driver.tell(failed)
+
+    def repeat_of(self, record: Mapping[str, Any]) -> str:
+        """Return whether the action of a mission's flight may be repeated: `safe`, `once` or `ask`."""
+        flight = record["flight"]
+        for which in ("todo", "done", "gone"):
+            for trip in record[which]:
+                if trip["name"] == flight["trip"] and trip["action"] in self.app.actions:
+                    return self.app.actions[trip["action"]].repeat
+        return "ask"
+
+    def _news(self) -> Mapping[str, Any]:
+        """Return the telemetry of the drones that has changed since the brain was told."""
+        news = {}
+        for entry in self.fleet.drones:
+            known = self.link.telemetry(entry.id)
+            now = (known.location, known.battery_level, known.landed)
+            if self._seen.get(entry.id) != now:
+                self._seen[entry.id] = now
+                news[entry.id] = {"at": now[0], "battery": now[1], "landed": now[2]}
+        return news
+
+
+def _ignore(*_: object) -> None:
+    """Nobody has asked."""

@@ -1,0 +1,39 @@
+"""The page about the seam says what is so: its example runs, and it names all that there is."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from plutoc_runtime.brain import Brain
+from plutoc_runtime.flow.control import _COMMANDS
+from tests.flying import compiled
+
+PAGE = (Path(__file__).parents[2] / "docs/seam.md").read_text("utf-8")
+ORDERS = (Path(__file__).parents[2] / "runtime/plutoc_runtime/fleet/orders.py").read_text("utf-8")
+
+
+def test_the_flight_by_hand_is_flown(tmp_path: Path) -> None:
+    code, printed = re.findall(r"```(?:python)?\n(.*?)```", PAGE, re.DOTALL)
+    package = compiled("drugs_distribution", tmp_path)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={"PYTHONPATH": str(package / "src")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.stdout, done.stderr) == (printed, "")
+
+
+def test_every_call_order_and_command_is_on_it() -> None:
+    named = set(re.findall(r"`([\w-]+)", PAGE))
+    calls = {name for name in vars(Brain) if not name.startswith("_")}
+    inside = {"session", "states", "telemetry", "close", "living", "drones"}
+    assert calls - inside <= named
+    ordered = set(re.findall(r'"do": "(\w+)"', ORDERS)) | set(re.findall(r'_ask\("(\w+)"', ORDERS))
+    assert ordered
+    assert ordered <= named
+    assert set(_COMMANDS) <= named
