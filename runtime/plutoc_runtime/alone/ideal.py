@@ -198,7 +198,9 @@ class IdealDrones:
             self._answer(order)
         elif do != "cancel":
             drone.order, drone.work = order["id"], _WORK[do](self, drone, order)
-            self._go_on(drone)
+            drone.wakes = (
+                self._clock.now
+            )  # after all that is ordered with it, such as to break it off
 
     def _go_on(self, drone: IdealDrone) -> None:
         assert drone.work is not None
