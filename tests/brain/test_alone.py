@@ -4,35 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from copy import deepcopy
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, cast
+from math import inf
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from pluto_fleet.flight import simulate as library
 from plutoc_runtime.alone import simulate as alone
 from plutoc_runtime.alone.faults import CARRYING_HOME, OUTAGE, Faults
-from plutoc_runtime.alone.ideal import IdealNavigation
+from plutoc_runtime.alone.ideal import IdealDrones
 from plutoc_runtime.alone.simulate import SimulationResult
-from plutoc_runtime.domain.actions import Plain
 from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
-from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Item, Point, Trip
+from plutoc_runtime.domain.errors import BadInput
+from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Point, Trip
 from plutoc_runtime.domain.status import DroneStatus, Status
-from plutoc_runtime.flow.engine import Session
 from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.flying import A_WEEK, Example
 from tests.runtime import apps
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.hooks.context import Context
-    from plutoc_runtime.trips.flight import Flight
 
 ROUGH = Faults(crash=0.03, link=0.15, action=0.15, battery=0.1)
 SEEDS = range(6)
@@ -109,17 +104,15 @@ def test_drones_pass_through_each_other() -> None:
 
 def track(airspace: Airspace, mission: Any, home: Point, faults: Faults, seed: int) -> list[Point]:
     """Fly a mission and return where its drone was, every tenth of a second."""
-    kernel = VirtualTime()
-    on = apps.fleet(home, airspace=airspace)
-    tested = apps.app(apps.flow())
-    navigation = IdealNavigation(kernel, tested, on, faults, seed)
-    over = Session(tested, on, kernel, navigation, []).start([mission])
-    places, now = [], 0.0
-    while not kernel.run(over, now):
-        places.append(navigation.telemetry("cf1").location)
+    tested, on = apps.app(apps.flow()), apps.fleet(home, airspace=airspace)
+    flown = alone.Alone(tested, on, faults, seed, lambda event: None)
+    flown.begin([mission])
+    brain, places, now = flown.brain, [], 0.0
+    while not flown.run(now):
+        places.append(brain.telemetry("cf1").location)
         now += 0.1
-    kernel.close()
-    assert mission.status in (Status.COMPLETED, Status.FAILED)
+    assert brain.standing()["missions"]["a"]["status"] in ("COMPLETED", "FAILED")
+    flown.close()
     return places
 
 
@@ -139,37 +132,45 @@ def test_no_drone_is_ever_in_a_no_fly_area(faults: Faults) -> None:
         assert max(steps) < 0.06 or faults == Faults(link=1.0)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Told:
-    """A job as the brain gives it."""
+class Sky:
+    """Ideal drones without a brain: orders by hand."""
 
-    id: str = "a/1/0/1"
-    drone: str = "cf1"
-    stops: tuple[Point, ...] = ((1.0, 1.0, 1.2),)
-    action: str | None = None
-    parameters: Mapping[str, Plain] = field(default_factory=dict)
-    item: Item | None = None
-    seconds: float = 0.0
+    def __init__(self, faults: Faults = NO_FAULTS, seed: int = 3) -> None:
+        self.now = 0.0
+        self.drones = IdealDrones(apps.app(apps.flow()), apps.fleet(), faults, seed, self)
+        self.drone = self.drones.drones["cf1"]
+        self._count = 0
 
-    def begins(self) -> None:
-        """Nothing waits for this."""
+    def order(self, do: str, **more: object) -> int:
+        """Order something, and return its id."""
+        self._count += 1
+        self.drones.obey({"id": self._count, "do": do, "drone": "cf1", **more})
+        return self._count
 
+    def fly(self, **more: object) -> int:
+        """Order a flight straight up, or what differs from that."""
+        order: dict[str, object] = {"flight": "a/1/0/1", "stops": [(1.0, 1.0, 1.2)]}
+        order |= {"action": None, "parameters": {}, "item": None, "seconds": 0.0}
+        return self.order("fly", **(order | more))
 
-def reported(job: Told, faults: Faults = NO_FAULTS) -> tuple[object, IdealNavigation]:
-    """Fly one job, and return what was reported of it."""
-    kernel, over = VirtualTime(), Future[object]()
-    navigation = IdealNavigation(kernel, apps.app(apps.flow()), apps.fleet(), faults, 3)
-    navigation.fly(cast("Flight", job), over.set)
-    assert kernel.run(over)
-    return over.result(), navigation
+    def told(self, until: float = inf) -> Mapping[str, Any]:
+        """Return what they tell next; nothing, if there is nothing to tell until a time."""
+        while (due := self.drones.due) <= until and due < inf:
+            self.now = due
+            if told := self.drones.advance():
+                return told
+        self.now = self.now if until == inf else until
+        return {}
 
 
 def test_what_is_beyond_the_map_is_refused_before_take_off() -> None:
     """The drone stays where it is, and the trip says why."""
-    said, navigation = reported(Told(stops=((30.0, 1.0, 1.2),)))
-    assert isinstance(said, FlightFailed) and said.failure is Failure.REFUSED
-    assert "is outside the map" in str(said)
-    assert navigation.telemetry("cf1").flown == 0.0
+    sky = Sky()
+    flight = sky.fly(stops=[(30.0, 1.0, 1.2)])
+    told = sky.told()
+    assert (told["failed"], told["failure"]) == (flight, "REFUSED")
+    assert "is outside the map" in told["reason"]
+    assert sky.drone.flown == 0.0
 
 
 def test_a_battery_drains_in_the_air_and_charges_at_home() -> None:
@@ -221,66 +222,60 @@ def test_what_was_picked_is_carried_and_grips_can_fail() -> None:
     tested = apps.app(apps.flow())
     well = apps.mission("a", apps.pick("1", 2.0), apps.release("2", 4.0))
     assert fly(tested, [well], apps.fleet()).completed
-    item = Item(name="pills", mass=0.02)
-    for job, why in (
-        (Told(action="release_item"), "release_item failed: cf1 carries nothing at (1, 1)"),
+    item = {"name": "pills", "mass": 0.02}
+    for action, aboard, why in (
+        ("release_item", None, "release_item failed: cf1 carries nothing at (1, 1)"),
         (
-            Told(action="pick_item", item=item),
+            "pick_item",
+            item,
             "pick_item failed: pills weighs 20 g, cf1 carries at most 10 g at (1, 1)",
         ),
     ):
-        assert str(reported(job)[0]) == why
+        sky = Sky()
+        sky.fly(action=action, item=aboard)
+        assert sky.told()["reason"] == why
 
 
 def test_a_drone_that_is_told_to_break_off_hovers_and_reports_nothing() -> None:
-    """A command raises; a job says nothing more."""
-    kernel, tested = VirtualTime(), apps.app(apps.flow())
-    navigation = IdealNavigation(kernel, tested, apps.fleet(), Faults(), 0)
-    ends: list[str] = []
-
-    async def trip() -> None:
-        await navigation.takeoff("cf1", 1.2)
-        try:
-            await navigation.go_to("cf1", (5.5, 0.5, 1.2))
-        except FlightFailed as error:
-            ends.append(str(error))
-        before = navigation.telemetry("cf1").location
-        await kernel.sleep(10.0)
-        ends.append(str(navigation.telemetry("cf1").location == before))
-        await navigation.land("cf1")
-
-    task = kernel.spawn(trip(), FLEET, "trip")
-    assert not kernel.run(task, 8.0)
-    assert navigation.telemetry("cf1").location == pytest.approx((2.5, 0.5, 1.2))
-    navigation.break_off("cf1")
-    assert kernel.run(task)
-    assert ends == ["cf1 was told to break it off", "True"]
-    assert navigation.telemetry("cf1").landed
+    """Its flight says nothing more, and the next order is carried out from there."""
+    sky = Sky(seed=0)
+    sky.fly(stops=[(5.5, 0.5, 1.2)])
+    assert sky.told(8.0) == {}
+    assert sky.drone.location == pytest.approx((2.5, 0.5, 1.2))
+    sky.order("break_off")
+    before = sky.drone.location
+    assert sky.drones.due == inf
+    assert sky.told(18.0) == {}
+    assert sky.drone.location == before
+    landing = sky.order("land")
+    assert sky.told() == {"done": landing, "value": None}
+    assert sky.drone.landed
 
 
-def test_a_command_that_is_cancelled_leaves_the_drone_hovering() -> None:
-    """As the protocol has it."""
-    kernel, tested = VirtualTime(), apps.app(apps.flow())
-    navigation = IdealNavigation(kernel, tested, apps.fleet(), Faults(), 0)
-    up = kernel.spawn(navigation.takeoff("cf1", 1.2), FLEET, "up")
-    assert not kernel.run(up, 2.0)
-    up.cancel()
-    assert isinstance(up.error, Cancelled)
-    kernel.now = 5.0
-    assert navigation.telemetry("cf1").location == pytest.approx((0.5, 0.5, 0.6))
-    assert not navigation.telemetry("cf1").landed
+def test_an_order_that_is_cancelled_leaves_the_drone_hovering() -> None:
+    """And nothing is told of it; what it does not do cannot be cancelled."""
+    sky = Sky(seed=0)
+    way_up = sky.order("home")
+    assert sky.told(1.0) == {}
+    sky.order("cancel", order=way_up + 100)
+    assert sky.told(2.0) == {}
+    sky.order("cancel", order=way_up)
+    assert sky.told(5.0) == {}
+    assert sky.drone.location == pytest.approx((0.5, 0.5, 0.6))
+    assert not sky.drone.landed
 
 
 def test_a_drone_that_has_crashed_is_lost() -> None:
     """It lies where it fell, and cannot be brought home."""
-    said, navigation = reported(Told(stops=((4.0, 0.5, 1.2),)), Faults(crash=1.0))
-    assert isinstance(said, FlightFailed) and said.failure is Failure.CRASH
-    with pytest.raises(StopIteration, match="False"):
-        navigation.recover("cf1").send(None)
-    where = navigation.telemetry("cf1")
-    assert (where.landed, where.location[2]) == (True, 0.0)
-    with pytest.raises(FlightFailed, match="cf1 crashed at"):
-        navigation.takeoff("cf1", 1.2).send(None)
+    sky = Sky(Faults(crash=1.0))
+    sky.fly(stops=[(4.0, 0.5, 1.2)])
+    assert sky.told()["failure"] == "CRASH"
+    assert sky.told() == {}
+    recovery = sky.order("recover")
+    assert sky.told() == {"done": recovery, "value": False}
+    assert (sky.drone.landed, sky.drone.location[2]) == (True, 0.0)
+    sky.order("home")
+    assert sky.told()["reason"].startswith("cf1 crashed at")
 
 
 async def turn_on(drone: Drone, trip: Trip, context: Context) -> tuple[float, float]:
@@ -315,3 +310,6 @@ def test_a_simulation_ends_at_its_time() -> None:
     mission = apps.mission("a", apps.trip("1", 9.0))
     outcome = fly(tested, [mission], apps.fleet(), seed=0, until=3.0)
     assert (outcome.duration, mission.status) == (3.0, Status.RUNNING)
+    (drone,) = outcome.drones
+    assert drone.location == pytest.approx((0.5, 0.5, 0.9))  # on its way up
+    assert drone.battery_level == pytest.approx(1.0 - 3.0 / 420.0)

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
     from plutoc_runtime.domain.model import Mission
     from plutoc_runtime.domain.trace import Event
+    from tests.equivalence.fly import Record
+    from tests.equivalence.worlds import World
 
 Arguments = TypeVarTuple("Arguments")
 
@@ -118,3 +120,20 @@ def in_real_time(
         return loop.run_until_complete(task)
     finally:
         loop.close()
+
+
+def seen(record: Record, world: World, whole: bool) -> list[str]:
+    """What was seen before the end of time, and how all ended if it came before that."""
+    events = [event for event in record.events if float(str(event["t"])) < world.until]
+    seen = [repr([(name, _told(fact)) for name, fact in event.items()]) for event in events]
+    seen += [line for line in record.diary if float(line.split()[0]) < world.until]
+    if whole:
+        seen += record.ends
+    return seen
+
+
+def _told(fact: object) -> object:
+    """Leave out of a traceback which driver called the hook."""
+    if isinstance(fact, str) and fact.startswith("Traceback"):
+        return fact.splitlines()[-1]
+    return fact

@@ -5,10 +5,10 @@ from __future__ import annotations
 from random import Random
 
 from tests.equivalence.campaign import OURS, drawn
-from tests.equivalence.drivers import in_real_time
+from tests.equivalence.drivers import in_real_time, seen
 from tests.equivalence.flows import packaged
-from tests.equivalence.fly import Record, record
-from tests.equivalence.worlds import World, random_world
+from tests.equivalence.fly import record
+from tests.equivalence.worlds import random_world
 
 GRAPHS = 40
 
@@ -26,23 +26,6 @@ def test_real_time_takes_simultaneous_events_in_the_order_of_virtual_time() -> N
             if virtual.spins:
                 continue
             whole = not virtual.ends[0].startswith(("BadInput", f"over after {world.until!r}"))
-            assert _seen(real, world, whole) == _seen(virtual, world, whole), f"{text}\n{world}"
+            assert seen(real, world, whole) == seen(virtual, world, whole), f"{text}\n{world}"
             events += len(virtual.events)
     assert events > 3_000
-
-
-def _seen(record: Record, world: World, whole: bool) -> list[str]:
-    """What was seen before the end of time, and how all ended if it came before that."""
-    events = [event for event in record.events if float(str(event["t"])) < world.until]
-    seen = [repr([(name, _told(fact)) for name, fact in event.items()]) for event in events]
-    seen += [line for line in record.diary if float(line.split()[0]) < world.until]
-    if whole:
-        seen += record.ends
-    return seen
-
-
-def _told(fact: object) -> object:
-    """Leave out of a traceback which driver called the hook."""
-    if isinstance(fact, str) and fact.startswith("Traceback"):
-        return fact.splitlines()[-1]
-    return fact

@@ -15,7 +15,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from pluto_fleet.seam import written
-from plutoc_runtime.command import SEAM
+from plutoc_runtime.domain.app import SEAM
 from tests.flying import EXAMPLES, compiled_file
 
 HERE = Path(__file__).parent

@@ -12,14 +12,15 @@ from pathlib import Path
 import pytest
 
 import pluto_fleet
-from pluto_fleet.seam import NEWEST, OLDEST, problem
-from plutoc_runtime.command import SEAM
+from pluto_fleet.seam import NEWEST, OLDEST, problem, written
+from plutoc_runtime.domain.app import SEAM
 from tests.flying import EXAMPLES, compiled
 
 NAME = "drugs_distribution"
 LIBRARY = Path(pluto_fleet.__path__[0]).parent
 EXAMPLE = EXAMPLES / NAME
 SIMULATE = ("simulate", str(EXAMPLE / "missions.toml"))
+FIRST = SEAM[0]
 
 
 def said(package: Path, library: Path, *words: str) -> subprocess.CompletedProcess[str]:
@@ -52,12 +53,13 @@ def edit(file: Path, old: str, new: str) -> None:
 def app_that_speaks(folder: Path, seam: str) -> Path:
     """Return a package, made to say that it speaks another seam."""
     package = compiled(NAME, folder)
-    (home,) = [
+    homes = [
         path
-        for path in (package / "src").rglob("_runtime/**/*.py")
+        for path in (package / "src").rglob("_runtime/*.py")
         if re.search(r"^SEAM = ", path.read_text("utf-8"), re.MULTILINE)
     ]
-    edit(home, r"SEAM = \(\d+, \d+\)", f"SEAM = {seam}")
+    for home in homes:
+        edit(home, r"SEAM = \(\d+, \d+\)", f"SEAM = {seam}")
     return package
 
 
@@ -69,7 +71,10 @@ def test_the_library_speaks_the_seam_of_todays_apps() -> None:
 
 @pytest.mark.parametrize(
     ("oldest", "newest", "version"),
-    [("(2, 0)", "(3, 3)", "3.3.0"), ("(3, 0)", "(4, 1)", "4.1.4")],
+    [
+        (f"({FIRST - 1}, 0)", f"({FIRST}, 3)", f"{FIRST}.3.0"),
+        (f"({FIRST}, 0)", f"({FIRST + 1}, 1)", f"{FIRST + 1}.1.4"),
+    ],
 )
 def test_an_older_app_flies_with_a_newer_library(
     oldest: str, newest: str, version: str, tmp_path: Path
@@ -85,24 +90,30 @@ def test_an_older_app_flies_with_a_newer_library(
 def test_an_app_newer_than_its_library_is_refused_first_of_all(
     command: tuple[str, ...], tmp_path: Path
 ) -> None:
-    package = app_that_speaks(tmp_path, "(3, 4)")
-    library = library_that_speaks(tmp_path / "library", "(2, 0)", "(3, 2)", "3.2.0")
+    package = app_that_speaks(tmp_path, f"({FIRST}, 4)")
+    library = library_that_speaks(
+        tmp_path / "library", f"({FIRST - 1}, 0)", f"({FIRST}, 2)", f"{FIRST}.2.0"
+    )
     done = said(package, library, *command)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
-        "drugs_distribution speaks seam 3.4, pluto-fleet 3.2.0 speaks 2.0 to 3.2:"
-        ' pip install --upgrade "pluto-fleet>=3.4"\n'
+        f"drugs_distribution speaks seam {FIRST}.4,"
+        f" pluto-fleet {FIRST}.2.0 speaks {FIRST - 1}.0 to {FIRST}.2:"
+        f' pip install --upgrade "pluto-fleet>={FIRST}.4"\n'
     )
 
 
 def test_an_app_that_is_too_old_is_told_to_be_compiled_anew(tmp_path: Path) -> None:
     package = compiled(NAME, tmp_path)
-    library = library_that_speaks(tmp_path / "library", "(4, 0)", "(5, 0)", "5.0.0")
+    library = library_that_speaks(
+        tmp_path / "library", f"({FIRST + 1}, 0)", f"({FIRST + 2}, 0)", f"{FIRST + 2}.0.0"
+    )
     done = said(package, library, *SIMULATE)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
-        "drugs_distribution speaks seam 3.0, pluto-fleet 5.0.0 speaks 4.0 to 5.0:"
-        ' compile drugs_distribution anew, or pip install "pluto-fleet<5"\n'
+        f"drugs_distribution speaks seam {written(SEAM)},"
+        f" pluto-fleet {FIRST + 2}.0.0 speaks {FIRST + 1}.0 to {FIRST + 2}.0:"
+        f' compile drugs_distribution anew, or pip install "pluto-fleet<{FIRST + 2}"\n'
     )
 
 

@@ -17,12 +17,12 @@ from pluto_fleet.flight.reconcile import Outcome
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.jobs import AssignedJob
 from pluto_fleet.jobs.reports import JobState
-from pluto_fleet.journal import values
 from pluto_fleet.journal.durable_link import DurableLink
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.trials.record import TrialRecord
 from plutoc_runtime.domain.status import DroneStatus
 from plutoc_runtime.fleet.fleet import Fleet
+from plutoc_runtime.hooks import values
 from tests.equivalence import mistakes
 
 Plant = Callable[[pytest.MonkeyPatch], None]

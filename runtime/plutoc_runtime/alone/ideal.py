@@ -15,7 +15,7 @@ from ..domain.airspace import permitted_way, way_from
 from ..domain.errors import Failure, FlightFailed
 from ..fleet.reach import CLIMB_SPEED, docked, flight_seconds, grip_problem
 from ..fleet.telemetry import Charge, Leg, resting
-from ..hooks.values import item_of, value_data
+from ..hooks.values import item_of, point_of, value_data
 from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
 from .world import World
 
@@ -198,7 +198,9 @@ class IdealDrones:
             self._answer(order)
         elif do != "cancel":
             drone.order, drone.work = order["id"], _WORK[do](self, drone, order)
-            self._go_on(drone)
+            drone.wakes = (
+                self._clock.now
+            )  # after all that is ordered with it, such as to break it off
 
     def _go_on(self, drone: IdealDrone) -> None:
         assert drone.work is not None
@@ -220,7 +222,7 @@ class IdealDrones:
             self._told.append({"done": order["id"], "value": value})
 
     def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
-        airspace, start, stops = self._airspace, drone.location, order["stops"]
+        airspace, start, stops = self._airspace, drone.location, [*map(point_of, order["stops"])]
         for problem in filter(None, map(airspace.problem, stops)):
             raise FlightFailed(Failure.REFUSED, problem)
         way = [self._above(drone)]

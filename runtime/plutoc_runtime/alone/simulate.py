@@ -132,6 +132,7 @@ class Alone:
                 raise Stuck("nothing will ever happen again")
             if until is not None and when > until:
                 self.now = until
+                brain.tell({"telemetry": drones.news()}, until)
                 return False
             self.now = when
             if drones.due <= when:

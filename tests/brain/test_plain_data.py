@@ -1,0 +1,214 @@
+"""All that crosses the seam is plain data: JSON on its way changes nothing, and what is unknown is ignored."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from random import Random
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pluto_fleet.flight import simulate as library
+from plutoc_runtime.alone import simulate as alone
+from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.brain import Brain
+from plutoc_runtime.domain.trace import Event
+from tests.brain.hand import charged, settled, trip
+from tests.equivalence.campaign import OURS, drawn
+from tests.equivalence.flows import packaged
+from tests.equivalence.fly import Record, record
+from tests.equivalence.worlds import random_world
+from tests.flying import MISHAPS, Example, Flown
+from tests.runtime import apps
+
+Data = Mapping[str, Any]
+GRAPHS = 20
+ROUGH = Faults(crash=0.1, link=0.1, action=0.2)
+
+
+def plain(data: Any) -> Any:
+    """Return data as they are after a way over a wire."""
+    return json.loads(json.dumps(data))
+
+
+class Wired(Brain):
+    """A brain at the other end of a wire."""
+
+    def __init__(self, app: Any, fleet: Data, **more: Any) -> None:
+        super().__init__(app, plain(fleet), **more)
+
+    def begin(self, missions: Sequence[Data], now: float) -> None:
+        super().begin(plain(missions), now)
+
+    def tell(self, message: Data, now: float) -> None:
+        super().tell(plain(message), now)
+
+    def orders(self) -> list[dict[str, Any]]:
+        orders: list[dict[str, Any]] = plain(super().orders())
+        return orders
+
+    def events(self) -> list[Event]:
+        events: list[Event] = plain(super().events())
+        return events
+
+    def standing(self) -> Data:
+        standing: Data = plain(super().standing())
+        return standing
+
+
+def through(brain: type[Brain], module: Any, fly: Callable[[], Any]) -> Any:
+    """Fly with another brain in its place."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "Brain", brain)
+        return fly()
+
+
+def lines(events: Sequence[Event]) -> list[str]:
+    """Return events as they are written."""
+    return [json.dumps(event) for event in events]
+
+
+@pytest.mark.parametrize("mishaps", [{}, MISHAPS], ids=["well", "rough"])
+def test_an_example_flies_over_a_wire_as_without(
+    example: Example, mishaps: Mapping[str, float]
+) -> None:
+    """Each order, message, event, mission, and where all stands at last."""
+    for seed in range(2):
+        fly = partial(example.fly, seed, mishaps)
+        here: Flown = fly()
+        there: Flown = through(Wired, library, fly)
+        assert lines(there.trace) == lines(here.trace)
+        assert there.ends == here.ends
+
+
+@pytest.mark.parametrize("module", [library, alone], ids=["with traffic", "alone"])
+def test_random_graphs_fly_over_a_wire_as_without(module: Any) -> None:
+    """Also where drones fail, hooks change trips and everything is late."""
+    for number in range(GRAPHS):
+        text, checked, rng, _ = drawn(f"wired/{number}")
+        package = packaged(OURS.planner(checked))
+        world = random_world(Random(rng.random()), package.graph)
+        fly = partial(record, package, world, patient=False, fly=module.simulate)
+        here: Record = fly()
+        there: Record = through(Wired, module, fly)
+        if not here.spins:
+            assert lines(there.events) == lines(here.events), f"{text}\n{world}"
+            assert (there.ends, there.diary) == (here.ends, here.diary), f"{text}\n{world}"
+
+
+KNOWN = {
+    *("done", "failed", "hook", "telemetry", "value", "failure", "reason"),
+    *("drones", "silent", "midnight", "after_trip", "max_airborne", "id", "category", "home"),
+    *("at", "leg", "battery", "landed"),
+    *("trips", "name", "index", "fields"),
+    *("action", "target", "source", "item", "parameters"),
+    *("added", "attempt", "status", "start_time", "end_time"),
+}
+
+values = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=2) | st.dictionaries(st.text(max_size=3), inner),
+    max_leaves=3,
+)
+noises = st.dictionaries(
+    st.text(max_size=12).filter(lambda key: key not in KNOWN), values, max_size=3
+)
+
+
+def noisy(noise: Data) -> type[Brain]:
+    """Return a brain that is told more than it knows, wherever it is told something."""
+
+    class Noisy(Brain):
+        def __init__(self, app: Any, fleet: Data, **more: Any) -> None:
+            drones = [{**noise, **drone} for drone in fleet["drones"]]
+            super().__init__(app, {**noise, **fleet, "drones": drones}, **more)
+
+        def begin(self, missions: Sequence[Data], now: float) -> None:
+            super().begin([self._more(mission) for mission in missions], now)
+
+        def _more(self, mission: Data) -> Data:
+            trips = [self._unknown({**noise, **one}) for one in mission["trips"]]
+            return self._unknown({**noise, **mission, "trips": trips})
+
+        def _unknown(self, data: dict[str, Any]) -> Data:
+            return {**data, "fields": {**noise, "unheard_of": 1, **data.get("fields", {})}}
+
+        def tell(self, message: Data, now: float) -> None:
+            for unknown in (noise, {"done": 10**9, **noise}, {"failed": "?", **noise}):
+                super().tell(unknown, now)
+            super().tell({"hook": 10**9, "telemetry": {"nobody": {"at": [0, 0, 0]}}}, now)
+            if "telemetry" in message:
+                heard = {drone: {**noise, **one} for drone, one in message["telemetry"].items()}
+                message = {**message, "telemetry": {"nobody": {**noise}, **heard}}
+            super().tell({**noise, **message}, now)
+
+    return Noisy
+
+
+def a_flight() -> list[str]:
+    """Fly two missions in which much happens, and return what did."""
+    flow = apps.flow(watch=apps.timed, clock=True, attempts=3, repeater=True)
+    missions = [
+        apps.mission("a", apps.trip("1", 4.0), apps.pick("2", 2.0), apps.release("3", 3.0)),
+        apps.mission("b", apps.trip("1", 5.0, delay=4.0), apps.trip("2", 2.0, priority=2), index=1),
+        apps.mission("c", apps.trip("1", 9.0), index=2, safe_time=8.0, repeat=1),
+    ]
+    on = apps.fleet((1.0, 0.5, 0.0), (2.0, 0.5, 0.0))
+    outcome = alone.simulate(
+        apps.app(flow), missions, on, seed=3, faults=ROUGH, until=2_000.0, on_event=None
+    )
+    assert {"trip.failed", "trip.completed"} <= {event["event"] for event in outcome.events}
+    return lines(outcome.events)
+
+
+@settings(max_examples=25, deadline=None)
+@given(noises)
+def test_what_is_unknown_is_ignored(noise: Data) -> None:
+    """Keys anywhere, messages, orders' ids, hooks, drones."""
+    assert through(noisy(noise), alone, a_flight) == a_flight()
+
+
+MISSION = {"name": "1", "index": 0, "fields": {}}
+TRIP = {"name": "1", "index": 0, "fields": {}, "source": None, "parameters": {}, "item": None}
+FLEET = {"after_trip": "home", "max_airborne": None, "silent": False, "midnight": 0.0}
+DONE = {"value": None}
+FAILED = {"failure": "UNKNOWN", "reason": ""}
+NEWS = {"at": [1.0, 0.5, 0.0], "battery": 1.0, "landed": True}
+
+
+def some(data: Data) -> st.SearchStrategy[dict[str, Any]]:
+    """Leave out some of what may be left out."""
+    return st.sets(st.sampled_from(sorted(data))).map(
+        lambda left: {key: value for key, value in data.items() if key not in left}
+    )
+
+
+@given(some(MISSION), some(TRIP), some(FLEET), some(DONE), some(FAILED), some(NEWS))
+def test_what_is_missing_has_a_default(
+    mission: Data, a_trip: Data, fleet: Data, done: Data, failed: Data, news: Data
+) -> None:
+    """Written out or not, it leaves the same orders and events."""
+
+    def flown(
+        mission: Data, a_trip: Data, fleet: Data, done: Data, failed: Data, news: Data
+    ) -> object:
+        brain = charged(**fleet)
+        trips = [{**trip(3.0), **a_trip}, trip(4.0)]
+        brain.begin([{**mission, "trips": trips}], 0.0)
+        (one,) = orders = settled(brain, 0.0)
+        brain.tell({"done": one["id"], **done, "telemetry": {"cf1": news}}, 5.0)
+        (other,) = more = settled(brain, 5.0)
+        brain.tell({"failed": other["id"], **failed}, 9.0)
+        (recovery,) = last = settled(brain, 9.0)
+        brain.tell({"done": recovery["id"], "value": True}, 9.0)
+        said = json.dumps([*orders, *more, *last, *brain.events(), brain.standing(), brain.over])
+        brain.close()
+        return said
+
+    assert flown(mission, a_trip, fleet, done, failed, news) == flown(
+        MISSION, TRIP, FLEET, DONE, FAILED, NEWS
+    )

@@ -1,0 +1,49 @@
+"""One drone leaves the same events whatever flies it: ideal drones, a gateway in virtual time, asyncio."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from random import Random
+
+import pytest
+
+from plutoc_runtime.alone.simulate import simulate as alone
+from tests.equivalence.campaign import OURS, drawn
+from tests.equivalence.drivers import in_real_time, seen
+from tests.equivalence.flows import packaged
+from tests.equivalence.fly import difference, record
+from tests.equivalence.worlds import random_world
+
+WORLDS = 3
+"""For each graph."""
+
+
+def flown(name: str) -> int:
+    """Fly a random graph in some worlds by all three, and return how many events there were."""
+    text, checked, rng, _ = drawn(name)
+    package = packaged(OURS.planner(checked))
+    events = 0
+    for _ in range(WORLDS):
+        world = random_world(Random(rng.random()), package.graph)
+        world = replace(world, homes=world.homes[:1])
+        with_traffic = record(package, world, patient=False)
+        by_itself = record(package, world, patient=False, fly=alone)
+        assert difference(with_traffic, by_itself) is None, f"{text}\n{world}"
+        if with_traffic.spins:
+            continue
+        whole = not with_traffic.ends[0].startswith(("BadInput", f"over after {world.until!r}"))
+        real = record(package, world, patient=False, fly=in_real_time)
+        assert seen(real, world, whole) == seen(with_traffic, world, whole), f"{text}\n{world}"
+        events += len(with_traffic.events)
+    return events
+
+
+def test_one_drone_leaves_the_same_events_whatever_flies_it() -> None:
+    """Byte for byte, also where things go wrong."""
+    assert sum(flown(f"same/{number}") for number in range(25)) > 800
+
+
+@pytest.mark.long
+def test_one_drone_leaves_the_same_events_in_many_graphs() -> None:
+    """More of the same."""
+    assert sum(flown(f"same/long/{number}") for number in range(1_500)) > 50_000
