@@ -78,10 +78,13 @@ def loaded_again(brain: str) -> App:
 
 def _of_former_blocks() -> dict[str, object]:
     """Return the functions of former blocks and flows under their former names."""
+    from plutoc_runtime.domain.model import ResultStore
     from plutoc_runtime.flow.modification import context_of
     from plutoc_runtime.flow.own_action import OwnAction
     from plutoc_runtime.flow.run import Run
+    from plutoc_runtime.hooks.context import results_for
 
+    type.__setattr__(ResultStore, "for_evaluator", results_for)
     type.__setattr__(Run, "context", property(context_of))  # what `run.context` was
     return {"Action": OwnAction, "launch": _launch, "watch": _watch}
 

@@ -192,7 +192,7 @@ class TrialLife:
                 after = memory_of(self.run.app, now[name])
                 said = forgotten(name, known, after, since.get(name, ()))
                 found += [f"{self.kernel.now:g} s: {sentence}" for sentence in said]
-        results = len(self.life.session.core.results.so_far())
+        results = len(self.life.session.core.results)
         if results < self.run.record.once.done:
             found.append(f"{self.run.record.once.done} results were there, {results} are left")
 
