@@ -14,7 +14,17 @@ from typing import Any
 
 from plutoc_runtime.domain.fields import Field
 from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import (
+    COMPLETED,
+    FAILED,
+    RUNNING,
+    STANDBY,
+    UNEXECUTED,
+    Status,
+)
+
+IN_GRAPH = (UNEXECUTED, RUNNING, STANDBY, COMPLETED, FAILED)
+"""The statuses that edges carry, in declared order."""
 
 Transitions = Mapping[Status, frozenset[Status]]
 """For each status that a block accepts, the statuses that it can then emit."""

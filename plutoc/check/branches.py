@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 
 import networkx as nx
 
+from plutoc.block import IN_GRAPH
 from plutoc.check.flow import Flow, Fork, Frame, Place, is_final
 from plutoc.graph.digraph import reachable
 from plutoc.graph.model import END, Edge
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 Astray = tuple[Place, Status | None]
 """A place, and the status with which it is left although no edge takes it."""

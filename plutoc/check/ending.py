@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
+from plutoc.block import IN_GRAPH
 from plutoc.check import errors
 from plutoc.check.branches import Branch, Branches
 from plutoc.check.facts import elsewhere, is_over, puts_trips
@@ -13,7 +14,7 @@ from plutoc.check.statuses import arrows_of, explore, unflown
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.digraph import round_of
 from plutoc.graph.model import END, Edge, Node
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 Left = tuple[Node, tuple[Status, ...], Place]
 """A block, the statuses of it that no edge takes, and where it is left with the first of them."""

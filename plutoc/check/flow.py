@@ -15,8 +15,9 @@ from typing import NamedTuple
 
 import networkx as nx
 
+from plutoc.block import IN_GRAPH
 from plutoc.graph.model import Edge, Graph
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 Fork = tuple[str, Status]
 """A block, and a status of it that several edges take."""

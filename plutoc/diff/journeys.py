@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
+from plutoc.block import IN_GRAPH
 from plutoc.diff.both import Both, Side
 from plutoc.diff.messages import routes as messages
 from plutoc.diff.model import Change, Reroute
 from plutoc.diff.roles import Role, decides, role
 from plutoc.graph.model import END, Node
 from plutoc.source import Span
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 _WATCH = (Role.WATCHES, Role.LIMITS)
 

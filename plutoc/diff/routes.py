@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from plutoc.block import IN_GRAPH
 from plutoc.check.model import Checked
 from plutoc.graph.model import END
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 Leaving = tuple[str, Status]
 """A block, and the status that a mission leaves it with."""

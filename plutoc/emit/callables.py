@@ -6,13 +6,12 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from plutoc.block import Choice
+from plutoc.block import IN_GRAPH, Choice
 from plutoc.emit.embed import OURS, Carried
 from plutoc.emit.python import Import
 from plutoc.graph.model import Node
 from plutoc.plan.bodies import branches, steps
 from plutoc.plan.model import Call, Join, Plan, Watch
-from plutoc_runtime.domain.status import IN_GRAPH
 from plutoc_runtime.flow.run import watch
 
 RESERVED = frozenset(

@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from plutoc.block import HookKind
+from plutoc.block import IN_GRAPH, HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.callables import carried_functions, imports_of, names_of
 from plutoc.emit.embed import OURS
@@ -18,7 +18,7 @@ from plutoc.graph.model import Action, Graph, Node, Parameter
 from plutoc.plan.bodies import branches, nodes, steps
 from plutoc.plan.model import Arrived, Body, Plan
 from plutoc_runtime.domain.fields import Entity, Field
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

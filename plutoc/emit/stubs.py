@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from plutoc.block import HookKind
+from plutoc.block import IN_GRAPH, HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.python import PYTHON, annotation, status_tuple
 from plutoc.graph.model import Action, Graph, Hook, Parameter
 from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 EXPORTS = {
     "ActionFailed": "._runtime.domain.errors",

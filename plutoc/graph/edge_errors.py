@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from plutoc.block import IN_GRAPH
 from plutoc.diagnostic import Diagnostic, Related, error
 from plutoc.edits import without_arrow
 from plutoc.graph.names import in_snake_case
 from plutoc.graph.wording import all_of, alternatives, meant
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 
 def unknown_block(

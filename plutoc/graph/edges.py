@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
+from plutoc.block import IN_GRAPH
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import edge_errors as errors
 from plutoc.graph.hooks import statuses
@@ -15,7 +16,7 @@ from plutoc.graph.stops import END_ACCEPTS, accepts_by_guard, check_stops
 from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.source import Source
 from plutoc.syntax.tree import FlowDecl, Guard, Name
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 MOST_EDGES = 100_000
 """Of an app: brackets of a thousand names each make a million of them, which is a mistake."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from plutoc.block import IN_GRAPH
 from plutoc.diagnostic import Diagnostic, Related, error, warning
 from plutoc.edits import without_item, without_statement
 from plutoc.graph.names import LONGEST, Style, in_plain_letters, in_snake_case
@@ -18,7 +19,6 @@ from plutoc.graph.wording import (
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
 from plutoc_runtime.domain.quantities import UNITS, Type
-from plutoc_runtime.domain.status import IN_GRAPH
 
 
 def malformed_name(source: Source, name: Name) -> Diagnostic:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import keyword
 from collections.abc import Collection, Sequence
 
-from plutoc.block import HookKind
+from plutoc.block import IN_GRAPH, HookKind
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors, names
 from plutoc.graph.model import Action, Hook, Parameter
@@ -15,7 +15,7 @@ from plutoc.graph.values import typed, written
 from plutoc.source import Source
 from plutoc.syntax import tree
 from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 REPEATS = ("safe", "once", "ask")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from plutoc.block import HookKind, HookParam
+from plutoc.block import IN_GRAPH, HookKind, HookParam
 from plutoc.diagnostic import Diagnostic, Severity, accept_or_raise
 from plutoc.graph import categories, errors, hooks
 from plutoc.graph.cascades import each_name_once, told_once
@@ -31,7 +31,6 @@ from plutoc.syntax.tree import (
     Name,
 )
 from plutoc_runtime.domain.actions import BUILT_IN
-from plutoc_runtime.domain.status import IN_GRAPH
 
 
 def resolve(file: File, blocks: Blocks) -> tuple[Graph, tuple[Diagnostic, ...]]:

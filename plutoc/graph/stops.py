@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
+from plutoc.block import IN_GRAPH
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import edge_errors as errors
 from plutoc.graph.model import END, START, Node
@@ -12,7 +13,7 @@ from plutoc.graph.scope import BLOCK, Scope
 from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.source import Source
 from plutoc.syntax.tree import FlowDecl
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 _MOST_PROPOSALS = 100
 """Near names are looked for so often: it takes long among many, and more is not read."""

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from enum import Enum
 from json import dumps
 
+from plutoc.block import IN_GRAPH
 from plutoc.graph.model import END, START
 from plutoc.syntax.tokens import SETTINGS, WORDS
 from plutoc_runtime.domain.quantities import UNITS, Type
-from plutoc_runtime.domain.status import IN_GRAPH
 
 _UNITS = "|".join(re.escape(unit) for unit in sorted(UNITS, key=len, reverse=True))
 

@@ -10,11 +10,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 
-from plutoc.block import Gate
+from plutoc.block import IN_GRAPH, Gate
 from plutoc.check.model import Checked
 from plutoc.graph.model import END, Edge
 from plutoc.plan.model import Place
-from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST, Status
+from plutoc_runtime.domain.status import WORST_FIRST, Status
 
 Leads = Mapping[Status, tuple[int, "Spot | None", str]]
 """For each status that leaves a spot: the edge's number, the target, and its name."""

@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from plutoc.block import IN_GRAPH
 from plutoc.plan.bodies import breaks, continues, falls, switch, without_last_continue
 from plutoc.plan.chart import Kind, Spot, Way
 from plutoc.plan.model import Arm, Body, Break, Continue, End, Goto, Loop, Step, Switch
 from plutoc.plan.shape import Shape
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 MOST_NESTED_LOOPS = 12
 """Loops in loops; Python itself compiles no more than twenty."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from plutoc.block import IN_GRAPH
 from plutoc.check.model import Checked, Fork
 from plutoc.graph.model import END, START, Node
 from plutoc.plan import errors
@@ -31,7 +32,7 @@ from plutoc.plan.model import (
     Switch,
     Watch,
 )
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 ENTERS, ARRIVED = "interrupted at ", "arrived at "
 """Pseudo-blocks for interrupted missions that have not reached a block yet."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
 
-from plutoc.block import AnyParam, Block, Choice, HookParam, Param
+from plutoc.block import IN_GRAPH, AnyParam, Block, Choice, HookParam, Param
 from plutoc_runtime.domain.fields import Field, FieldType
 from plutoc_runtime.domain.quantities import Type, units_of
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 
 def first_line(block: Block) -> str:

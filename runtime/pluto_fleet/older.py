@@ -41,6 +41,8 @@ def provide(brain: str) -> None:
         import_module(f"plutoc_runtime.fleet.{one}") for one in ("queue", "policies")
     )
     policies.__path__ = []  # it was a package
+    results = import_module("plutoc_runtime.domain.model").ResultStore
+    results.for_evaluator = import_module("plutoc_runtime.hooks.context").results_for
     for name in ("Policy", "Choice", "Able", "Batch", "lowest"):
         setattr(queue, name, getattr(policies, name))
 

@@ -182,7 +182,7 @@ class Brain:
                     one.attempt,
                     value_data(one.value),
                 ]
-                for one in core.results.so_far()
+                for one in core.results.results
             ],
             "waiting": core.queue.summary() if core.queue.waiting else "",
         }

@@ -21,6 +21,7 @@ from pluto_fleet.journal import event_line as journal_line
 from plutoc_runtime import command
 from plutoc_runtime.alone import simulate as alone
 from plutoc_runtime.alone.faults import Faults
+from plutoc_runtime.domain import app
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.trace import dumped
 from tests.flying import EXAMPLES, compiled
@@ -29,7 +30,7 @@ from tests.runtime.cli.conftest import MISSIONS
 from tests.runtime.files.an_app import APP
 
 Run = Callable[..., tuple[int, str, str]]
-SEAM = ".".join(map(str, command.SEAM))
+SEAM = ".".join(map(str, app.SEAM))
 
 
 @pytest.fixture
@@ -256,7 +257,7 @@ def test_the_library_is_called_where_there_is_one(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setitem(sys.modules, "pluto_fleet.entry", library)
     assert command.main(APP, ["check"]) == 3
     assert command.start("alfalfa", lambda: APP) == 4
-    named = {"brain": "plutoc_runtime", "seam": command.SEAM}
+    named = {"brain": "plutoc_runtime", "seam": app.SEAM}
     assert told[0] == ((APP, ["check"]), named)
     assert [told[1][0][0], told[1][1]] == ["alfalfa", named]
 
@@ -309,7 +310,7 @@ def test_a_library_that_the_package_carries_is_found(package: Path, tmp_path: Pa
             "def start(name, load, brain, seam):\n    print(name, brain, seam)\n    return 7\n"
         )
         found = program(package, "fly")
-        assert (found.returncode, found.stdout) == (7, f"pm10 pm10._runtime {command.SEAM}\n")
+        assert (found.returncode, found.stdout) == (7, f"pm10 pm10._runtime {app.SEAM}\n")
         file.write_text("import no_such_module\n")
         broken = program(package, "fly")
         assert broken.returncode == 1

@@ -9,14 +9,14 @@ from __future__ import annotations
 import itertools
 import re
 
-from plutoc.block import Block, HookKind, Param
+from plutoc.block import IN_GRAPH, Block, HookKind, Param
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.model import END, START, Edge, Graph, Hook, Node
 from plutoc.source import Source, Span
 from plutoc_blocks import BLOCKS
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 KINDS: dict[str, Block] = {block.name: block for block in BLOCKS}
 

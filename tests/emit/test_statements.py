@@ -11,7 +11,7 @@ from typing import Any
 import hypothesis.strategies as st
 from hypothesis import given
 
-from plutoc.block import ANY_SAME, Block, Gate
+from plutoc.block import ANY_SAME, IN_GRAPH, Block, Gate
 from plutoc.emit.embed import Carried
 from plutoc.emit.statements import Scope, body_lines
 from plutoc.graph.model import Node
@@ -33,7 +33,7 @@ from plutoc.plan.model import (
     Switch,
 )
 from plutoc.source import Span
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 
 NUMBERS = count()
 

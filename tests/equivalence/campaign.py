@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from random import Random
 
+from plutoc.block import IN_GRAPH
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.compile import planned
@@ -20,7 +21,6 @@ from plutoc.plan.verify import verify
 from plutoc.registry import STD, Blocks, blocks_of
 from plutoc.source import Source
 from plutoc.syntax.parse import read
-from plutoc_runtime.domain.status import IN_GRAPH
 from tests.equivalence import coverage, strangers
 from tests.equivalence.flows import NOTHING, Overrides, Package, packaged
 from tests.equivalence.fly import Record, difference, record

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random
 
-from plutoc.block import Block
+from plutoc.block import IN_GRAPH, Block
 from plutoc_blocks import BLOCKS
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 from tests.equivalence import strangers
 
 U, R, S, C, F = IN_GRAPH

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc.block import IN_GRAPH
+from plutoc_runtime.domain.status import Status
 from tests.graph.fakes import codes, graph
 
 ABCD = "a = Pass\nb = Pass\nc = Pass\nd = Pass\nw = Work\n"

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from plutoc.block import IN_GRAPH
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Rejected
@@ -17,7 +18,7 @@ from plutoc.plan.model import Plan
 from plutoc.plan.optimise import stages
 from plutoc.plan.show import show
 from plutoc.plan.verify import verify
-from plutoc_runtime.domain.status import IN_GRAPH, Status
+from plutoc_runtime.domain.status import Status
 from tests.check import graphs
 from tests.check.test_walks import edited
 from tests.plan.graphs import GRAPHS, random_graphs

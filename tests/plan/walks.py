@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 
-from plutoc.block import Gate
+from plutoc.block import IN_GRAPH, Gate
 from plutoc.check.model import Checked
 from plutoc.graph.model import END, START, Node
 from plutoc.plan.model import (
@@ -31,7 +31,7 @@ from plutoc.plan.model import (
     Switch,
     Watch,
 )
-from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST, Status
+from plutoc_runtime.domain.status import WORST_FIRST, Status
 
 
 class Enough(Exception):

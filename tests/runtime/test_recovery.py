@@ -197,8 +197,8 @@ def test_a_drone_whose_flight_was_over_for_its_dead_brain_is_called_off() -> Non
         return await Future[bool]()
 
     def deaf() -> None:
-        living.gateway.break_off = lambda drone: None
-        living.gateway.commander.recover = never
+        vars(living.gateway)["break_off"] = lambda drone: None
+        vars(living.gateway.commander)["recover"] = never
 
     living.at(4.9, deaf)
     living.at(5.5, lambda: delattr(living.gateway, "break_off"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from plutoc_runtime.domain.model import Mission, Result, ResultStore, Trip
+from plutoc_runtime.hooks.context import View, results_for
 
 
 def test_every_result_is_found_again_however_many_there_are() -> None:
@@ -14,7 +15,7 @@ def test_every_result_is_found_again_however_many_there_are() -> None:
     given = [Result(missions[n % 2], trip, n // 7, n % 3 + 1, n) for n in range(5000)]
     for result in given:
         result.mission.last_result = store.add(*result)
-    everything = store.so_far()
+    everything = View(store.results)
     assert list(everything) == given
     assert (len(everything), everything[-1], everything[1:4]) == (
         5000,
@@ -33,9 +34,9 @@ def test_an_evaluator_gets_what_is_new_since_it_was_asked() -> None:
     for value in range(4000):
         mission = ours if value % 2 else other
         mission.last_result = store.add(mission, None, 0, 1, value)
-    assert [result.value for result in store.for_evaluator(ours).new] == list(range(1, 4000, 2))
-    assert not store.for_evaluator(ours).new
+    assert [result.value for result in results_for(store, ours).new] == list(range(1, 4000, 2))
+    assert not results_for(store, ours).new
     ours.last_result = store.add(ours, None, 1, 1, "more")
-    asked = store.for_evaluator(ours)
+    asked = results_for(store, ours)
     assert [result.value for result in asked.new] == ["more"]
     assert len(asked.all) == 4001

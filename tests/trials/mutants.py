@@ -8,21 +8,19 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.flight import reconcile as interruption
-from pluto_fleet.flight import recovery
-from pluto_fleet.flight import restore as rebuilding
-from pluto_fleet.flight.live_engine import LiveEngine
-from pluto_fleet.flight.live_fleet import LiveFleet
-from pluto_fleet.flight.reconcile import Outcome
+from pluto_fleet.flight import control, recovery
+from pluto_fleet.flight.reconcile import Outcome, outcome_of
+from pluto_fleet.flight.recorded_brain import RecordedBrain
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.jobs import AssignedJob
 from pluto_fleet.jobs.reports import JobState
-from pluto_fleet.journal.durable_link import DurableLink
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.trials.record import TrialRecord
 from plutoc_runtime.domain.status import DroneStatus
 from plutoc_runtime.fleet.fleet import Fleet
-from plutoc_runtime.hooks import values
+from plutoc_runtime.flow import standing
+from plutoc_runtime.flow.engine import Engine
+from plutoc_runtime.flow.restore import Restorer
 from tests.equivalence import mistakes
 
 Plant = Callable[[pytest.MonkeyPatch], None]
@@ -72,13 +70,12 @@ def done_before_the_action(patch: pytest.MonkeyPatch) -> None:
 def cancel_forgets_the_task(patch: pytest.MonkeyPatch) -> None:
     """A mission that is cancelled leaves its timers and its coroutine behind."""
 
-    def set_aside(self: LiveEngine, state: Any) -> None:
-        self._aside[state.mission.name] = state
+    def leave(self: Engine, state: Any) -> None:
         if state.task is not None:
-            self._living -= 1
+            self.living -= 1
             state.task.over = lambda _: None
 
-    patch.setattr(LiveEngine, "set_aside", set_aside)
+    patch.setattr(Engine, "_leave", leave)
 
 
 def snapshot_forgets_delays(patch: pytest.MonkeyPatch) -> None:
@@ -95,14 +92,15 @@ def snapshot_forgets_delays(patch: pytest.MonkeyPatch) -> None:
 
 def priority_is_lost(patch: pytest.MonkeyPatch) -> None:
     """A trip that is taken up again has the priority of a new one."""
-    really = values.trip_of
+    really = standing.trip_of
 
-    def trip_of(app: Any, data: Any) -> Any:
-        trip: Any = really(app, data)
-        trip.priority = 0
+    def trip_of(app: Any, data: Any, index: int = 0, **more: Any) -> Any:
+        trip: Any = really(app, data, index, **more)
+        if more:  # it is not a new one
+            trip.priority = 0
         return trip
 
-    patch.setattr(rebuilding, "trip_of", trip_of)
+    patch.setattr(standing, "trip_of", trip_of)
 
 
 def old_brains_are_heard(patch: pytest.MonkeyPatch) -> None:
@@ -115,48 +113,64 @@ def old_brains_are_heard(patch: pytest.MonkeyPatch) -> None:
 def no_drone_is_asked(patch: pytest.MonkeyPatch) -> None:
     """Every drone is taken for free before it has answered."""
 
-    def take_up(self: LiveFleet, drone: Any, _: object) -> None:
+    def take_up(self: Fleet, drone: Any, _: object) -> None:
         drone.status = DroneStatus.FREE
         self.queue.moved(drone, DroneStatus.OFFLINE)
 
-    patch.setattr(LiveFleet, "take_up", take_up)
+    patch.setattr(Fleet, "take_up", take_up)
 
 
 def doubt_is_flown_again(patch: pytest.MonkeyPatch) -> None:
     """What may have been done is done once more."""
-    really = interruption.outcome_of
 
-    def outcome_of(*args: Any) -> Outcome:
-        found = really(*args)
-        return Outcome.NOT_DONE if found is Outcome.UNKNOWN else found
+    def found(*args: Any) -> Outcome:
+        what = outcome_of(*args)
+        return Outcome.NOT_DONE if what is Outcome.UNKNOWN else what
 
-    patch.setattr(interruption, "outcome_of", outcome_of)
+    patch.setattr(recovery, "outcome_of", found)
+    patch.setattr(control, "outcome_of", found)
 
 
 def stops_count(patch: pytest.MonkeyPatch) -> None:
     """A flight that was interrupted counts as an attempt."""
-    really = interruption.fly_again
+    really = recovery.for_brain
 
-    def fly_again(state: Any, flight: Any, link: Any) -> None:
-        really(state, flight, link)
-        flight.trip.attempt += 1
+    def for_brain(app: Any, record: Any) -> Any:
+        todo = record["todo"]
+        if record["interrupted"] and todo:
+            again = {**todo[0], "attempt": todo[0].get("attempt", 1) + 1}
+            record = {**record, "todo": [again, *todo[1:]]}
+        return really(app, record)
 
-    patch.setattr(recovery, "fly_again", fly_again)
+    patch.setattr(recovery, "for_brain", for_brain)
 
 
 def results_are_lost(patch: pytest.MonkeyPatch) -> None:
     """Who goes on knows nothing of what was found before."""
-    patch.setattr(recovery, "restore_results", lambda *_: None)
+    patch.setattr(Restorer, "_restore_results", lambda *_: None)
 
 
 def carriers_are_given_away(patch: pytest.MonkeyPatch) -> None:
     """A drone with an item aboard is free for all after a Stop."""
-    patch.setattr(recovery._Revival, "_check_carrier", lambda *_: None)
+    really = recovery.for_brain
+
+    def for_brain(app: Any, record: Any) -> Any:
+        return {**really(app, record), "carrier": None}
+
+    patch.setattr(recovery, "for_brain", for_brain)
 
 
 def flies_before_it_is_on_record(patch: pytest.MonkeyPatch) -> None:
     """A drone leaves before that could be known."""
-    patch.setattr(DurableLink, "fly", lambda self, job, report: self._link.fly(job, report))
+    really = RecordedBrain._obey
+
+    def obey(self: RecordedBrain, order: Any) -> None:
+        if order["do"] == "fly":
+            self._dispatcher.obey(order)
+        else:
+            really(self, order)
+
+    patch.setattr(RecordedBrain, "_obey", obey)
 
 
 def delays_go_on_while_stopped(patch: pytest.MonkeyPatch) -> None:

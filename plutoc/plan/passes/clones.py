@@ -20,11 +20,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
 
-from plutoc.block import Gate
+from plutoc.block import IN_GRAPH, Gate
 from plutoc.plan.model import Body, Branch, End, Join, Plan, Step
 from plutoc.plan.reaching_statuses import Brought, reaching_statuses
 from plutoc.plan.rewrite import rewritten
-from plutoc_runtime.domain.status import IN_GRAPH, WORST_FIRST
+from plutoc_runtime.domain.status import WORST_FIRST
 
 
 def clones(plan: Plan) -> Plan:

@@ -41,15 +41,12 @@ class Action:
 PICK, RELEASE = "pick_item", "release_item"
 MEASURE = "measure"
 
+_QUANTITY = Parameter(name="quantity", type=Type.TEXT, default="temperature")
+
 BUILT_IN: dict[str, Action] = {
     action.name: action
     for action in (
-        Action(
-            name=MEASURE,
-            parameters=(Parameter(name="quantity", type=Type.TEXT, default="temperature"),),
-            repeat="safe",
-            seconds=1.0,
-        ),
+        Action(name=MEASURE, parameters=(_QUANTITY,), repeat="safe", seconds=1.0),
         Action(name="take_photo", repeat="safe", seconds=1.0),
         Action(name=PICK, seconds=2.0),
         Action(name=RELEASE, seconds=2.0),

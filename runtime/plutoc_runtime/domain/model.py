@@ -230,25 +230,6 @@ class Result(NamedTuple, Generic[M, T]):
     value: object
 
 
-class View(Sequence[Result[Any, Any]]):
-    """The first so many results, read-only: nothing is copied for each evaluation."""
-
-    def __init__(self, results: Sequence[Result[Any, Any]], count: int) -> None:
-        self._results, self._count = results, count
-
-    def __len__(self) -> int:
-        return self._count
-
-    def __getitem__(self, index: Any) -> Any:
-        picked = range(self._count)[index]  # an IndexError is its own
-        if isinstance(picked, range):
-            return tuple(self._results[number] for number in picked)
-        return self._results[picked]
-
-    def __repr__(self) -> str:
-        return repr(tuple(self))
-
-
 class Results(NamedTuple, Generic[M, T]):
     """The results that an evaluator gets."""
 
@@ -262,35 +243,22 @@ class ResultStore:
     """Stores the results; those of one mission are a linked list, headed by `mission.last_result`."""
 
     def __init__(self) -> None:
-        self._results: list[Result[Any, Any]] = []
-        self._before: list[int] = []
+        self.results: list[Result[Any, Any]] = []
+        self.before: list[int] = []
         """For each result, the number of the previous one of its mission."""
 
     def __len__(self) -> int:
-        return len(self._results)
+        return len(self.results)
 
     def add(
         self, mission: Mission[Any], trip: Trip | None, round_: int, attempt: int, value: object
     ) -> int:
         """Store the result of an action, and return its number."""
-        self._results.append(Result(mission, trip, round_, attempt, value))
-        self._before.append(mission.last_result)
-        return len(self._results) - 1
+        self.results.append(Result(mission, trip, round_, attempt, value))
+        self.before.append(mission.last_result)
+        return len(self.results) - 1
 
     @property
     def newest(self) -> object:
         """The value of the latest result."""
-        return self._results[-1].value
-
-    def so_far(self) -> View:
-        """Return all results up to now."""
-        return View(self._results, len(self._results))
-
-    def for_evaluator(self, mission: Mission[Any]) -> Results[Any, Any]:
-        """Return what a mission's evaluator gets now."""
-        new: list[Result[Any, Any]] = []
-        last, mission.last_result = mission.last_result, NO_RESULT
-        while last != NO_RESULT:
-            new.append(self._results[last])
-            last = self._before[last]
-        return Results(tuple(reversed(new)), self.so_far())
+        return self.results[-1].value

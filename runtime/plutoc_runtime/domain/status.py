@@ -47,8 +47,5 @@ UNEXECUTED, RUNNING, STANDBY = Status.UNEXECUTED, Status.RUNNING, Status.STANDBY
 COMPLETED, FAILED = Status.COMPLETED, Status.FAILED
 """The five by names of their own: to look one up on its class takes many times as long."""
 
-IN_GRAPH = (UNEXECUTED, RUNNING, STANDBY, COMPLETED, FAILED)
-"""The statuses that edges carry, in declared order."""
-
 WORST_FIRST = (FAILED, STANDBY, COMPLETED, RUNNING, UNEXECUTED)
 """The order in which a gate that waits for all chooses the status that it passes on."""

@@ -120,9 +120,6 @@ LONGEST_VALUE = 10_000
 _PARTS = 10_000
 """Elements of it that are looked at: each may hold many others, and these the same ones."""
 
-_HOLDING: tuple[Any, ...] = (list, tuple, dict)
-"""What holds others: a class that is made of one of these is written as that."""
-
 
 class _Everything(Repr):
     """Like `repr`, but sorted, bounded, and safe against objects that raise."""
@@ -138,7 +135,8 @@ class _Everything(Repr):
     def repr1(self, x: Any, level: int) -> str:
         """Write a part of it."""
         self._left -= 1
-        for kind in _HOLDING:
+        kinds: tuple[Any, ...] = (list, tuple, dict)
+        for kind in kinds:  # a class that is made of one of these is written as that
             if type(x) is not kind and type(x).__repr__ is kind.__repr__:
                 x = kind(kind.__iter__(x)) if kind is not dict else dict(dict.items(x))
         return super().repr1(x, level) if self._left >= 0 else "…"

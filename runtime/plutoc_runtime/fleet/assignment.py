@@ -120,9 +120,9 @@ class _Pairs(Generic[C]):
         return place
 
     def _numbered(self, name: C | None) -> Column:
-        number = (
-            len(self._names) if name is None else self._numbers.setdefault(name, len(self._names))
-        )
+        number = len(self._names)
+        if name is not None:
+            number = self._numbers.setdefault(name, number)
         if number == len(self._names):
             self._names.append(name)
             self._row_of.append(_NONE)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import update_wrapper
-from math import inf
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -45,13 +44,10 @@ def lowest(
     free: Sequence[Drone], able: Able, rank: Callable[[Drone], float]
 ) -> tuple[Drone, float] | None:
     """Return the able drone of the lowest rank, and that rank; of equals, the fleet's first."""
-    found: Drone | None = None
-    least = inf
-    for drone in free:
-        here = rank(drone)
-        if here < least and able(drone):
-            found, least = drone, here
-    return None if found is None else (found, least)
+    for drone in sorted(free, key=rank):
+        if able(drone):
+            return drone, rank(drone)
+    return None
 
 
 def nearest(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:

@@ -227,10 +227,6 @@ def problems(
     return found
 
 
-NO_WAY = 2.0
-"""A battery level that no drone has."""
-
-
 class Reach:
     """A cheap upper bound of the battery for a trip: most free drones are above it.
 
@@ -243,12 +239,12 @@ class Reach:
             action: {category: self._level(category, action) for category in app.categories}
             for action in app.actions
         }
-        self._unknown = dict.fromkeys(app.categories, NO_WAY)
+        self._unknown = dict.fromkeys(app.categories, inf)
 
     def levels(self, trip: Trip) -> Mapping[Category, float]:
         """Return for each category a battery level that surely suffices for the trip.
 
-        `NO_WAY` where only the exact check can tell: an item, or a place that is not on the map.
+        Infinite where only the exact check can tell: an item, or a place that is not on the map.
         """
         problem, source = self.airspace.problem, trip.source
         if trip.item is not None or problem(trip.target) or (source and problem(source)):
@@ -258,7 +254,7 @@ class Reach:
     def _level(self, category: Category, action: str) -> float:
         space = self.airspace
         if space.no_fly or not category.can(action):
-            return NO_WAY
+            return inf
         across = hypot(*space.size, space.ceiling)
         up_and_down = (space.cruise_height + space.ceiling) / CLIMB_SPEED
         # to the source, to the target, and home

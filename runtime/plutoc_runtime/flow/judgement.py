@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import ANY_ERROR, HookFault
-from ..domain.guard import by_a_person
+from ..domain.guard import unless_by_a_person
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from ..domain.text import class_of, shown, text_of
 from ..fleet.reach import why_not
@@ -30,32 +30,30 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     """Apply a verdict; an invalid one is a fault of the evaluator."""
     mission, core = run.mission, run.core
     name = hook_name(hook)
+    who = f"evaluator {name}"
     wrong = unsound_mission(core.app, mission)
     if wrong is not None:
-        raise HookFault(f"evaluator {name} left a mission that cannot go on: {wrong}")
+        raise HookFault(f"{who} left a mission that cannot go on: {wrong}")
     if not issubclass(type(verdict), Verdict):
-        what = class_of(verdict)
-        raise HookFault(f"evaluator {name} must return a Verdict, not {what}")
+        raise HookFault(f"{who} must return a Verdict, not {class_of(verdict)}")
     verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # a subclass may lie
     if type(mission.trips) is not list or mission.trips:
-        raise HookFault(f"evaluator {name} changed the mission's trips: that is what `add` is for")
+        raise HookFault(f"{who} changed the mission's trips: that is what `add` is for")
     if all(map(is_, verdict, _CONTENT)):  # as by far the most verdicts
         return COMPLETED
-    redo, add = _listed(name, "redo", verdict.redo), _listed(name, "add", verdict.add)
-    for line in _listed(name, "log", verdict.log):
+    redo, add = _listed(who, "redo", verdict.redo), _listed(who, "add", verdict.add)
+    for line in _listed(who, "log", verdict.log):
         core.log(text_of(line, f"<{class_of(line)}>"), mission.name)
-    if verdict.fail is not None or not (_is_ok(name, verdict.ok) or redo or add):
+    if verdict.fail is not None or not (_is_ok(who, verdict.ok) or redo or add):
         reason = "" if verdict.fail is None else text_of(verdict.fail, shown(verdict.fail)).strip()
         core.transitions.judge_failed(mission, reason or f"{name} did not accept it")
         return FAILED
     for trip in redo:
         if not any(trip is done for done in mission.completed_trips):
             called = trip.name if type(trip) is core.app.trip else shown(trip)
-            raise HookFault(
-                f"evaluator {name} asks to redo a trip that mission {mission.name} "
-                f"has not completed: {called!r}"
-            )
-    added = tuple(_accepted(core, mission, name, trip) for trip in _once_each(add))
+            not_done = f"a trip that mission {mission.name} has not completed: {called!r}"
+            raise HookFault(f"{who} asks to redo {not_done}")
+    added = tuple(_accepted(core, mission, who, trip) for trip in _once_each(add))
     _name(mission, added)
     if not (redo or added):
         return COMPLETED
@@ -63,24 +61,19 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     return STANDBY
 
 
-def _is_ok(evaluator: str, value: object) -> bool:
+def _is_ok(who: str, value: object) -> bool:
     try:
         return bool(value)
     except ANY_ERROR as error:
-        if by_a_person(error):
-            raise
-        raise HookFault(
-            f"evaluator {evaluator} must give `ok` as True or False: {said(error)}"
-        ) from None
+        unless_by_a_person(error)
+        raise HookFault(f"{who} must give `ok` as True or False: {said(error)}") from None
 
 
-def _listed(evaluator: str, field: str, value: object) -> Sequence[Any]:
+def _listed(who: str, field: str, value: object) -> Sequence[Any]:
     for kind in (tuple, list):
         if issubclass(type(value), kind):
             return tuple(kind.__iter__(cast("Any", value)))
-    raise HookFault(
-        f"evaluator {evaluator} must give `{field}` as a tuple, not as {class_of(value)}"
-    )
+    raise HookFault(f"{who} must give `{field}` as a tuple, not as {class_of(value)}")
 
 
 def _once_each(trips: Sequence[Any]) -> list[Any]:
@@ -88,11 +81,11 @@ def _once_each(trips: Sequence[Any]) -> list[Any]:
     return list({id(trip): trip for trip in trips}.values())
 
 
-def _accepted(core: Core, mission: Mission[Any], evaluator: str, trip: Trip) -> Trip:
+def _accepted(core: Core, mission: Mission[Any], who: str, trip: Trip) -> Trip:
     """Fill in a new trip's default parameters; raise `HookFault` if it cannot be flown."""
     problem = _problem(core, mission, trip)
     if problem is not None:
-        raise HookFault(f"evaluator {evaluator} adds a trip that cannot be flown: {problem}")
+        raise HookFault(f"{who} adds a trip that cannot be flown: {problem}")
     parameters = core.app.actions[trip.action].parameters
     defaults = {p.name: p.default for p in parameters if p.default is not None}
     trip.parameters = {**defaults, **trip.parameters}

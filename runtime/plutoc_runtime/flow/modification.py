@@ -44,46 +44,43 @@ async def settle(
     before: OpenTrips,
 ) -> Status:
     """Return the status with which the mission continues; an impossible one is a fault."""
-    name = hook_name(hook)
-    wrong = unsound_mission(run.core.app, run.mission)
-    if wrong is not None:
-        raise HookFault(f"modifier {name} left a mission that cannot go on: {wrong}")
-    _check_trips(run, name)
+    name = f"modifier {hook_name(hook)}"
+    if (wrong := unsound_mission(run.core.app, run.mission)) is not None:
+        raise HookFault(f"{name} left a mission that cannot go on: {wrong}")
+    if (wrong := _wrong_trips(run)) is not None:
+        raise HookFault(f"{name} {wrong}")
     if run.core.on_record is None:  # else it has looked already
         look(hook, partial(_note_change, run.core, before), run.mission)
     if not emits:
         if returned is not None:
-            raise HookFault(
-                f"modifier {name} declares no `emits` and so must return nothing, not {_shown(returned)}"
-            )
+            nothing = f"so must return nothing, not {_shown(returned)}"
+            raise HookFault(f"{name} declares no `emits` and {nothing}")
         return status
     if type(returned) is not Status or returned not in emits:
         declared = ", ".join(status.value for status in emits)
-        raise HookFault(f"modifier {name} must return one of {declared}, not {_shown(returned)}")
+        raise HookFault(f"{name} must return one of {declared}, not {_shown(returned)}")
     lie = _contradiction(run.state, returned)
     if lie is not None:
-        raise HookFault(f"modifier {name} returned {returned.value}, but {lie}")
+        raise HookFault(f"{name} returned {returned.value}, but {lie}")
     flight = run.state.in_flight
     if returned is Status.FAILED and flight is not None:
-        run.state.abort(f"modifier {name} failed the trip")
+        run.state.abort(f"{name} failed the trip")
         ended = await flight  # which may have been done just before
         if ended in emits:
             return ended
     if returned is not run.mission.status:
-        reason = f"modifier {name} failed the mission" if returned is Status.FAILED else ""
+        reason = f"{name} failed the mission" if returned is Status.FAILED else ""
         run.core.transitions.modify(run.mission, returned, reason)
     return returned
 
 
-def _check_trips(run: Run[Any], name: str) -> None:
-    """Raise `HookFault` if the modifier left trips that cannot be flown."""
+def _wrong_trips(run: Run[Any]) -> str | None:
+    """Return what the modifier did to the trips so that they cannot be flown, or None."""
     mission, flying = run.mission, run.state.in_flight
     if type(mission.trips) is not list:
-        raise HookFault(f"modifier {name} made mission.trips {class_of(mission.trips)}, not a list")
+        return f"made mission.trips {class_of(mission.trips)}, not a list"
     if flying is not None and (not mission.trips or mission.trips[0] is not flying.trip):
-        raise HookFault(
-            f"modifier {name} took trip {flying.trip.name}, which is flying, from its place"
-        )
+        return f"took trip {flying.trip.name}, which is flying, from its place"
     seen: set[int] = set()
     for number, trip in enumerate(mission.trips, start=1):
         problem = unsound(run.core.app, run.core.airspace, trip)
@@ -92,9 +89,8 @@ def _check_trips(run: Run[Any], name: str) -> None:
         seen.add(id(trip))
         if problem is not None:
             called = trip.name if type(getattr(trip, "name", None)) is str else number
-            raise HookFault(
-                f"modifier {name} left a trip that cannot be flown, {called}: {problem}"
-            )
+            return f"left a trip that cannot be flown, {called}: {problem}"
+    return None
 
 
 def _note_change(core: Core, before: OpenTrips, mission: Mission[Any]) -> None:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Coroutine
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..domain.actions import Action
 from ..domain.errors import ANY_ERROR, ActionFailed, Failure, FlightFailed, HookFault
@@ -14,7 +13,7 @@ from ..hooks.calls import LONGEST_REASON, Hook, ProtectedFacts, changed, fault_o
 from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.keepable import keepable
 from ..time.future import Future
-from ..time.kernel import mission_key
+from ..time.kernel import Kernel, mission_key
 
 if TYPE_CHECKING:
     from ..trips.flight import Flight
@@ -47,8 +46,8 @@ class OwnAction(Action):
             await core.on_record()
         live = LiveDrone(kernel, core.orders, drone, key) if can_wait(hook) else None
         context = Context(kernel, core.results, core.log, mission, lambda: state.flight, live)
-        call = kernel.call_hook(hook, drone, trip, context, **trip.parameters)
-        work = kernel.spawn(_faults(hook, call), key, f"{mission.name}: {self.name}")
+        call = _call(kernel, hook, drone, trip, context, **trip.parameters)
+        work = kernel.spawn(call, key, f"{mission.name}: {self.name}")
         hover = kernel.spawn(core.orders.hold(drone.id), key, f"{drone.id} hovers")
         held = ProtectedFacts(trip, "name", "action", "item", "index", "attempt", "status")
         over: Future[None] = Future()
@@ -74,10 +73,10 @@ class OwnAction(Action):
         return value
 
 
-async def _faults(hook: Hook, call: Coroutine[Any, Any, object]) -> object:
-    """Await an action's call; all that it raises, `ActionFailed` aside, is a fault of the hook."""
+async def _call(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
+    """Call an action; all that it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
-        return await call
+        return await kernel.call_hook(hook, *args, **named)
     except (ActionFailed, *NOT_ITS_OWN):
         raise
     except ANY_ERROR as error:

@@ -109,10 +109,10 @@ def _explained(error: BaseException) -> str | None:
     from traceback import extract_tb  # not needed by those who only declare blocks
 
     if isinstance(error, AttributeError) and isinstance(error.obj, ModuleType):
-        file = error.obj.__file__ or ""
-        if PurePath(file).name == _HOOKS:
+        file = error.obj.__file__
+        if _is_hooks(file):
             return f"{file} has no {error.name}: write it; plutoc compile --add-stubs adds a stub"
-    if isinstance(error, SyntaxError) and PurePath(error.filename or "").name == _HOOKS:
+    if isinstance(error, SyntaxError) and _is_hooks(error.filename):
         return f"{error.filename}:{error.lineno}: {error.msg}"
     frames = [f for f in extract_tb(error.__traceback__) if _is_hooks(f.filename)]
     if not frames:
@@ -124,8 +124,5 @@ def _explained(error: BaseException) -> str | None:
     return why
 
 
-def _is_hooks(filename: str) -> bool:
-    return PurePath(filename).name == _HOOKS and filename != __file__  # this file is called so, too
-
-
-_HOOKS = "hooks.py"
+def _is_hooks(file: str | None) -> bool:
+    return PurePath(file or "").name == "hooks.py"

@@ -1,4 +1,4 @@
-"""What hooks are given and what an evaluator gives: the context, the live drone, the verdict."""
+"""What hooks see: the context, the live drone, the results, and the verdict of an evaluator."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
 from ..domain.errors import ActionFailed, FlightFailed
+from ..domain.model import NO_RESULT, Result, Results
 from ..domain.text import class_of, text_of
 from ..time.future import Future
 from ..time.kernel import EventKind, Kernel, mission_key
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Mission, Point, Result, ResultStore, Trip
+    from ..domain.model import Drone, Mission, Point, ResultStore, Trip
     from ..time.kernel import Key, Task
 
 T = TypeVar("T")
@@ -55,7 +56,7 @@ class Context:
     @property
     def results(self) -> Sequence[Result[Any, Any]]:
         """The results of all actions of the app so far."""
-        return self._results.so_far()
+        return View(self._results.results)
 
     def log(self, text: str) -> None:
         """Write a line on the console."""
@@ -208,6 +209,35 @@ _LONGEST = 100
 def _must_be_a_name(name: str) -> None:
     if not isinstance(name, str) or not 0 < len(name) <= _LONGEST:
         raise ValueError(f"what a drone is asked for is a text of 1 to {_LONGEST} characters")
+
+
+class View(Sequence[Result[Any, Any]]):
+    """The results so far, read-only: nothing is copied for each evaluation."""
+
+    def __init__(self, results: Sequence[Result[Any, Any]]) -> None:
+        self._results, self._count = results, len(results)
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __getitem__(self, index: Any) -> Any:
+        picked = range(self._count)[index]  # an IndexError is its own
+        if isinstance(picked, range):
+            return tuple(self._results[number] for number in picked)
+        return self._results[picked]
+
+    def __repr__(self) -> str:
+        return repr(tuple(self))
+
+
+def results_for(store: ResultStore, mission: Mission[Any]) -> Results[Any, Any]:
+    """Return what a mission's evaluator gets now; what is new is old from then on."""
+    new: list[Result[Any, Any]] = []
+    last, mission.last_result = mission.last_result, NO_RESULT
+    while last != NO_RESULT:
+        new.append(store.results[last])
+        last = store.before[last]
+    return Results(tuple(reversed(new)), View(store.results))
 
 
 class Verdict(NamedTuple):

@@ -68,27 +68,19 @@ def _is_usual(mission: Mission[Any]) -> bool:
 
 
 _TRIP: Mapping[str, tuple[type, ...]] = {
-    "name": (str,),
-    "action": (str,),
+    **dict.fromkeys(("name", "action", "reason"), (str,)),
     "status": (TripStatus,),
-    "attempt": (int,),
-    "index": (int,),
-    "reason": (str,),
+    **dict.fromkeys(("attempt", "index"), (int,)),
     "added": (bool,),
     "item": (type(None), Item),
-    "start_time": (type(None), float, int),
-    "end_time": (type(None), float, int),
+    **dict.fromkeys(("start_time", "end_time"), (type(None), float, int)),
 }
 
 _MISSION: Mapping[str, tuple[type, ...]] = {
-    "name": (str,),
+    **dict.fromkeys(("name", "reason"), (str,)),
     "completed_trips": (list,),
     "status": (Status,),
-    "reason": (str,),
-    "round": (int,),
-    "attempts": (int,),
-    "index": (int,),
-    "last_result": (int,),
+    **dict.fromkeys(("round", "attempts", "index", "last_result"), (int,)),
 }
 """The attributes that the runtime relies on, and their types."""
 

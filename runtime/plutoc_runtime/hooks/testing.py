@@ -20,7 +20,7 @@ from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Task
 from ..time.virtual import Stuck, VirtualTime
 from .calls import hook_name
-from .context import Context, LiveDrone, can_wait
+from .context import Context, LiveDrone, can_wait, results_for
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -233,7 +233,7 @@ class AppKit(Generic[M, T]):
 
     def results(self, mission: M) -> Results[M, T]:
         """Return what the mission's evaluator gets now; it is new only once."""
-        return self._store.for_evaluator(mission)
+        return results_for(self._store, mission)
 
     def context(self) -> KitContext:
         """Return a context, for the actions and modifiers that it is handed to."""

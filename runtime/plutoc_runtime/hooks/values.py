@@ -36,7 +36,7 @@ def trip_of(
     name, target = data.get("name", f"{index + 1}"), point_of(data["target"])
     trip = app.trip(name=name, action=data["action"], target=target, index=index)
     trip.status = status
-    if len(data) > _LEAST:  # most new trips have no more
+    if not _LEAST.issuperset(data):  # most new trips have no more
         source = data.get("source")
         trip.source = None if source is None else point_of(source)
         trip.parameters = data.get("parameters") or trip.parameters
@@ -50,8 +50,7 @@ def trip_of(
     return trip
 
 
-_LEAST = 4
-"""Name, action, target and index."""
+_LEAST = frozenset({"name", "action", "target", "index"})
 
 
 def known_fields(app: App, entity: Entity, data: Mapping[str, Any]) -> Data:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.flow.judgement import apply
+from plutoc_runtime.hooks.context import results_for
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -17,5 +18,5 @@ async def evaluate_mission(
 ) -> Status:
     """Ask the mission's evaluator, and do as its verdict says."""
     chosen = run.core.app.evaluators[evaluator] if evaluator else hook
-    results = run.core.results.for_evaluator(run.mission)
+    results = results_for(run.core.results, run.mission)
     return apply(run, chosen, await run.hook(chosen, run.mission, results))
