@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.flight import control, recovery
+from pluto_fleet.flight import control, reconcile, recovery
 from pluto_fleet.flight.reconcile import Outcome, outcome_of
 from pluto_fleet.flight.recorded_brain import RecordedBrain
 from pluto_fleet.gateway.gateway import Gateway, Link
@@ -21,7 +21,7 @@ from plutoc_runtime.fleet.fleet import Fleet
 from plutoc_runtime.flow import standing
 from plutoc_runtime.flow.engine import Engine
 from plutoc_runtime.flow.restore import Restorer
-from tests.equivalence import mistakes
+from plutoc_runtime.hooks import values
 
 Plant = Callable[[pytest.MonkeyPatch], None]
 
@@ -37,10 +37,6 @@ class Mutant:
     overrides: Mapping[str, Callable[..., object]] = field(default_factory=dict)
     plain: bool = False
     """Whether the example is not optimised."""
-
-
-def nothing(patch: pytest.MonkeyPatch) -> None:
-    """The mistake is in the app's own code."""
 
 
 def free_in_flight(patch: pytest.MonkeyPatch) -> None:
@@ -92,7 +88,7 @@ def snapshot_forgets_delays(patch: pytest.MonkeyPatch) -> None:
 
 def priority_is_lost(patch: pytest.MonkeyPatch) -> None:
     """A trip that is taken up again has the priority of a new one."""
-    really = standing.trip_of
+    really = values.trip_of
 
     def trip_of(app: Any, data: Any, index: int = 0, **more: Any) -> Any:
         trip: Any = really(app, data, index, **more)
@@ -133,7 +129,7 @@ def doubt_is_flown_again(patch: pytest.MonkeyPatch) -> None:
 
 def stops_count(patch: pytest.MonkeyPatch) -> None:
     """A flight that was interrupted counts as an attempt."""
-    really = recovery.for_brain
+    really = reconcile.for_brain
 
     def for_brain(app: Any, record: Any) -> Any:
         todo = record["todo"]
@@ -152,7 +148,7 @@ def results_are_lost(patch: pytest.MonkeyPatch) -> None:
 
 def carriers_are_given_away(patch: pytest.MonkeyPatch) -> None:
     """A drone with an item aboard is free for all after a Stop."""
-    really = recovery.for_brain
+    really = reconcile.for_brain
 
     def for_brain(app: Any, record: Any) -> Any:
         return {**really(app, record), "carrier": None}
@@ -199,13 +195,6 @@ def ends_are_forgotten(patch: pytest.MonkeyPatch) -> None:
 
 MUTANTS: Mapping[str, Mutant] = {
     "a drone is free in flight": Mutant(plant=free_in_flight, says="is free in the air"),
-    "a gate counts arrivals": Mutant(
-        plant=nothing,
-        says="failed after .* for a safe time of",
-        example="alfalfa",
-        overrides={"pass_first": mistakes.pass_first_and_leave_the_rest},
-        plain=True,
-    ),
     "DONE is written before the action": Mutant(
         plant=done_before_the_action, says="says that the action of .* was done: it was not"
     ),
