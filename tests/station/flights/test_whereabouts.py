@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.flight.live_engine import live_engine
 from pluto_fleet.flight.simulate import Simulation
 from pluto_fleet.station.rows import _named, blocks_of
 from plutoc.compile import analyse
@@ -38,18 +37,17 @@ def blocks_met(name: str, tmp_path: Any) -> Mapping[str, Sequence[tuple[str, ...
     met: dict[str, list[tuple[str, ...]]] = {m.name: [] for m in example.missions}
 
     def look() -> None:
-        for state in live_engine(simulation.session).states:
+        for state in simulation.brain._states.values():
             at, known = blocks_of(state, app.flow), met[state.mission.name]
             if at and (not known or known[-1] != at):
                 known.append(at)
 
     app = import_module(f"{name}.flow").APP
     kernel = VirtualTime()
-    simulation = Simulation(app, example.fleet, kernel, 0, Faults(), None)
+    simulation = Simulation(app, example.fleet, kernel, 0, Faults(), lambda event: None)
     kernel.settled = look
-    over = simulation.session.start(example.missions)
-    kernel.run(over, 100_000.0)
-    kernel.close()
+    kernel.run(simulation.start(example.missions), 100_000.0)
+    simulation.close()
     return met
 
 
