@@ -150,11 +150,8 @@ class Instant:
     async def write(self, drone: str, name: str, value: float) -> None:
         """Set nothing."""
 
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Rise."""
-
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly."""
+    async def home(self, drone: str) -> None:
+        """Fly home."""
 
     async def land(self, drone: str) -> None:
         """Land."""

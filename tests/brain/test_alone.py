@@ -278,6 +278,15 @@ def test_a_drone_that_has_crashed_is_lost() -> None:
     assert sky.told()["reason"].startswith("cf1 crashed at")
 
 
+def test_a_flight_that_is_broken_off_as_it_is_ordered_leaves_no_ground() -> None:
+    """The drone begins after all that is ordered with it."""
+    sky = Sky()
+    sky.fly(stops=[(5.0, 0.5, 1.2)])
+    sky.order("break_off")
+    assert sky.told(10.0) == {}
+    assert (sky.drone.landed, sky.drone.flown) == (True, 0.0)
+
+
 async def turn_on(drone: Drone, trip: Trip, context: Context) -> tuple[float, float]:
     live = context.live(drone)
     before = await live.read("temperature")

@@ -31,8 +31,9 @@ def flown(name: str) -> int:
         assert difference(with_traffic, by_itself) is None, f"{text}\n{world}"
         if with_traffic.spins:
             continue
-        whole = not with_traffic.ends[0].startswith(("BadInput", f"over after {world.until!r}"))
         real = record(package, world, patient=False, fly=in_real_time)
+        cut_off = ("BadInput", f"over after {world.until!r}")  # by asyncio at that very instant
+        whole = not any(run.ends[0].startswith(cut_off) for run in (with_traffic, real))
         assert seen(real, world, whole) == seen(with_traffic, world, whole), f"{text}\n{world}"
         events += len(with_traffic.events)
     return events
@@ -46,4 +47,4 @@ def test_one_drone_leaves_the_same_events_whatever_flies_it() -> None:
 @pytest.mark.long
 def test_one_drone_leaves_the_same_events_in_many_graphs() -> None:
     """More of the same."""
-    assert sum(flown(f"same/long/{number}") for number in range(1_500)) > 50_000
+    assert sum(flown(f"same/long/{number}") for number in range(1_000)) > 50_000

@@ -238,10 +238,11 @@ class FlightSession:
             why = partial(self._waiting.why, fleet)
             for name, record in in_order(life.records):
                 state = life.brain.states.get(name)
-                if state is None or state.task is None or aside(record) is not None:
-                    row = rows.recorded_row(name, record, lives=True)
-                else:
+                flies = state is not None and state.task is not None and not state.ended
+                if state is not None and flies and aside(record) is None:
                     row = rows.mission_row(app, state.mission, state, now, why)
+                else:
+                    row = rows.recorded_row(name, record, lives=True)
                 changed |= put(name, row, number)
         elif self.records is not None:
             for name, record in self.records.missions.items():

@@ -184,6 +184,7 @@ class IdealDrones:
         """Return the telemetry of the drones whose motion has changed since the last call."""
         motions = {}
         for drone in self.drones.values():
+            drone.settle()  # it may have touched down by itself
             if drone.changed:
                 motions[drone.id] = drone.motion
                 drone.changed = False
