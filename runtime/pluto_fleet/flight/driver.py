@@ -53,7 +53,7 @@ class Driver:
     def call(self, call: Callable[[float], object]) -> None:
         """Call the brain with the time, and pass on what it says."""
         if not self.halted:
-            self._look()
+            self.look()
             call(self._kernel.now)
             self.pump()
 
@@ -98,12 +98,13 @@ class Driver:
             return
         due = self._brain.due
         if due is not None and due <= now:
-            self._look()
+            self.look()
             self._brain.advance(now)
         self.pump()
 
-    def _look(self) -> None:
-        if motions := self._motions():
+    def look(self) -> None:
+        """Tell the brain where the drones are: hooks may look between two of its calls."""
+        if not self.halted and (motions := self._motions()):
             self._brain.tell({"telemetry": motions}, self._kernel.now)
 
 

@@ -72,8 +72,7 @@ class LiveFlight:
         setting, kernel, self._stops = self._setting, self._kernel, stops
         lost = partial(self._end.set, End.LOST)
         self._link = link = await setting.connect(kernel, self._store.epoch, lost)
-        if self._watcher is not None:
-            link.on_telemetry(self._watcher)
+        link.on_telemetry(self._seen)
         hooks = RealHooks(kernel)
         self.life = life = RecordedFlight(
             setting.app,
@@ -135,6 +134,13 @@ class LiveFlight:
     def on_telemetry(self, watcher: Callable[[], object]) -> None:
         """Call this at each update of the telemetry."""
         self._watcher = watcher
+
+    def _seen(self) -> None:
+        """Called at each update of the telemetry."""
+        if self.life is not None:
+            self.life.driver.look()
+        if self._watcher is not None:
+            self._watcher()
 
     async def close(self) -> None:
         """End this run; the drones hover, or continue their jobs."""

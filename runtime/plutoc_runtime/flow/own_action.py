@@ -13,7 +13,7 @@ from ..hooks.calls import LONGEST_REASON, Hook, ProtectedFacts, changed, fault_o
 from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.keepable import keepable
 from ..time.future import Future
-from ..time.kernel import Kernel, mission_key
+from ..time.kernel import EventKind, Kernel, mission_key
 
 if TYPE_CHECKING:
     from ..trips.flight import Flight
@@ -50,11 +50,14 @@ class OwnAction(Action):
         work = kernel.spawn(call, key, f"{mission.name}: {self.name}")
         hover = kernel.spawn(core.orders.hold(drone.id), key, f"{drone.id} hovers")
         held = ProtectedFacts(trip, "name", "action", "item", "index", "attempt", "status")
-        over: Future[None] = Future()
+        over, began = Future[None](), kernel.now
         work.watch(over.set)
         hover.watch(over.set)
         try:
             await over
+            if kernel.now == began and not hover.is_set:
+                # whether the drone can hover is told at this instant, after the order to do so
+                await kernel.sleep(0.0, EventKind.FLIGHT, key)
             if hover.is_set:
                 hover.result()  # raises what went wrong with the drone
             value = work.result()

@@ -37,31 +37,17 @@ def blocks_met(name: str, tmp_path: Any) -> Mapping[str, Sequence[tuple[str, ...
     met: dict[str, list[tuple[str, ...]]] = {m.name: [] for m in example.missions}
 
     def look() -> None:
-<<<<<<< HEAD
         for state in simulation.brain.states.values():
-            if state.ended:
-                continue
-=======
-        for state in simulation.brain._states.values():
->>>>>>> h-seam
             at, known = blocks_of(state, app.flow), met[state.mission.name]
             if at and (not known or known[-1] != at):
                 known.append(at)
 
     app = import_module(f"{name}.flow").APP
     kernel = VirtualTime()
-<<<<<<< HEAD
-    simulation = Simulation(app, example.fleet, kernel, 0, Faults(), lambda _: None)
-    kernel.settled = look
-    over = simulation.start(example.missions)
-    kernel.run(over, 100_000.0)
-    kernel.close()
-=======
     simulation = Simulation(app, example.fleet, kernel, 0, Faults(), lambda event: None)
     kernel.settled = look
     kernel.run(simulation.start(example.missions), 100_000.0)
     simulation.close()
->>>>>>> h-seam
     return met
 
 
