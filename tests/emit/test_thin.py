@@ -13,9 +13,9 @@ from plutoc.source import Source
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES, MOST_FILES = 6_000, 70
+MOST_LINES, MOST_FILES = 7_500, 62
 """Of the package of the thesis's basic flow: all of its Python, its tests included."""
-MOST_LINES_OF_ANY = 7_460
+MOST_LINES_OF_ANY = 8_900
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}
 OUTSIDE |= {"select", "selectors", "signal", "threading", "urllib", "http", "webbrowser"}

@@ -8,7 +8,7 @@ from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import AfterTrip
 from plutoc_runtime.domain.status import DroneStatus
 from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.virtual import Stuck
+from plutoc_runtime.time.told import Stuck
 
 from . import apps
 from .living import Living, enterable, names

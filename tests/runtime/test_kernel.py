@@ -11,7 +11,8 @@ from pluto_fleet.process.realtime import RealTime
 from plutoc_runtime.domain.errors import Cancelled
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import EventKind
-from plutoc_runtime.time.virtual import Stuck, VirtualTime
+from plutoc_runtime.time.told import Stuck
+from plutoc_runtime.time.virtual import VirtualTime
 
 
 def test_events_of_one_instant_come_by_kind_then_key_in_any_order_of_entry() -> None:

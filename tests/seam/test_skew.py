@@ -55,7 +55,7 @@ def app_that_speaks(folder: Path, seam: str) -> Path:
     package = compiled(NAME, folder)
     homes = [
         path
-        for path in (package / "src").rglob("_runtime/*.py")
+        for path in (package / "src").rglob("_runtime/**/*.py")
         if re.search(r"^SEAM = ", path.read_text("utf-8"), re.MULTILINE)
     ]
     for home in homes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import closing
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -153,10 +154,10 @@ def simulate(
 
     kernel = VirtualTime()
     simulation = Simulation(app, fleet, kernel, seed, faults, listen, around, slack)
-    ended, given_up = see_through(
-        simulation, partial(kernel.run, simulation.start(missions)), app.name, bound, until
-    )
-    return simulation.outcome(missions, events, ended, given_up)
+    with closing(simulation):
+        run = partial(kernel.run, simulation.start(missions))
+        ended, given_up = see_through(simulation, run, app.name, bound, until)
+        return simulation.outcome(missions, events, ended, given_up)
 
 
 _NOTHING: Mapping[str, object] = {}

@@ -9,7 +9,13 @@ from math import isinf
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.hooks.values import item_data, item_of, point_of, value_data, value_of
+from plutoc_runtime.hooks.values import (
+    item_data,
+    item_of,
+    point_of,
+    value_data,
+    value_of,
+)
 
 from ..jobs.reports import DroneReport, Entry, FleetReport, JobState
 

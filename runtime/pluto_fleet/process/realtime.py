@@ -3,24 +3,17 @@
 from __future__ import annotations
 
 import asyncio
-import os
 import time
-from collections.abc import Callable, Coroutine, Generator
-from contextlib import suppress
-from functools import lru_cache, partial
-from inspect import CO_COROUTINE, iscoroutinefunction
+from collections.abc import Callable
+from functools import partial
 from math import inf
-from opcode import opmap
-from threading import Thread
-from types import CodeType, CoroutineType, coroutine
-from typing import Any, NoReturn, TypeVar, cast
+from typing import TypeVar
 
 from plutoc_runtime.domain.errors import ANY_ERROR
-from plutoc_runtime.domain.guard import as_a_fault, guarded
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import Call, EventKind, Kernel, Key
 
-from .forked import end_if_forked
+from .hook_calls import End, end_at_once, end_of, never_waits
 from .signal_guard import by_a_person, guard_hooks
 
 T = TypeVar("T")
@@ -124,61 +117,21 @@ class RealTime(Kernel):
     async def call_hook(
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
-        """Run a hook concurrently: an `async def` as a task, a `def` in a thread.
-
-        One that never waits ends within the call, as in virtual time, so that simultaneous events have
-        the same order in both.
-        """
-        if _never_waits(hook):
-            return await _alone(cast("Coroutine[Any, Any, object]", hook(*args, **named)))
-        result: Future[object] = Future()
-        running = asyncio.ensure_future(self._answer(hook, partial(hook, *args, **named), result))
+        """Run a hook concurrently: an `async def` as a task, a `def` in a thread."""
+        call = partial(hook, *args, **named)
+        if never_waits(hook):
+            return end_at_once(call)()
+        ended: Future[End] = Future()
+        running = asyncio.ensure_future(self._answer(hook, call, ended))
         try:
-            return await result
+            return (await ended)()
         finally:
             running.cancel()
 
     async def _answer(
-        self, hook: Callable[..., object], call: Callable[[], object], result: Future[object]
+        self, hook: Callable[..., object], call: Callable[[], object], ended: Future[End]
     ) -> None:
-        """Wait for a hook, and post its result or its error."""
-        try:
-            returned = call() if iscoroutinefunction(hook) else await self._in_thread(call)
-            if issubclass(type(returned), CoroutineType):  # it may be anything
-                returned = await _alone(cast("Coroutine[Any, Any, object]", returned))
-        except ANY_ERROR as error:
-            if by_a_person(error):
-                raise
-            self.post(result.fail, as_a_fault(error))
-        else:
-            self.post(result.set, returned)
-
-    async def _in_thread(self, call: Callable[[], object]) -> object:
-        """Call this in a daemon thread: one that never returns does not keep the app from exiting."""
-        ended: asyncio.Future[Callable[[], object]] = self._loop.create_future()
-
-        def finish(end: Callable[[], object]) -> None:
-            if not ended.done():
-                ended.set_result(end)
-
-        def tell(end: Callable[[], object]) -> None:
-            with suppress(RuntimeError):  # the loop is closed: the answer is not needed any more
-                self._loop.call_soon_threadsafe(finish, end)
-
-        parent = os.getpid()
-
-        def work() -> None:
-            try:
-                returned = call()
-            except ANY_ERROR as error:
-                end_if_forked(parent, error)
-                tell(partial(_raise, error))
-            else:
-                end_if_forked(parent)
-                tell(lambda: returned)
-
-        Thread(target=work, name="hook", daemon=True).start()
-        return (await ended)()
+        self.post(ended.set, await end_of(hook, call))
 
     async def offer(self, future: Future[T]) -> T:
         """Wrap a future so that a hook, an asyncio task here, can await it."""
@@ -197,35 +150,3 @@ class RealTime(Kernel):
 
 def _nothing() -> None:
     """Post nothing: only what is due is processed."""
-
-
-def _raise(error: BaseException) -> NoReturn:
-    raise error
-
-
-@coroutine
-def _alone(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
-    """Run a hook inside this coroutine, guarded: a forked copy of the process ends there."""
-    step: Callable[[], object] = partial(hook.send, None)
-    while True:
-        try:
-            waits_for = guarded(step)
-        except StopIteration as end:
-            returned: T = end.value
-            return returned
-        try:
-            step = partial(hook.send, (yield waits_for))
-        except ANY_ERROR as error:  # raised in the hook
-            step = partial(hook.throw, error)
-
-
-def _never_waits(hook: Callable[..., object]) -> bool:
-    """Return whether this is an `async def` without any `await`, `async for` or `async with`."""
-    code = getattr(getattr(hook, "func", hook), "__code__", None)  # a partial carries its function
-    return isinstance(code, CodeType) and _runs_through(code)
-
-
-@lru_cache(maxsize=1_000)
-def _runs_through(code: CodeType) -> bool:
-    waits = opmap.get("SEND")  # every `await` is compiled to it
-    return bool(waits and code.co_flags & CO_COROUTINE and waits not in code.co_code[::2])

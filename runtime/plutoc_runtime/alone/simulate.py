@@ -7,6 +7,7 @@ hours, as a plan may last for months.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Any, Protocol
@@ -20,7 +21,7 @@ from ..domain.status import DroneStatus, Status
 from ..domain.text import counted, duration, quoted
 from ..domain.trace import Event
 from ..flow.standing import drones_of, fleet_data, mission_data, take_over
-from ..time.virtual import Stuck
+from ..time.told import Stuck
 from .ideal import IdealDrones
 
 if TYPE_CHECKING:
@@ -97,10 +98,10 @@ def simulate(
         if until is None and (enough := bound.look(event)) is not None:
             raise enough
 
-    flown = Alone(app, fleet, faults, seed, listen)
-    flown.begin(missions)
-    ended, given_up = see_through(flown, flown.run, app.name, bound, until)
-    return flown.outcome(missions, events, ended, given_up)
+    with closing(Alone(app, fleet, faults, seed, listen)) as flown:
+        flown.begin(missions)
+        ended, given_up = see_through(flown, flown.run, app.name, bound, until)
+        return flown.outcome(missions, events, ended, given_up)
 
 
 class Alone:
@@ -232,10 +233,6 @@ class Simulated(Protocol):
         """The time, in seconds since the start."""
         ...
 
-    def close(self) -> None:
-        """End everything where it is."""
-        ...
-
 
 def see_through(
     flown: Simulated,
@@ -264,8 +261,6 @@ def see_through(
             f"{name}: the simulation stops at {duration(flown.now)}: missions wait for ever, "
             f"because the policy gives them none of the drones ({waiting})"
         ) from None
-    finally:
-        flown.close()
 
 
 def outcome_data(name: str, seed: int, outcome: SimulationResult) -> dict[str, object]:

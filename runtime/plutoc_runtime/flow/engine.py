@@ -15,7 +15,8 @@ from ..fleet.fleet import Fleet
 from ..fleet.queue import Queue
 from ..fleet.reach import Reach
 from ..time.future import Future
-from ..time.kernel import FLEET, Kernel, Task, mission_key
+from ..time.kernel import FLEET, Task, mission_key
+from ..time.told import ToldTime
 from ..trips.transitions import Transitions
 from .location import as_crash, blame, blamed
 from .mission import Core, MissionState
@@ -176,7 +177,7 @@ class Session:
         self,
         app: App,
         fleet: FleetData,
-        kernel: Kernel,
+        kernel: ToldTime,
         orders: Orders,
         listeners: Sequence[Listener],
         on_record: Callable[[], Awaitable[None]] | None = None,

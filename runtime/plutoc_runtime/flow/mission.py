@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from ..fleet.fleet import Fleet
     from ..fleet.orders import Orders
     from ..fleet.queue import Queue
-    from ..time.kernel import Kernel, Task
+    from ..time.kernel import Task
+    from ..time.told import ToldTime
     from ..trips.transitions import Transitions
 
 
@@ -45,7 +46,7 @@ class Core:
     """The parts of a running app that all its missions share."""
 
     app: App
-    kernel: Kernel
+    kernel: ToldTime
     airspace: Airspace
     orders: Orders
     trace: Trace

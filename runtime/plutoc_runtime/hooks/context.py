@@ -12,7 +12,8 @@ from ..domain.errors import ActionFailed, FlightFailed
 from ..domain.model import NO_RESULT, Result, Results
 from ..domain.text import class_of, text_of
 from ..time.future import Future
-from ..time.kernel import EventKind, Kernel, mission_key
+from ..time.kernel import EventKind, mission_key
+from ..time.told import ToldTime
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Point, ResultStore, Trip
@@ -38,7 +39,7 @@ class Context:
 
     def __init__(
         self,
-        kernel: Kernel,
+        kernel: ToldTime,
         results: ResultStore,
         log: Callable[[str, str], None],
         mission: Mission[Any],
@@ -127,7 +128,7 @@ class LiveDrone:
 
     __slots__ = ("_drone", "_is_over", "_kernel", "_key", "_orders")
 
-    def __init__(self, kernel: Kernel, orders: Instruments, drone: Drone, key: Key) -> None:
+    def __init__(self, kernel: ToldTime, orders: Instruments, drone: Drone, key: Key) -> None:
         self._kernel, self._orders, self._drone, self._key = kernel, orders, drone, key
         self._is_over = False
 

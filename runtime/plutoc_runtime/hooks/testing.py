@@ -18,7 +18,8 @@ from ..domain.model import Drone, Mission, Point, Results, ResultStore, Trip
 from ..domain.status import COMPLETED, FAILED, RUNNING, STANDBY, Status, TripStatus
 from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Task
-from ..time.virtual import Stuck, VirtualTime
+from ..time.told import Stuck
+from ..time.virtual import VirtualTime
 from .calls import hook_name
 from .context import Context, LiveDrone, can_wait, results_for
 

@@ -238,11 +238,6 @@ class Kernel:
         """Return the seconds since the start; between events it is later than `now`."""
         return self.now
 
-    @property
-    def time_of_day(self) -> float:
-        """Seconds since midnight, local time."""
-        raise NotImplementedError
-
     def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
         """Schedule a call that can be cancelled; a time in the past means now."""
         timer = Timer(call)
@@ -297,10 +292,6 @@ class Kernel:
         self, hook: Callable[..., object], /, *args: object, **named: object
     ) -> object:
         """Call one of the app's hooks, `def` or `async def`, and return its result."""
-        raise NotImplementedError
-
-    def offer(self, future: Future[T]) -> Coroutine[Any, Any, T]:
-        """Wrap a future so that a hook can await it."""
         raise NotImplementedError
 
     def post(self, call: Callable[..., object], *args: object) -> None:

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Coroutine, Generator, Mapping, Sequence
 from functools import partial
-from typing import Any, Protocol, TypeVar
+from types import CoroutineType, coroutine
+from typing import Any, Protocol, TypeVar, cast
 
+from ..domain.errors import ANY_ERROR
+from ..domain.guard import by_a_person, guarded
 from .future import Future, Watcher
-from .kernel import Call, EventKind, Key
-from .virtual import VirtualTime
+from .kernel import Call, EventKind, ForeignAwait, Kernel, Key
 
 T = TypeVar("T")
 
 AT_ONCE = (None,)
 """Runs the coroutines that are ready, and nothing that waits for its time."""
+
+
+class Stuck(RuntimeError):
+    """Nothing will ever happen again, and something still waits."""
 
 
 class HookRunner(Protocol):
@@ -50,7 +56,7 @@ class HookRunner(Protocol):
         ...
 
 
-class ToldTime(VirtualTime):
+class ToldTime(Kernel):
     """The kernel of a brain. Without a runner hooks are called at once, in virtual time."""
 
     def __init__(self, runner: HookRunner | None = None, midnight: float = 0.0) -> None:
@@ -108,7 +114,7 @@ class ToldTime(VirtualTime):
         """Call one of the app's hooks, `def` or `async def`, and return its result."""
         runner = self._runner
         if runner is None:
-            return await super().call_hook(hook, *args, **named)
+            return await _finished(guarded(partial(hook, *args, **named)))
         self._calls = number = self._calls + 1
         if not runner.start(number, hook, partial(hook, *args, **named)):
             ended = self._hooks[number] = Future[None]()
@@ -118,7 +124,7 @@ class ToldTime(VirtualTime):
                 del self._hooks[number]
                 if not ended.is_set:
                     runner.cancel(number)
-        return await self.finished(runner.result(number))
+        return await _finished(runner.result(number))
 
     def hook_ended(self, message: Mapping[str, Any]) -> None:
         """Called when a hook that took its time has ended."""
@@ -132,3 +138,44 @@ class ToldTime(VirtualTime):
             return await future
         await waits
         return future.result()
+
+
+async def _finished(result: object) -> object:
+    """Return what a hook has returned; a coroutine is run to its end."""
+    if not issubclass(type(result), CoroutineType):  # a hook's result may lie about its class
+        return result
+    waiting = cast("Coroutine[Any, Any, object]", result)
+    try:
+        return await _run_cancellable(waiting)
+    except RuntimeError as error:
+        if isinstance(error, ForeignAwait) or "no running event loop" in str(error):
+            raise RuntimeError(
+                "in a simulation a hook may await only what its context offers "
+                "(context.sleep, context.trip_ended), not asyncio"
+            ) from error
+        raise
+
+
+@coroutine
+def _run_cancellable(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
+    """Run a hook inside this coroutine; a cancelled one cannot catch that and run on."""
+    step: Callable[[], object] = partial(hook.send, None)
+    while True:
+        try:
+            waits_for = guarded(step)
+        except StopIteration as end:
+            returned: T = end.value
+            return returned
+        try:
+            yield waits_for
+            step = partial(hook.send, None)
+        except ForeignAwait as error:
+            step = partial(hook.throw, error)
+        except BaseException as error:
+            for call in (partial(hook.throw, error), hook.close):
+                try:
+                    call()
+                except ANY_ERROR as its_own:  # its result is not wanted any more
+                    if by_a_person(its_own):
+                        raise
+            raise
