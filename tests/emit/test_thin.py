@@ -13,7 +13,7 @@ from plutoc.source import Source
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES, MOST_FILES = 7_500, 62
+MOST_LINES, MOST_FILES = 7_500, 75
 """Of the package of the thesis's basic flow: all of its Python, its tests included."""
 MOST_LINES_OF_ANY = 8_900
 
