@@ -11,16 +11,23 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 from .domain.app import SEAM
-from .domain.fleet_data import DroneData, FleetData
-from .domain.model import AfterTrip
+from .domain.model import AfterTrip, Drone, ResultStore
+from .domain.status import DroneStatus
+from .domain.trace import Trace
+from .fleet.fleet import Fleet
 from .fleet.orders import Order, Orders
+from .fleet.queue import Queue
+from .fleet.reach import Reach
 from .flow.control import Control
-from .flow.engine import Session
+from .flow.engine import Engine
+from .flow.mission import Core
 from .flow.recording import Recording
 from .flow.restore import Restorer
 from .flow.standing import drone_standing, mission_of, standing_of
 from .hooks.values import value_data
+from .time.kernel import FLEET
 from .time.told import AT_ONCE, HookRunner, ToldTime
+from .trips.transitions import Transitions
 
 if TYPE_CHECKING:
     from .domain.app import App
@@ -57,30 +64,33 @@ class Brain:
         before `go_on` has said how it is, and the brain must be told what is `durable`. With `silent`
         nothing is kept for `events`. Without `hooks` they are called at once.
         """
-        drones = [_drone(one, app) for one in fleet["drones"]]
-        self._app, self._kernel = app, ToldTime(hooks, fleet.get("midnight", 0.0))
-        self._orders = Orders(self._kernel, {drone.id: drone for drone in drones})
+        self._app, recorded = app, fleet.get("recorded", False)
+        self._kernel = kernel = ToldTime(hooks, fleet.get("midnight", 0.0))
         self._events: list[Event] = []
         self._states: dict[str, MissionState] = {}
-        recorded = fleet.get("recorded", False)
-        self._recording = Recording(app, self._states, self._events)
+        results = ResultStore()
+        self._recording = Recording(app, self._states, results, self._events)
         hear = self._recording.hear if recorded else self._events.append
-        self._session = Session(
-            app,
-            FleetData(
-                airspace=space,
-                drones=drones,
-                after_trip=AfterTrip(fleet.get("after_trip", "home")),
-                max_airborne=fleet.get("max_airborne"),
-            ),
-            self._kernel,
-            self._orders,
-            () if fleet.get("silent") else (hear,),
-            self._recording.on_record if recorded else None,
+        trace = Trace(kernel, () if fleet.get("silent") else (hear,))
+        self._orders = orders = Orders(kernel, {one["id"]: _home(one) for one in fleet["drones"]})
+        drones = _drones(app, fleet, orders, DroneStatus.OFFLINE if recorded else DroneStatus.FREE)
+        queue = Queue(kernel, Reach(app, space), drones, fleet.get("max_airborne"))
+        after_trip = AfterTrip(fleet.get("after_trip", "home"))
+        self._core = core = Core(
+            app=app,
+            kernel=kernel,
+            airspace=space,
+            orders=orders,
+            trace=trace,
+            results=results,
+            transitions=Transitions(kernel, trace, results),
+            queue=queue,
+            fleet=Fleet(kernel, trace, orders, drones, queue, after_trip),
+            on_record=self._recording.on_record if recorded else None,
         )
-        self._recording.results = self._session.core.results
-        self._restorer = Restorer(self._session.core, self._session.engine, self._states)
-        self._control = Control(self._session, self._states, self._restorer, self._orders.probed)
+        self._engine = engine = Engine(core)
+        self._restorer = Restorer(core, engine, self._states)
+        self._control = Control(core, engine, self._states, self._restorer)
         self._whole: Task[float] | None = None
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
@@ -90,12 +100,12 @@ class Brain:
     def _begin(self, missions: Sequence[Mapping[str, Any]]) -> None:
         first = len(self._states)
         begun = [mission_of(self._app, one, first + i) for i, one in enumerate(missions)]
-        self._states.update((state.mission.name, state) for state in self._session.set_out(begun))
+        self._states.update((state.mission.name, state) for state in self._engine.start(begun))
         self._see_through()
 
     def _see_through(self) -> None:
         if self._whole is None or self._whole.is_set:
-            self._whole = self._session.see_through_task()
+            self._whole = self._kernel.spawn(self._engine.see_through(), FLEET, "the whole")
 
     def go_on(self, standing: Mapping[str, Any], drones: Mapping[str, Any], now: float) -> None:
         """Resume missions from their records, after any end, or after one was paused.
@@ -108,7 +118,7 @@ class Brain:
 
     def _go_on(self, told: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
         standing, drones = told
-        fleet = self._session.core.fleet
+        fleet = self._core.fleet
         for drone in fleet.drones:
             if drone.id in standing.get("retired", ()):
                 fleet.retired.add(drone)
@@ -170,7 +180,7 @@ class Brain:
 
     def standing(self) -> Mapping[str, Any]:
         """Return where every mission and every drone stands, and all results."""
-        core = self._session.core
+        core = self._core
         return {
             "missions": {name: standing_of(self._app, one) for name, one in self._states.items()},
             "drones": self.drones(),
@@ -189,13 +199,13 @@ class Brain:
 
     def drones(self) -> Mapping[str, Any]:
         """Return where every drone stands."""
-        why = self._session.core.fleet.unready
-        return {one.id: drone_standing(one, why.get(one, "")) for one in self._session.drones}
+        why = self._core.fleet.unready
+        return {one.id: drone_standing(one, why.get(one, "")) for one in self._core.fleet.drones}
 
     @property
     def living(self) -> int:
         """How many missions are on their way through their graphs."""
-        return self._session.engine.living
+        return self._engine.living
 
     @property
     def over(self) -> float | None:
@@ -208,9 +218,9 @@ class Brain:
         return self._orders.drones[drone]
 
     @property
-    def session(self) -> Session:
+    def core(self) -> Core:
         """What is inside: for a station, until it reads all that it shows from `standing`."""
-        return self._session
+        return self._core
 
     @property
     def states(self) -> Mapping[str, MissionState]:
@@ -222,10 +232,27 @@ class Brain:
         self._kernel.close()
 
 
-def _drone(data: Mapping[str, Any], app: App) -> DroneData:
-    x, y, *z = data["home"]
-    category = data.get("category", app.categories[0].name)
-    return DroneData(id=data["id"], category=category, home=(x, y, z[0] if z else 0.0))
+def _home(drone: Mapping[str, Any]) -> Point:
+    x, y, *z = drone["home"]
+    return x, y, z[0] if z else 0.0
+
+
+def _drones(
+    app: App, fleet: Mapping[str, Any], orders: Orders, status: DroneStatus
+) -> tuple[Drone, ...]:
+    kinds = {category.name: category for category in app.categories}
+    usual = app.categories[0].name
+    return tuple(
+        Drone(
+            id=one["id"],
+            category=kinds[one.get("category", usual)],
+            home=_home(one),
+            telemetry=orders.drones[one["id"]],
+            status=status,
+            index=index,
+        )
+        for index, one in enumerate(fleet["drones"])
+    )
 
 
 def _nothing(_: object) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from typing import Any, TypeVar
 
-from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import Call, EventKind, Kernel, Key, Task, Timer
 
 T = TypeVar("T")
@@ -56,11 +55,6 @@ class Mortal(Kernel):
         """Return the host's time."""
         return self._host.time()
 
-    @property
-    def time_of_day(self) -> float:
-        """Seconds since midnight, at the host's."""
-        return self._host.time_of_day
-
     def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
         """Call this at a time, unless it is cancelled, or the kernel killed."""
         return self._host.at(when, kind, key, self._while_alive(call))
@@ -80,16 +74,6 @@ class Mortal(Kernel):
     def under_way(self) -> Sequence[Task[Any]]:
         """Return its own coroutines that have not ended."""
         return [task for task in self._mine if not task.is_set]
-
-    async def call_hook(
-        self, hook: Callable[..., object], /, *args: object, **named: object
-    ) -> object:
-        """Run a hook of the app's as the host does."""
-        return await self._host.call_hook(hook, *args, **named)
-
-    def offer(self, future: Future[T]) -> Coroutine[Any, Any, T]:
-        """Return what a hook may await for this future."""
-        return self._host.offer(future)
 
     def crash(self, error: BaseException) -> None:
         """An error that no coroutine caught stops the host as well: it is a mistake of ours."""

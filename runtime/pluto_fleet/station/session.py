@@ -233,7 +233,7 @@ class FlightSession:
     def _see_missions(self, number: int) -> bool:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.is_set_out:
-            now, app, fleet = self.now, self.flight.app, life.brain.session.core.fleet
+            now, app, fleet = self.now, self.flight.app, life.brain.core.fleet
             self._waiting.look(fleet)
             why = partial(self._waiting.why, fleet)
             for name, record in in_order(life.records):
@@ -259,9 +259,8 @@ class FlightSession:
     def _drones_now(self, life: RecordedFlight) -> Iterator[rows.Row]:
         states = life.brain.states.values()
         work = rows.mission_of_each(state for state in states if not state.ended)
-        session = life.brain.session
-        fleet = session.core.fleet
-        for drone in session.drones:
+        fleet = life.brain.core.fleet
+        for drone in fleet.drones:
             low = self._waiting.why_low(fleet, drone)
             why, status = low or fleet.unready.get(drone, ""), "LOW" if low else ""
             yield rows.drone_row(

@@ -18,7 +18,7 @@ from ..time.future import Future
 from .telemetry import KnownState
 
 if TYPE_CHECKING:
-    from ..domain.fleet_data import DroneData
+    from ..domain.model import Point
     from ..domain.trace import Clock
 
 Order = dict[str, Any]
@@ -29,10 +29,10 @@ Answer = Callable[[object], object]
 class Orders:
     """The orders of one brain. A cancelled command leaves its drone hovering where it is."""
 
-    def __init__(self, clock: Clock, drones: Mapping[str, DroneData]) -> None:
+    def __init__(self, clock: Clock, homes: Mapping[str, Point]) -> None:
         self.pending: list[Order] = []
         """The orders that have not been taken yet."""
-        self.drones = {drone: KnownState(clock, data.home) for drone, data in drones.items()}
+        self.drones = {drone: KnownState(clock, home) for drone, home in homes.items()}
         """What was told of the drones, by their ids; always current."""
         self._answers: dict[int, Answer] = {}
         """What to call with the outcome of each order that is under way, by its id."""

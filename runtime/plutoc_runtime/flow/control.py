@@ -16,30 +16,24 @@ if TYPE_CHECKING:
     from ..domain.actions import Action
     from ..domain.app import App
     from ..domain.model import Drone, Trip
-    from .engine import Session
-    from .mission import MissionState
+    from .engine import Engine
+    from .mission import Core, MissionState
     from .restore import Restorer
 
 PRIORITY = "priority"
 """The field of trips with the priority in the queue, in apps whose graph has one."""
 
 Request = Mapping[str, Any]
-Probed = Callable[[str, str, bool | None], object]
-"""Called with a drone, its flight, and whether the action was done; None: the app cannot tell."""
 
 
 class Control:
     """Carries out commands; each returns what it did, or raises `BadInput`."""
 
     def __init__(
-        self,
-        session: Session,
-        states: Mapping[str, MissionState],
-        restorer: Restorer,
-        probed: Probed,
+        self, core: Core, engine: Engine, states: Mapping[str, MissionState], restorer: Restorer
     ) -> None:
-        self._session, self._core, self._states = session, session.core, states
-        self._restorer, self._probed = restorer, probed
+        self._core, self._engine, self._states = core, engine, states
+        self._restorer = restorer
 
     def perform(self, request: Request) -> str:
         """Carry out a command."""
@@ -53,13 +47,13 @@ class Control:
 
     def _pause(self, request: Request) -> str:
         state = self._state(request)
-        self._session.engine.suspend(state)
+        self._engine.suspend(state)
         return f"{state.mission.name} has left its graph"
 
     def _cancel(self, request: Request) -> str:
         state = self._state(request)
         status = Status(request.get("status", Status.CANCELLED.value))
-        self._session.engine.cancel(state, status, str(request.get("reason", "")))
+        self._engine.cancel(state, status, str(request.get("reason", "")))
         return f"{state.mission.name} has ended"
 
     def _skip(self, request: Request) -> str:
@@ -107,7 +101,8 @@ class Control:
                 raise
             except ANY_ERROR as error:  # it cannot tell: a person must
                 self._core.log(trace_of(error), state.mission.name)
-            self._probed(flight.drone, flight.id, answer if type(answer) is bool else None)
+            known = answer if type(answer) is bool else None
+            self._core.orders.probed(flight.drone, flight.id, known)
 
         key = mission_key(state.mission.index)
         self._core.kernel.spawn(ask(), key, f"{flight.id} is probed")

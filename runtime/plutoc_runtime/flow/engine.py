@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Sequence
 from gc import freeze
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..domain.errors import Cancelled, HookFault, MissionFailed
 from ..domain.fields import Entity, wrong_field
-from ..domain.model import Drone, Mission, ResultStore
-from ..domain.status import FAILED, UNEXECUTED, DroneStatus, Status
-from ..domain.trace import Event, Trace
-from ..fleet.fleet import Fleet
-from ..fleet.queue import Queue
-from ..fleet.reach import Reach
+from ..domain.model import Mission
+from ..domain.status import FAILED, UNEXECUTED, Status
 from ..time.future import Future
-from ..time.kernel import FLEET, Task, mission_key
-from ..time.told import ToldTime
-from ..trips.transitions import Transitions
+from ..time.kernel import Task, mission_key
 from .location import as_crash, blame, blamed
 from .mission import Core, MissionState
 from .run import Run
-
-if TYPE_CHECKING:
-    from ..domain.app import App
-    from ..domain.fleet_data import FleetData
-    from ..fleet.orders import Orders
 
 
 class Engine:
@@ -42,10 +31,23 @@ class Engine:
 
     def start(self, missions: Sequence[Mission[Any]]) -> list[MissionState]:
         """Start the missions, all at the same instant."""
+        # All this lives until the end: the garbage collector need not traverse it each time, neither
+        # while the missions start nor afterwards.
+        freeze()
         states = [self.new_state(mission) for mission in missions]
         for state in states:
             self.enter(state, UNEXECUTED)
+        freeze()
         return states
+
+    async def see_through(self) -> float:
+        """Wait until every mission has ended and every drone has landed; return when the last one ended."""
+        while True:
+            await self.done
+            ended = self._core.kernel.now
+            await self._core.fleet.all_down()
+            if self.done.is_set:  # no mission has been resumed meanwhile
+                return ended
 
     def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the initial state of a mission."""
@@ -165,80 +167,3 @@ class Engine:
         state.ended = True
         self._core.transitions.end(mission, status, reason)
         self.look_for_the_end()
-
-
-Listener = Callable[[Event], object]
-
-
-class Session:
-    """One running app: its engine and its fleet."""
-
-    def __init__(
-        self,
-        app: App,
-        fleet: FleetData,
-        kernel: ToldTime,
-        orders: Orders,
-        listeners: Sequence[Listener],
-        on_record: Callable[[], Awaitable[None]] | None = None,
-    ) -> None:
-        self._kernel = kernel
-        known = DroneStatus.FREE if on_record is None else DroneStatus.OFFLINE
-        categories = {category.name: category for category in app.categories}
-        self.drones = tuple(
-            Drone(
-                id=entry.id,
-                category=categories[entry.category],
-                home=entry.home,
-                telemetry=orders.drones[entry.id],
-                status=known,
-                index=index,
-            )
-            for index, entry in enumerate(fleet.drones)
-        )
-        trace, results = Trace(kernel, listeners), ResultStore()
-        queue = Queue(kernel, Reach(app, fleet.airspace), self.drones, fleet.max_airborne)
-        self.core = Core(
-            app=app,
-            kernel=kernel,
-            airspace=fleet.airspace,
-            orders=orders,
-            trace=trace,
-            results=results,
-            transitions=Transitions(kernel, trace, results),
-            queue=queue,
-            fleet=Fleet(kernel, trace, orders, self.drones, queue, fleet.after_trip),
-            on_record=on_record,
-        )
-        self.engine = Engine(self.core)
-
-    def start(self, missions: Sequence[Mission[Any]]) -> Task[float]:
-        """Start the missions; the task returns the time at which the last one ended.
-
-        The task ends when every drone has landed as well.
-        """
-        self.set_out(missions)
-        return self.see_through_task()
-
-    def see_through_task(self) -> Task[float]:
-        """Return a task that runs `see_through`."""
-        return self._kernel.spawn(self.see_through(), FLEET, "the session")
-
-    def set_out(self, missions: Sequence[Mission[Any]]) -> list[MissionState]:
-        """Start the missions."""
-        # All this lives until the end: the garbage collector need not traverse it each time, neither
-        # while the missions start nor afterwards.
-        freeze()
-        states = self.engine.start(missions)
-        freeze()
-        return states
-
-    async def see_through(self) -> float:
-        """Wait until every mission has ended and every drone has landed; return when the last one ended."""
-        engine = self.engine
-        while True:
-            await engine.done
-            ended = self._kernel.now
-            await self.core.fleet.all_down()
-            if engine.done.is_set:  # no mission has been resumed meanwhile
-                return ended

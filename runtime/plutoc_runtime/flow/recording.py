@@ -21,9 +21,14 @@ if TYPE_CHECKING:
 class Recording:
     """Adds to events what a later run must know, and waits until they are durable."""
 
-    def __init__(self, app: App, states: Mapping[str, MissionState], events: list[Event]) -> None:
-        self._app, self._states, self._events = app, states, events
-        self.results: ResultStore | None = None
+    def __init__(
+        self,
+        app: App,
+        states: Mapping[str, MissionState],
+        results: ResultStore,
+        events: list[Event],
+    ) -> None:
+        self._app, self._states, self._results, self._events = app, states, results, events
         self._said = self._durable = 0
         """How many events there were, and how many of them are durable."""
         self._waiting: deque[tuple[int, Future[None]]] = deque()
@@ -51,8 +56,7 @@ class Recording:
         return {"plan": mission_data(self._app, self._states[str(event["mission"])].mission)}
 
     def _result(self, _: Event) -> Data:
-        assert self.results is not None
-        return {"result": value_data(self.results.newest)}
+        return {"result": value_data(self._results.newest)}
 
     def _fields(self, event: Event) -> Data:
         trip = self._states[str(event["mission"])].mission.current

@@ -30,8 +30,8 @@ def far(name: str, **more: Any) -> apps.Mission:
 
 def said(fleet: Living) -> list[str]:
     """Return what is said of each that waits."""
-    session = fleet.life.brain.session
-    return [why_no_drone(session.core.fleet, request) for request in session.core.queue.waiters()]
+    core = fleet.life.brain.core
+    return [why_no_drone(core.fleet, request) for request in core.queue.waiters()]
 
 
 def test_drones_that_are_free_but_too_low_are_not_what_a_mission_waits_for_without_a_word() -> None:
@@ -65,7 +65,7 @@ def test_who_is_busy_lost_or_kept_on_the_ground_by_the_limit_is_said() -> None:
         == ["2 free, but no more may fly at once; 1 flying"] * 2
     )
     fleet = living(*missions, apps.mission("d", apps.trip("1", 9.0)))
-    fleet.life.brain.session.drones[0].status = DroneStatus.LOST
+    fleet.life.brain.core.fleet.drones[0].status = DroneStatus.LOST
     assert said(fleet) == ["1 lost; 2 flying"]
 
 
@@ -73,7 +73,7 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
     None
 ):
     def why_low(fleet: Living) -> list[str]:
-        waiting, core = WaitReasons(lambda: 0.0), fleet.life.brain.session.core
+        waiting, core = WaitReasons(lambda: 0.0), fleet.life.brain.core
         waiting.look(core.fleet)
         return [waiting.why_low(core.fleet, drone) for drone in core.fleet.drones]
 
@@ -88,7 +88,7 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
 def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
     """None is forgotten, and nothing is found out twice within seconds."""
     fleet = living(*[far(f"m{n}") for n in range(3 * MISSIONS_A_LOOK)], low=0.25)
-    core = fleet.life.brain.session.core
+    core = fleet.life.brain.core
     waiting, seen = WaitReasons(lambda: 0.0), []
     trips = [request.trip for request in core.queue.waiters()]
     for _ in range(4):
