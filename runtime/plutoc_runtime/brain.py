@@ -24,7 +24,7 @@ from .flow.mission import Core
 from .flow.recording import Recording
 from .flow.restore import Restorer
 from .flow.standing import drone_standing, mission_of, standing_of
-from .hooks.values import value_data
+from .hooks.plain_data import value_data
 from .time.kernel import FLEET
 from .time.told import AT_ONCE, HookRunner, ToldTime
 from .trips.transitions import Transitions

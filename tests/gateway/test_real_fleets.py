@@ -20,9 +20,9 @@ from pluto_fleet.simulation.drones import SimulatedNavigation
 from plutoc_runtime.alone.faults import Faults
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.mission_data import trip_data
 from plutoc_runtime.domain.model import Drone, Point
 from plutoc_runtime.domain.status import DroneStatus, Status
+from plutoc_runtime.hooks.plain_data import trip_data
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 

@@ -18,8 +18,7 @@ from plutoc_runtime.domain.status import Status
 from plutoc_runtime.domain.text import LONGEST_VALUE, shown
 from plutoc_runtime.flow.own_action import OwnAction
 from plutoc_runtime.hooks.context import Context, Verdict
-from plutoc_runtime.hooks.keepable import keepable
-from plutoc_runtime.hooks.values import value_data, value_of
+from plutoc_runtime.hooks.plain_data import keepable, value_data, value_of
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 

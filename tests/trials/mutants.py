@@ -21,7 +21,7 @@ from plutoc_runtime.fleet.fleet import Fleet
 from plutoc_runtime.flow import standing
 from plutoc_runtime.flow.engine import Engine
 from plutoc_runtime.flow.restore import Restorer
-from plutoc_runtime.hooks import values
+from plutoc_runtime.hooks import plain_data
 
 Plant = Callable[[pytest.MonkeyPatch], None]
 
@@ -88,7 +88,7 @@ def snapshot_forgets_delays(patch: pytest.MonkeyPatch) -> None:
 
 def priority_is_lost(patch: pytest.MonkeyPatch) -> None:
     """A trip that is taken up again has the priority of a new one."""
-    really = values.trip_of
+    really = plain_data.trip_of
 
     def trip_of(app: Any, data: Any, index: int = 0, **more: Any) -> Any:
         trip: Any = really(app, data, index, **more)

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import Cancelled, FlightFailed
-from plutoc_runtime.hooks.values import item_of, value_data
+from plutoc_runtime.hooks.plain_data import item_of, value_data
 
 if TYPE_CHECKING:
     from collections.abc import Coroutine

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import FlightFailed
 from plutoc_runtime.domain.text import shown
-from plutoc_runtime.hooks.values import value_data
+from plutoc_runtime.hooks.plain_data import value_data
 
 from ..jobs.reports import Entry, JobState, reported_result
 

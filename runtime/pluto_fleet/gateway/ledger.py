@@ -11,7 +11,7 @@ from pathlib import Path
 from zlib import crc32
 
 from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.hooks.values import value_of
+from plutoc_runtime.hooks.plain_data import value_of
 
 from ..jobs.reports import Entry, JobState
 from .wire import entry_data

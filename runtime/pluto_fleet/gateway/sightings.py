@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import Failure
-from plutoc_runtime.hooks.values import point_of
+from plutoc_runtime.hooks.plain_data import point_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.errors import FlightFailed

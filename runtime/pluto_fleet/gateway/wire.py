@@ -9,7 +9,7 @@ from math import isinf
 from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.hooks.values import (
+from plutoc_runtime.hooks.plain_data import (
     item_data,
     item_of,
     point_of,

@@ -16,7 +16,7 @@ from plutoc_runtime.alone.faults import Drawn, befell
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.fleet.reach import CLIMB_SPEED, docked
 from plutoc_runtime.fleet.telemetry import Charge, Leg, resting
-from plutoc_runtime.hooks.values import item_data, item_of, point_of
+from plutoc_runtime.hooks.plain_data import item_data, item_of, point_of
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, Key
 

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.hooks.values import item_data, item_of, value_data, value_of
+from plutoc_runtime.hooks.plain_data import item_data, item_of, value_data, value_of
 
 from .body import Body
 from .drones import WorldAction

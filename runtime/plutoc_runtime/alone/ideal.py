@@ -15,7 +15,7 @@ from ..domain.airspace import permitted_way, way_from
 from ..domain.errors import Failure, FlightFailed
 from ..fleet.reach import CLIMB_SPEED, docked, flight_seconds, grip_problem
 from ..fleet.telemetry import Charge, Leg, resting
-from ..hooks.values import item_of, point_of, value_data
+from ..hooks.plain_data import item_of, point_of, value_data
 from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
 from .world import World
 

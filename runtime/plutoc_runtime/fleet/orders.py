@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import Failure, FlightFailed
-from ..hooks.values import value_of
+from ..hooks.plain_data import value_of
 from ..time.future import Future
 from .telemetry import KnownState
 

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import FlightFailed
-from ..domain.mission_data import change_data
 from ..domain.status import Status, TripStatus
 from ..domain.text import bounded
 from ..hooks.calls import LONGEST_LOG, look
+from ..hooks.plain_data import change_data
 from ..time.kernel import mission_key
 from ..trips.flight import Flight
 
@@ -157,7 +157,7 @@ class MissionState:
     def new_flight(self, trip: Trip, drone: Drone, retry: bool) -> Flight:
         """Return a flight of one of its trips, which tells this mission what comes of it."""
         action, now = self.core.app.actions[trip.action], self.core.kernel.now
-        return Flight(self.mission, trip, drone, action, now, retry, self.reported)
+        return Flight(self.mission, trip, drone, action, now, retry)
 
     def reported(self, flight: Flight, result: object) -> None:
         """Called when a flight has arrived, is done, or has failed."""

@@ -7,11 +7,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import HookFault
-from ..domain.mission_data import change_data
 from ..domain.status import Status, TripStatus
 from ..domain.text import bounded, class_of, shown
 from ..hooks.calls import hook_name, look
 from ..hooks.context import Context
+from ..hooks.plain_data import change_data
 from ..hooks.soundness import unsound, unsound_mission
 
 if TYPE_CHECKING:

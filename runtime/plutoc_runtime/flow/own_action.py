@@ -11,7 +11,7 @@ from ..domain.guard import NOT_ITS_OWN
 from ..domain.text import bounded, text_of
 from ..hooks.calls import LONGEST_REASON, Hook, ProtectedFacts, changed, fault_of
 from ..hooks.context import Context, LiveDrone, can_wait
-from ..hooks.keepable import keepable
+from ..hooks.plain_data import keepable
 from ..time.future import Future
 from ..time.kernel import EventKind, Kernel, mission_key
 

@@ -7,8 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..domain.fields import Entity
-from ..domain.mission_data import Data, fields_of, trip_data
-from ..hooks.values import mission_data, value_data
+from ..hooks.plain_data import Data, fields_of, mission_data, trip_data, value_data
 from ..time.future import Future
 
 if TYPE_CHECKING:

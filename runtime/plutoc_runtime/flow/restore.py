@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..domain.status import RUNNING, STANDBY, UNEXECUTED, Status
 from ..fleet.orders import failure_of
-from ..hooks.values import item_of, value_of
+from ..hooks.plain_data import item_of, value_of
 from .standing import update
 
 if TYPE_CHECKING:
@@ -136,11 +137,11 @@ class Restorer:
         flight = state.flight
         assert flight is not None
         if report is None:
-            self._core.orders.attach(flight.drone, flight.report, flight.id)
+            self._core.orders.attach(flight.drone, partial(state.reported, flight), flight.id)
         elif "failure" in report:
-            flight.report(failure_of(report))
+            state.reported(flight, failure_of(report))
         else:
-            flight.report(value_of(report.get("value")))
+            state.reported(flight, value_of(report.get("value")))
 
 
 def _place(place: Iterable[Any]) -> tuple[str, str, int, int]:

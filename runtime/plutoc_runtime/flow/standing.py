@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
-from ..domain.mission_data import Data, fields_of, trip_data
 from ..domain.model import Drone
 from ..domain.status import DroneStatus, Status, TripStatus
-from ..hooks import values
-from ..hooks.values import item_data, known_fields, trip_of
+from ..hooks import plain_data
+from ..hooks.plain_data import Data, fields_of, item_data, known_fields, trip_data, trip_of
 
 if TYPE_CHECKING:
     from ..domain.app import App
@@ -143,7 +142,7 @@ def fleet_data(fleet: FleetData) -> Data:
 
 def mission_data(app: App, mission: Mission[Any]) -> Data:
     """Return a mission to begin."""
-    return {"name": mission.name, **values.mission_data(app, mission)}
+    return {"name": mission.name, **plain_data.mission_data(app, mission)}
 
 
 def take_over(

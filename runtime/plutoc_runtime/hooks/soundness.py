@@ -12,7 +12,7 @@ from ..domain.model import Item
 from ..domain.status import Status, TripStatus
 from ..domain.text import class_of, shown
 from .calls import said
-from .keepable import keepable
+from .plain_data import keepable
 
 if TYPE_CHECKING:
     from ..domain.airspace import Airspace

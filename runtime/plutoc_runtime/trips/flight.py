@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ..domain.status import FAILED, Status
-from ..hooks.values import item_data
+from ..hooks.plain_data import item_data
 from ..time.future import Future
 
 if TYPE_CHECKING:
@@ -20,7 +19,6 @@ class Flight(Future[Status]):
 
     __slots__ = (
         "_action",
-        "_reported",
         "called_off",
         "flier",
         "hook",
@@ -40,7 +38,6 @@ class Flight(Future[Status]):
         action: Action,
         launched_at: float,
         retry: bool,
-        reported: Callable[[Flight, object], None],
     ) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
@@ -50,8 +47,6 @@ class Flight(Future[Status]):
         self.launched_at = launched_at
         self.retry = retry
         """The mission's previous flight was of the same trip, and failed."""
-        self._reported = reported
-        """Called with what came of it."""
         self.own_action: Task[None] | None = None
         """The task of an action of the app's own, once it has begun."""
         self.called_off = False
@@ -91,7 +86,3 @@ class Flight(Future[Status]):
     def failed(self) -> bool:
         """Whether it has ended, and failed."""
         return self._value is FAILED
-
-    def report(self, result: object) -> None:
-        """Called with the action's result, or with the `FlightFailed` that ended it."""
-        self._reported(self, result)

@@ -10,7 +10,7 @@ from plutoc_runtime.domain.actions import BUILT_IN, Parameter
 from plutoc_runtime.domain.model import Photo
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.values import value_data
+from plutoc_runtime.hooks.plain_data import value_data
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, tell

@@ -1,21 +1,98 @@
-"""Missions, trips and results as plain data, and back."""
+"""Missions, trips and results as plain data, and back; what cannot be stored as such is stored as its text."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from math import isfinite
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
+from math import isfinite, log10
+from typing import TYPE_CHECKING, Any, cast
 
+from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
-from ..domain.mission_data import MOST_BITS, Data, fields_of, trip_data
+from ..domain.guard import unless_by_a_person
 from ..domain.model import Item, Photo
 from ..domain.status import TripStatus
-from ..domain.text import shown
-from .keepable import are_named, keepable
+from ..domain.text import MOST_DIGITS, shown
 
 if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.model import Mission, Point, Trip
+
+Data = dict[str, Any]
+"""Plain data, as JSON can hold it."""
+
+
+def fields_of(app: App, entity: Entity, of: object) -> Data:
+    """Return the filled-in fields that the app's graph adds to missions or to trips."""
+    given = {field: getattr(of, field.name) for field in app.fields if field.on is entity}
+    return {f.name: _plain(value) for f, value in given.items() if value is not f.default}
+
+
+def change_data(app: App, mission: Mission[Any]) -> Data:
+    """Return the state of a mission that a hook has changed."""
+    return {
+        "mission": mission.name,
+        "todo": [trip_data(app, trip) for trip in mission.trips],
+        "done": [trip_data(app, trip) for trip in mission.completed_trips],
+        "fields": fields_of(app, Entity.MISSION, mission),
+    }
+
+
+def trip_data(app: App, trip: Trip) -> Data:
+    """Return a trip without the values that every new trip has."""
+    data: Data = {
+        "name": _plain(trip.name),
+        "action": _plain(trip.action),
+        "target": _place(trip.target),
+        "index": _plain(trip.index),
+    }
+    fields = fields_of(app, Entity.TRIP, trip)
+    if fields:
+        data["fields"] = fields
+    if trip.source is not None:
+        data["source"] = _place(trip.source)
+    if trip.parameters:
+        data["parameters"] = {
+            _plain(name): _plain(value) for name, value in trip.parameters.items()
+        }
+    if trip.item is not None:
+        data["item"] = {"name": _plain(trip.item.name), "mass": _plain(trip.item.mass)}
+    if trip.added:
+        data["added"] = True
+    if trip.attempt != 1:
+        data["attempt"] = _plain(trip.attempt)
+    if trip.status is not TripStatus.WAITING:
+        data["status"] = trip.status.value
+    return data
+
+
+def _plain(value: object) -> object:
+    """Return a field's value, as text if a hook set it to something that is not plain data."""
+    kind = type(value)
+    if kind in _SIMPLE:
+        return value
+    if issubclass(kind, int):
+        number = int.__pos__(cast("int", value))
+        return number if number.bit_length() <= MOST_BITS else shown(value)
+    if issubclass(kind, float):
+        real = float.__pos__(cast("float", value))
+        return real if isfinite(real) else shown(value)
+    return str.__str__(cast("str", value)) if issubclass(kind, str) else shown(value)
+
+
+_SIMPLE = (type(None), bool, float, str)
+MOST_BITS = int(MOST_DIGITS / log10(2))
+"""Bits of a number; a longer one is kept as text."""
+
+
+def _place(point: Sequence[float]) -> list[object]:
+    """Return a point, which a hook may have made of anything; raise `TypeError` if it is not one."""
+    if not issubclass(type(point), (tuple, list)) or len(point) > _COORDINATES:
+        raise TypeError(f"a place is (x, y, z), not {shown(point)[:_COORDINATES * 20]}")
+    return [_plain(number) for number in point]
+
+
+_COORDINATES = 3
 
 
 def mission_data(app: App, mission: Mission[Any]) -> Data:
@@ -76,6 +153,9 @@ def item_of(data: Mapping[str, Any] | None) -> Item | None:
 def item_data(item: Item | None) -> Data | None:
     """Return an item as plain data."""
     return None if item is None else {"name": item.name, "mass": item.mass}
+
+
+# Results of hooks
 
 
 def value_data(value: object) -> object:
@@ -152,3 +232,50 @@ def _photo_of(photo: Mapping[str, Any]) -> Photo:
         sharpness=photo["sharpness"],
         file=photo.get("file"),
     )
+
+
+_HARMLESS = (type(None), bool, float)
+
+_DEEPEST, _MOST, _LONGEST = 50, 300_000, 10_000_000
+"""Limits of one value: its depth, its number of parts, its characters."""
+
+
+def keepable(value: object) -> object:
+    """Return a hook's result, or its text if it is too large, too deep or circular."""
+    try:
+        return value if type(value) in _HARMLESS or _fits(value) else shown(value)
+    except ANY_ERROR as error:  # its own: a value may be an object of any kind
+        unless_by_a_person(error)
+        return shown(value)
+
+
+def are_named(items: Iterable[tuple[Any, Any]]) -> bool:
+    """Return whether these are values by name, with no name reserved by the journal."""
+    return all(issubclass(type(name), str) and not str.startswith(name, "$") for name, _ in items)
+
+
+def _fits(value: Any) -> bool:
+    """Return whether all parts of a value are within the limits; its methods are not called."""
+    left, parts, characters = [(value, 0)], 0, 0
+    while left:
+        part, depth = left.pop()
+        kind, texts = type(part), list[str]()
+        inner: Iterator[Any] = iter(())
+        if issubclass(kind, list):
+            inner = list.__iter__(part)
+        elif issubclass(kind, tuple):
+            inner = tuple.__iter__(part)
+        elif issubclass(kind, dict) and are_named(items := tuple(dict.items(part))):
+            texts, inner = [name for name, _ in items], (one for _, one in items)
+        elif kind is Photo:
+            x, y, z = part.position
+            _ = [float(one) for one in (x, y, z, part.width, part.height, part.sharpness)]
+            texts = [*map(str, part.sees), str(part.file)]
+        elif part is not None and not issubclass(kind, (int, float)):
+            texts = [part if issubclass(kind, str) else shown(part)]
+        left += [(one, depth + 1) for one in islice(inner, _MOST)]
+        parts += 1
+        characters += sum(map(str.__len__, texts))
+        if depth > _DEEPEST or parts > _MOST or characters > _LONGEST:
+            return False
+    return True
