@@ -105,7 +105,7 @@ def hooks(both: Both) -> Iterator[Change]:
         yield from _repeats(before, after)
         yield from _parameters(before, after)
         yield from _statuses(before, after)
-    kept = set(both.hooks.plain_data())
+    kept = set(both.hooks.values())
     yield from (messages.hook_removed(one) for one in old.values() if one.name not in both.hooks)
     yield from (messages.hook_added(one) for one in new.values() if one.name not in kept)
 

@@ -190,7 +190,7 @@ def hook_pairs(old: Graph, new: Graph, blocks: Pairs) -> Pairs:
 
 def category_pairs(old: Graph, new: Graph, hooks: Pairs) -> Pairs:
     """Return the names of the categories in both apps."""
-    known = {hook: hook for hook in hooks.plain_data()}
+    known = {hook: hook for hook in hooks.values()}
     return _paired(
         tuple((one.name, None, _shape(one, hooks)) for one in old.categories),
         tuple((one.name, None, _shape(one, known)) for one in new.categories),

@@ -131,7 +131,7 @@ def _choose(place: Place, param: Choice, argument: Argument | None) -> Choose:
     if param.hook and place.unclear.may_declare(name.text):
         return default
     hook = param.hook.value if param.hook else None
-    hooks = [each.name for each in place.hooks.plain_data() if each.kind is param.hook]
+    hooks = [each.name for each in place.hooks.values() if each.kind is param.hook]
     place.found.append(
         value_errors.unknown_option(
             place.source, name.span, param.name, name.text, options, [*options, *hooks], hook
@@ -144,7 +144,7 @@ def _hook(
     place: Place, declared: BlockDecl, param: HookParam, given: Mapping[str, Argument]
 ) -> Hook | None:
     argument = given.get(param.name)
-    hooks = [hook.name for hook in place.hooks.plain_data() if hook.kind is param.kind]
+    hooks = [hook.name for hook in place.hooks.values() if hook.kind is param.kind]
     example = hooks[0] if hooks else f"my_{param.kind.value}"
     if argument is None:
         if param.required:
@@ -182,7 +182,7 @@ def _of_kind(place: Place, name: Name, kind: HookKind) -> Hook | None:
             )
         )
     else:
-        known = [hook.name for hook in place.hooks.plain_data() if hook.kind is kind]
+        known = [hook.name for hook in place.hooks.values() if hook.kind is kind]
         place.found.append(
             value_errors.unknown_hook(place.source, name.span, name.text, kind.value, known)
         )

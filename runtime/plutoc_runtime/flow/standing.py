@@ -13,7 +13,14 @@ from ..domain.guard import unless_by_a_person
 from ..domain.model import Drone
 from ..domain.status import DroneStatus, Status, TripStatus
 from ..hooks import plain_data
-from ..hooks.plain_data import Data, fields_of, item_data, known_fields, trip_data, trip_of
+from ..hooks.plain_data import (
+    Data,
+    fields_of,
+    item_data,
+    known_fields,
+    trip_data,
+    trip_of,
+)
 
 if TYPE_CHECKING:
     from ..domain.app import App
