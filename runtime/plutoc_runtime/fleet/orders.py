@@ -63,7 +63,7 @@ class Orders:
 
     def fly(self, drone: str, answer: Answer, flight: Order) -> None:
         """Order a flight: take off, fly to its stops and do its action; without one, arrive and hover."""
-        self._flying[drone] = self._give({"do": "fly", "drone": drone, **flight}, answer)
+        self._flying[drone] = self._give(flight, answer)
 
     def attach(self, drone: str, answer: Answer, flight: str) -> None:
         """Order the report of a flight that began before an interruption."""

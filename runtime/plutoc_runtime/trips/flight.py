@@ -74,6 +74,8 @@ class Flight(Future[Status]):
         trip = self.trip
         source, item = trip.source, trip.item
         return {
+            "do": "fly",
+            "drone": self.flier.id,
             "flight": self.id,
             "stops": (trip.target,) if source is None else (source, trip.target),
             "action": trip.action if self.hook is None else None,
