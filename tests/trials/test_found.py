@@ -219,3 +219,16 @@ def test_no_action_begins_after_its_mission_was_paused(after: float) -> None:
     assert events.index("mission.paused") < events.index("action.begun")
     assert "mission.uncertain" not in events
     assert trial.ends == {"m1": "COMPLETED"}
+
+
+def test_a_mission_that_is_cancelled_while_its_drone_is_asked_ends_after_its_flight() -> None:
+    """It has been paused a moment before, and the line is slow."""
+    missions = (sprayed("m1", 0, (2.9, 2.7, 1.2)),)
+    pause = Strike(kind=StrikeKind.PAUSE, row=1, after=5.0)
+    cancel = Strike(kind=StrikeKind.CANCEL, row=1, after=5.4)
+    fair = Case(seed=1, missions=missions, fleet=NEIGHBOURS, weather=Weather(slow=0.4))
+    trial = tried(SPRAYER, replace(fair, strikes=(pause, cancel)))
+    assert trial.wrong == ()
+    assert trial.ends == {"m1": "CANCELLED"}
+    events = [event["event"] for event in trial.events]
+    assert events.index("trip.failed") < events.index("mission.ended")

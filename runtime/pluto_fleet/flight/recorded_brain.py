@@ -11,6 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.brain import Brain
+from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow.standing import drones_of, fleet_data, update
 from plutoc_runtime.time.kernel import FLEET, Kernel
@@ -21,7 +22,7 @@ from ..process.signal_guard import guard_hooks
 from .driver import Driver, Message, Order
 from .mission_status import aside, in_order
 from .orders import Dispatcher, outcome
-from .reconcile import Outcome, outcome_of
+from .reconcile import Outcome, ended, in_flight, outcome_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -145,8 +146,19 @@ class RecordedBrain:
 
     def _hear(self, event: Event) -> None:
         self._heard += 1
+        if event["event"] == "mission.ended":
+            self._end_flight_of(event)
         self._take(event)
         self.recorder.when_durable(partial(self._tell_durable, self._heard))
+
+    def _end_flight_of(self, event: Event) -> None:
+        """Fail the flight of a mission that ends while it is found out what came of that."""
+        name = str(event["mission"])
+        record = self.records.missions[name]
+        flight = in_flight(record)
+        if flight is not None and record["question"] is None:
+            reason = f"its mission ended: {event['reason'] or event['status']}"
+            self.take(ended(name, flight, FlightFailed(Failure.REFUSED, reason)))
 
     def hook_ended(self, number: int) -> None:
         """Called within the kernel when a hook that took its time has ended."""
