@@ -149,7 +149,8 @@ class RecordedBrain:
         if event["event"] == "mission.ended":
             self._end_flight_of(event)
         self._take(event)
-        self.recorder.when_durable(partial(self._tell_durable, self._heard))
+        if event["event"] == "action.begun":  # all that a brain waits for
+            self.recorder.when_durable(partial(self._tell_durable, self._heard))
 
     def _end_flight_of(self, event: Event) -> None:
         """Fail the flight of a mission that ends while it is found out what came of that."""
