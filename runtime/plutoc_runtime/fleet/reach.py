@@ -185,21 +185,6 @@ def grip_problem(
     return None
 
 
-def wrong_aboard(trips: Sequence[Trip]) -> tuple[int, str] | None:
-    """Return the first trip that picks or releases in the wrong order, and why, or None."""
-    aboard: Item | None = None
-    for place_, trip in enumerate(trips):
-        if trip.action == PICK and aboard is not None:
-            return place_, f"picks an item while {quoted(aboard.name)} is still aboard"
-        if trip.action == RELEASE and trip.item != aboard:
-            return place_, "releases an item that was not picked just before"
-        if trip.action in (PICK, RELEASE):
-            aboard = trip.item if trip.action == PICK else None
-    if aboard is None:
-        return None
-    return len(trips) - 1, f"{quoted(aboard.name)} is still aboard: no trip releases it"
-
-
 def problems(
     app: App, missions: Sequence[Mission[Any]], fleet: FleetData, *, forever: bool
 ) -> list[str]:
