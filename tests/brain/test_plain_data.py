@@ -138,7 +138,12 @@ def noisy(noise: Data) -> type[Brain]:
             return {**data, "fields": {**noise, "unheard_of": 1, **data.get("fields", {})}}
 
         def tell(self, message: Data, now: float) -> None:
-            for unknown in (noise, {"done": 10**9, **noise}, {"failed": "?", **noise}):
+            for unknown in (
+                noise,
+                {"done": 10**9, **noise},
+                {"done": [1], **noise},
+                {"failed": "?", **noise},
+            ):
                 super().tell(unknown, now)
             super().tell({"hook": 10**9, "telemetry": {"nobody": {"at": [0, 0, 0]}}}, now)
             if "telemetry" in message:

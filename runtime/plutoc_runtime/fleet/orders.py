@@ -49,15 +49,18 @@ class Orders:
 
     def done(self, message: Mapping[str, Any]) -> None:
         """Called when an order was carried out; one that is not known, or was answered, is ignored."""
-        answer = self._answers.pop(message["done"], None)
+        answer = self._answer(message["done"])
         if answer is not None:
             answer(value_of(message["value"]) if "value" in message else None)
 
     def failed(self, message: Mapping[str, Any]) -> None:
         """Called when an order failed, with the `failure` and the `reason`."""
-        answer = self._answers.pop(message["failed"], None)
+        answer = self._answer(message["failed"])
         if answer is not None:
             answer(failure_of(message))
+
+    def _answer(self, order: object) -> Answer | None:
+        return self._answers.pop(order, None) if type(order) is int else None
 
     # Flights
 
