@@ -26,7 +26,7 @@ HOME = (1.0, 1.0, 0.0)
 Order = Mapping[str, Any]
 Message = dict[str, Any]
 Hear = Callable[["Event"], object] | None
-"""Hears of every transition; None: nobody wants to."""
+"""Called with every transition; None: no listener."""
 
 
 class Flights:

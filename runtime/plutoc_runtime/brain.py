@@ -1,14 +1,14 @@
 """The seam: a running app as plain data, without input, output or a clock.
 
-Whatever flies the app tells the brain what has happened and what time it is, and takes from it what
-shall be done (`orders`) and what has happened (`events`). Arguments and results are numbers, texts, lists
-and mappings, except for the app, the space and the hooks. Seconds since the app's start, metres.
+The caller tells the brain what has happened and what time it is, and takes from it what shall be done
+(`orders`) and what has happened (`events`). Arguments and results are numbers, texts, lists and
+mappings, except for the app, the space and the hooks. Seconds since the app's start, metres.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from .domain.app import SEAM
 from .domain.model import AfterTrip, Drone, ResultStore
@@ -30,6 +30,7 @@ from .time.told import AT_ONCE, HookRunner, ToldTime
 from .trips.transitions import Transitions
 
 if TYPE_CHECKING:
+    from .domain.airspace import Airspace
     from .domain.app import App
     from .domain.model import Point
     from .domain.trace import Event
@@ -37,26 +38,19 @@ if TYPE_CHECKING:
     from .flow.mission import MissionState
     from .time.kernel import Task
 
-__all__ = ["SEAM", "Brain", "Space"]
-
-
-class Space(Protocol):
-    """The map: where drones may be, and how they get there."""
-
-    def problem(self, point: Point) -> str | None:
-        """Return why no drone may be at a point, or None."""
-        ...
-
-    def route(self, start: Point, end: Point) -> Sequence[Point] | None:
-        """Return the points to fly through, the end included and the start not; None: there is no way."""
-        ...
+__all__ = ["SEAM", "Brain"]
 
 
 class Brain:
-    """One running app. It does nothing by itself and waits for nobody."""
+    """One running app. It does nothing by itself and never blocks."""
 
     def __init__(
-        self, app: App, fleet: Mapping[str, Any], *, space: Any, hooks: HookRunner | None = None
+        self,
+        app: App,
+        fleet: Mapping[str, Any],
+        *,
+        space: Airspace,
+        hooks: HookRunner | None = None,
     ) -> None:
         """`fleet` has the `drones` (`id`, `category`, `home`), and perhaps `after_trip`, `max_airborne`.
 

@@ -90,7 +90,7 @@ def test_several_messages_of_one_instant_are_all_known_before_drones_are_given()
 
 
 def test_due_is_when_something_happens_by_itself() -> None:
-    """A limit on a flight, here; nothing at all once it has ended and nobody waits."""
+    """A limit on a flight, here; nothing at all once it has ended and no task waits."""
     brain = charged(1, apps.app(apps.flow(watch=apps.timed)))
     assert brain.due is None
     brain.begin([{"trips": [trip()], "fields": {"safe_time": 20.0}}], 1.0)

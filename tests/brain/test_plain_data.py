@@ -145,10 +145,10 @@ def noisy(noise: Data) -> type[Brain]:
                 {"failed": "?", **noise},
             ):
                 super().tell(unknown, now)
-            super().tell({"hook": 10**9, "telemetry": {"nobody": {"at": [0, 0, 0]}}}, now)
+            super().tell({"hook": 10**9, "telemetry": {"no such drone": {"at": [0, 0, 0]}}}, now)
             if "telemetry" in message:
                 heard = {drone: {**noise, **one} for drone, one in message["telemetry"].items()}
-                message = {**message, "telemetry": {"nobody": {**noise}, **heard}}
+                message = {**message, "telemetry": {"no such drone": {**noise}, **heard}}
             super().tell({**noise, **message}, now)
 
     return Noisy

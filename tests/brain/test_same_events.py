@@ -1,4 +1,4 @@
-"""One drone leaves the same events whatever flies it: ideal drones, a gateway in virtual time, asyncio."""
+"""One drone leaves the same events under every driver: ideal drones, a gateway in virtual time, asyncio."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def flown(name: str) -> int:
     return events
 
 
-def test_one_drone_leaves_the_same_events_whatever_flies_it() -> None:
+def test_one_drone_leaves_the_same_events_under_every_driver() -> None:
     """Byte for byte, also where things go wrong."""
     assert sum(flown(f"same/{number}") for number in range(25)) > 800
 

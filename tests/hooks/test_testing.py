@@ -308,7 +308,7 @@ def test_an_evaluator_gets_what_is_new_once(kit: Kit) -> None:
 
 def test_trips_missions_and_drones_have_defaults(kit: Kit) -> None:
     """Those of the app: its first category, what its drones can do, its actions' parameters."""
-    assert kit.trip().action == "take_photo", "nobody can measure"
+    assert kit.trip().action == "take_photo", "no drone can measure"
     trip = kit.trip("pour", parameters={"amount": 0.02}, name="roses", target=(1.0, 1.0, 2.0))
     assert trip.parameters == {"amount": 0.02, "height": 1.5}
     assert (trip.name, trip.target) == ("roses", (1.0, 1.0, 2.0))

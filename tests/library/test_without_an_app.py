@@ -49,7 +49,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, ...]:
 
 
 def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ...]) -> None:
-    """By whoever writes a navigation, for one: it is the library's own brain that they share."""
+    """By the author of a navigation, for one: it is the library's own brain that they share."""
     code = (
         "import sys; from importlib import import_module; from pkgutil import walk_packages\n"
         "sys.path[:0] = sys.argv[1:3]\n"

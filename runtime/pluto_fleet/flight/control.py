@@ -32,6 +32,7 @@ from .reconcile import (
     outcome_of,
     question,
     trip_of,
+    unheard,
 )
 
 if TYPE_CHECKING:
@@ -251,10 +252,7 @@ class Control:
         if what is Outcome.DONE:
             self._take_result(name, ended(name, flight))
         else:
-            self._link.forget(
-                id_of(name, flight)
-            )  # it is to be flown, even if its id is known already
-            self._run.note("trip.interrupted", mission=name, trip=flight["trip"])
+            self._run.interrupted(name, flight)
 
     def _take_result(self, name: str, event: dict[str, Any]) -> None:
         """Record the end of a flight that the brain has not seen; a failed one loses what is aboard."""
@@ -274,12 +272,9 @@ class Control:
         self._run.note("mission.paused", mission=name)
 
     def _resume(self, name: str, record: Record) -> None:
-        flight = record["flight"]
-        heard = flight is None or flight["outcome"] is None or flight["heard"]
         begun = record["attempts"] or record["interrupted"]
         usual = Status.STANDBY.value if begun else Status.UNEXECUTED.value
-        status = usual if heard else flight["outcome"]
-        self._run.note("mission.resumed", mission=name, status=status)
+        self._run.note("mission.resumed", mission=name, status=unheard(record) or usual)
         self._go_on(name, record)
 
     def _go_on(self, name: str, record: Record) -> None:
@@ -297,9 +292,7 @@ class Control:
         was_paused = record["paused"] is not None
         if any(trip["name"] == unwanted for trip in record["todo"]):
             self._run.note("trip.skipped", mission=name, trip=unwanted)
-        flight = record["flight"]
-        heard = flight is None or flight["outcome"] is None or flight["heard"]
-        if not record["todo"] and heard:
+        if not record["todo"] and unheard(record) is None:
             self._command("cancel", mission=name, status=Status.COMPLETED.value, reason="")
         elif not was_paused:
             self._resume(name, record)

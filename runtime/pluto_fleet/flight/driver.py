@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.kernel import FLEET, EventKind
 
+from .orders import Message, Order
+
 if TYPE_CHECKING:
     from plutoc_runtime.brain import Brain
     from plutoc_runtime.domain.trace import Event
     from plutoc_runtime.time.kernel import Kernel
-
-Message = dict[str, Any]
-Order = Mapping[str, Any]
 
 
 class Driver:
@@ -109,4 +108,4 @@ class Driver:
 
 
 def _nothing() -> None:
-    """Nobody waits for that."""
+    """Do nothing: no callback is set."""

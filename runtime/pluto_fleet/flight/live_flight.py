@@ -145,7 +145,7 @@ class LiveFlight:
     async def close(self) -> None:
         """End this run; the drones hover, or continue their jobs."""
         if self.life is not None:
-            self.life.close()
+            self.life.halt()
         self._kernel.close()
         self._writer.close()
         if self._link is not None:

@@ -7,7 +7,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import Cancelled, FlightFailed
-from plutoc_runtime.hooks.plain_data import item_of, value_data
+from plutoc_runtime.hooks.plain_data import item_of
+
+from ..gateway.wire import result_data
 
 if TYPE_CHECKING:
     from collections.abc import Coroutine
@@ -104,7 +106,7 @@ class Dispatcher:
         if self._under_way.pop(number, None) is not task:
             return  # it was cancelled
         if task.error is None:
-            self.tell({"done": number, "value": task.result()})
+            self.tell(outcome(number, task.result()))
         elif isinstance(task.error, FlightFailed):
             self.tell(outcome(number, task.error))
         elif not isinstance(task.error, Cancelled):
@@ -113,10 +115,9 @@ class Dispatcher:
 
 def outcome(number: int, result: object) -> Message:
     """Return what a brain is told of an order."""
-    if isinstance(result, FlightFailed):
-        return {"failed": number, "failure": result.failure.name, "reason": str(result)}
-    return {"done": number, "value": value_data(result)}
+    said = "failed" if isinstance(result, FlightFailed) else "done"
+    return {said: number, **result_data(result)}
 
 
 def _ignore(_: object) -> None:
-    """Nobody listens yet."""
+    """Do nothing: no callback is set."""

@@ -13,9 +13,11 @@ from plutoc_runtime.domain.errors import FlightFailed
 from plutoc_runtime.domain.text import shown
 from plutoc_runtime.hooks.plain_data import value_data
 
-from ..jobs.reports import Entry, JobState, reported_result
+from ..jobs.reports import Entry, JobState
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from plutoc_runtime.domain.app import App
 
     from ..journal.fold import Record
@@ -67,17 +69,15 @@ def trip_of(record: Record, flight: Record | None) -> Record | None:
     return None
 
 
-def id_of(mission: str, flight: Record) -> str:
+def id_of(mission: str, flight: Mapping[str, Any]) -> str:
     """Return the id of a flight."""
     return f"{mission}/{flight['trip']}/{flight['round']}/{flight['attempt']}"
 
 
-def reported(entry: Entry) -> Data:
-    """Return what was reported of a job that has ended, for a brain."""
-    result = reported_result(entry)
-    if isinstance(result, FlightFailed):
-        return {"failure": result.failure.name, "reason": str(result)}
-    return {"value": value_data(result)}
+def unheard(record: Record) -> str | None:
+    """Return the status with which a flight has ended that its mission has not gone on from, or None."""
+    flight = record["flight"]
+    return None if flight is None or flight["heard"] else flight["outcome"]
 
 
 def ended(mission: str, flight: Record, result: object = None) -> Data:

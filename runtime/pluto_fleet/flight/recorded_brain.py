@@ -19,10 +19,10 @@ from plutoc_runtime.time.kernel import FLEET, Kernel
 from ..jobs.reports import reported_result
 from ..journal.recorder import Recorder, Sink
 from ..process.signal_guard import guard_hooks
-from .driver import Driver, Message, Order
+from .driver import Driver
 from .mission_status import aside, in_order
-from .orders import Dispatcher, outcome
-from .reconcile import Outcome, ended, in_flight, outcome_of
+from .orders import Dispatcher, Order, outcome
+from .reconcile import Outcome, ended, id_of, in_flight, outcome_of, trip_of
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.app import App
@@ -32,12 +32,9 @@ if TYPE_CHECKING:
 
     from ..files.fleet import FleetFile
     from ..jobs.job import CommandLink
-    from ..journal.fold import Records
+    from ..journal.fold import Record, Records
 
 Listener = Callable[["Event"], object]
-
-HELPLESS = 12.0
-"""Seconds after which a drone on the ground would have begun to fly home, if it could."""
 
 
 class RecordedBrain:
@@ -126,11 +123,6 @@ class RecordedBrain:
         self.brain.close()
         self._held.clear()
 
-    def close(self) -> None:
-        """End this run where it is."""
-        self.driver.halt()
-        self.brain.close()
-
     def look_for_the_end(self) -> None:
         """Called when missions may have ended."""
 
@@ -143,6 +135,11 @@ class RecordedBrain:
     def take(self, event: Event) -> None:
         """Record such an event, given as a mapping."""
         self._take({"t": round(self.kernel.now, 6), **event})
+
+    def interrupted(self, mission: str, flight: Record) -> None:
+        """Take back a flight whose action was not done: its trip is flown again, under the same id."""
+        self.link.forget(id_of(mission, flight))
+        self.note("trip.interrupted", mission=mission, trip=flight["trip"])
 
     def _hear(self, event: Event) -> None:
         self._heard += 1
@@ -173,9 +170,9 @@ class RecordedBrain:
             return
         if event["event"] in ("trip.completed", "trip.failed"):
             # it is durable in the journal: the gateway's ledger need not remember it
-            mission, trip = event["mission"], event["trip"]
-            id = f"{mission}/{trip}/{event['round']}/{event['attempt']}"
-            self.recorder.when_durable(partial(self.link.forget, id))
+            self.recorder.when_durable(
+                partial(self.link.forget, id_of(str(event["mission"]), event))
+            )
         for listener in self._listeners:
             listener(event)
         if self._watcher is not None:
@@ -226,21 +223,14 @@ class RecordedBrain:
             else:
                 self.driver.tell(outcome(number, reported_result(entry)))
         else:
-            failed: Message = {
-                "failed": number,
-                "failure": "REFUSED",
-                "reason": "it was broken off",
-            }
-            self.driver.tell(failed)
+            failed = FlightFailed(Failure.REFUSED, "it was broken off")
+            self.driver.tell(outcome(number, failed))
 
-    def repeat_of(self, record: Mapping[str, Any]) -> str:
+    def repeat_of(self, record: Record) -> str:
         """Return whether the action of a mission's flight may be repeated: `safe`, `once` or `ask`."""
-        flight = record["flight"]
-        for which in ("todo", "done", "gone"):
-            for trip in record[which]:
-                if trip["name"] == flight["trip"] and trip["action"] in self.app.actions:
-                    return self.app.actions[trip["action"]].repeat
-        return "ask"
+        trip = trip_of(record, record["flight"])
+        action = None if trip is None else self.app.actions.get(trip["action"])
+        return "ask" if action is None else action.repeat
 
     def _news(self) -> Mapping[str, Any]:
         """Return the telemetry of the drones that has changed since the brain was told."""
@@ -255,4 +245,4 @@ class RecordedBrain:
 
 
 def _ignore(*_: object) -> None:
-    """Nobody has asked."""
+    """Do nothing: no callback is set."""

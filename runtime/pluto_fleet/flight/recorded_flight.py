@@ -6,7 +6,7 @@ begins with the journal's records and a report of the drones, however the last o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Mapping, Sequence
+from collections.abc import Coroutine, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -24,11 +24,8 @@ from .recovery import Recovery
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission
-    from plutoc_runtime.domain.trace import Event
 
     from ..jobs.reports import FleetReport
-
-Listener = Callable[["Event"], object]
 
 HELPLESS = 12.0
 """Seconds after which a drone on the ground would have begun to fly home, if it could."""
@@ -84,17 +81,15 @@ class RecordedFlight(RecordedBrain):
         return task
 
     async def _started(self, missions: Sequence[Mission[Any]]) -> float:
-        records = self.records
-        fleet_report = await self.link.fleet_report()
-        if fleet_report.drones.keys().isdisjoint(
-            records.mended
-        ):  # else one of them is queried again
+        records, fleet_report = self.records, await self.link.fleet_report()
+        if fleet_report.drones.keys().isdisjoint(records.mended):
+            # else one of them, which was repaired, is queried again
             lost = {name: one["reason"] for name, one in records.lost.items()}
             _refuse_if_none_is_ready(fleet_report, lost)
         self.note("brain.began", epoch=self._epoch)
         recovery = Recovery(self, self.control, fleet_report)
         recovery.ask_the_mended()
-        self.driver.call(partial(self.brain.go_on, recovery.standing(), recovery.drones))
+        self.driver.call(partial(self.brain.go_on, recovery.standing(), recovery.drones()))
         self._begin(missions)
         self.is_set_out = True
         return await self._over
@@ -106,7 +101,7 @@ class RecordedFlight(RecordedBrain):
         recovery.ask_the_mended()
         await recovery.find_out()
         recovery.settle()
-        self.driver.call(partial(self.brain.go_on, recovery.standing(), recovery.drones))
+        self.driver.call(partial(self.brain.go_on, recovery.standing(), recovery.drones()))
         self.is_set_out = True
         self.look_for_the_end()
         return await self._over

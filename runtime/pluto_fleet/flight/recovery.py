@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.status import Status
 
+from ..gateway.wire import result_data
+from ..jobs.reports import reported_result
 from .mission_status import in_order
 from .reconcile import (
     ANSWERS,
@@ -22,7 +24,6 @@ from .reconcile import (
     id_of,
     in_flight,
     outcome_of,
-    reported,
 )
 
 if TYPE_CHECKING:
@@ -59,7 +60,8 @@ class Recovery:
         This may take a while, and nothing begins before all outcomes are known.
         """
         for name, record in self._living():
-            self._unfit.update({name: why} if (why := unfit(self._app, record)) else {})
+            if (why := unfit(self._app, record)) is not None:
+                self._unfit[name] = why
             flight = in_flight(record)
             if flight is not None and self._why_held(name, record) is None:
                 entry = self._report.jobs.get(id_of(name, flight))
@@ -94,7 +96,7 @@ class Recovery:
         entry = self._report.jobs.get(id_of(name, flight))
         if what is Outcome.FLIES_ON and entry is not None:
             if not entry.flies:
-                self._reports[name] = reported(entry)
+                self._reports[name] = result_data(reported_result(entry))
             self._resume(name, record)
             return
         if what is Outcome.UNKNOWN:
@@ -109,10 +111,7 @@ class Recovery:
         if what is Outcome.DONE:
             self._run.take(ended(name, flight))
         else:
-            self._link.forget(
-                id_of(name, flight)
-            )  # it is to be flown, even if its id is known already
-            self._run.note("trip.interrupted", mission=name, trip=flight["trip"])
+            self._run.interrupted(name, flight)
         self._resume(name, record)
 
     def _resume(self, name: str, record: Record) -> None:
@@ -140,9 +139,9 @@ class Recovery:
         return f"it stopped at block {at}, which the app has no more as a place to go on"
 
     def _call_off(self, record: Record) -> None:
-        flown = record["flight"]
-        if flown is not None and flown["outcome"] is None and not flown["heard"]:
-            self._link.break_off(flown["drone"])
+        flight = in_flight(record)
+        if flight is not None:
+            self._link.break_off(flight["drone"])
 
     # For the brain
 
@@ -168,9 +167,8 @@ class Recovery:
             record["flight"] = {**record["flight"], "report": self._reports[name]}
         return record
 
-    @property
     def drones(self) -> Mapping[str, Mapping[str, Any]]:
-        """The reports of the drones; those that fly for nobody are called off."""
+        """Call off the drones that fly for no mission, and return the reports of all."""
         wanted = {
             self._records.missions[name]["flight"]["drone"]
             for name, what in self._outcomes.items()

@@ -67,4 +67,4 @@ class RealHooks:
 
 
 def _ignore(*_: object) -> None:
-    """Nobody listens yet."""
+    """The default listener: ignores the answer."""

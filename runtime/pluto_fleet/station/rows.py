@@ -135,7 +135,7 @@ def recorded_row(name: str, record: Record, *, lives: bool = False) -> Row:
         "current": len(done) if todo else None,
         "done": len(done),
         "total": len(done) + len(todo),
-        "drone": None,
+        "drone": record["carrier"] if lives else None,
         "at": at,
         "wait": _WAITS.get(status, "") if lives else "",
         "until": None,

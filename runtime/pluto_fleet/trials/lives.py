@@ -320,7 +320,7 @@ class TrialLife:
         if self.kernel.dead:
             return
         self.kernel.over = self.kernel.dead = True
-        self.life.close()
+        self.life.halt()
         self.kernel.close()
 
 

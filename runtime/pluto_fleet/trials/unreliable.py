@@ -140,7 +140,7 @@ def _broken() -> NoReturn:
 
 
 def _nothing(_: object) -> None:
-    """Nobody listens yet."""
+    """The default listener: ignores the report."""
 
 
 class UnreliableLink(Link):

@@ -48,7 +48,7 @@ class Clock:
         if not 0.0 <= seconds < inf:
             raise ValueError(f"time cannot pass by {seconds} seconds")
         over: Future[None] = Future()
-        # the last kind of all: whatever else is due at that instant is done before
+        # the last kind of all: all else that is due at that instant is done before
         until = self.now + seconds
         self.kernel.at(until, EventKind.ALLOCATE, FLEET, lambda: over.set(None))
         self.kernel.run(over)

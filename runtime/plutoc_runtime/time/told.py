@@ -1,4 +1,4 @@
-"""The time of a brain: it is told what time it is, and whoever tells it also runs its hooks."""
+"""The time of a brain: its caller tells it what time it is, and runs its hooks."""
 
 from __future__ import annotations
 

@@ -92,3 +92,11 @@ def test_what_was_judged_when_its_station_died_has_not_ended_either(
     record |= dict.fromkeys(("question", "held", "paused"))
     seen = recorded_row("a", record)
     assert (seen["status"], seen["at"]) == shown
+
+
+def test_a_mission_that_goes_on_is_shown_with_the_drone_that_has_its_item() -> None:
+    record: dict[str, Any] = {"done": [], "todo": [], "status": "STANDBY", "reason": ""}
+    record |= {"ended": False, "at": None, "index": 0, "attempts": 1, "round": 0, "carrier": "cf1"}
+    record |= dict.fromkeys(("question", "held", "paused"))
+    assert recorded_row("a", record, lives=True)["drone"] == "cf1"
+    assert recorded_row("a", record)["drone"] is None

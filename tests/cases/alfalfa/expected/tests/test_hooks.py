@@ -1,6 +1,6 @@
 """Tests of hooks.py: yours. plutoc wrote this file once, and never touches it again.
 
-Each shows how a hook is called, and passes whatever it does: say there what yours shall do.
+Each shows how a hook is called, and passes with any result: say there what yours shall do.
 conftest.py has the fixtures.
 The time stands still until a test moves it, and a drone measures what the test says:
 
