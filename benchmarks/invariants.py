@@ -24,15 +24,15 @@ from pluto_fleet.trials.record import TrialResult
 
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
+from pluto_fleet.app import App
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.journal.event_line import line
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.fleet_data import WorldData
+from pluto_fleet.shared.domain.model import AfterTrip
 from pluto_fleet.trials.case import Case, Weather
 from pluto_fleet.trials.lives import tried
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.fleet_data import WorldData
-from plutoc_runtime.domain.model import AfterTrip
 from tests.trials.examples import app_of
 
 APP = """pluto 1

@@ -26,8 +26,8 @@ from pluto_fleet.journal.fold import Records, replayed
 from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.time.kernel import FLEET, EventKind
-from plutoc_runtime.time.virtual import VirtualTime
+from pluto_fleet.shared.time.kernel import FLEET, EventKind
+from pluto_fleet.shared.time.virtual import VirtualTime
 
 HEADER = {"event": "journal.begun", "app": APP.name}
 GROUPS = (1, 10, 100, 1_000)

@@ -24,9 +24,9 @@ from random import Random
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from pluto_fleet.jobs.reports import Down
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import Point
-from plutoc_runtime.time.kernel import FLEET
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.time.kernel import FLEET
 from tests.gateway.traffic.real_skies import SLACK
 from tests.gateway.traffic.real_skies import late as late_for_real
 from tests.gateway.traffic.skies import Sky

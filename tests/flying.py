@@ -12,17 +12,18 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pluto_fleet.app import described
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.trials.invariants import Items, items_of
 from plutoc.cli import main
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.trace import Event
 
 if TYPE_CHECKING:
-    from plutoc_runtime.alone.simulate import SimulationResult
-    from plutoc_runtime.domain.model import Mission
+    from pluto_fleet.shared.alone.simulate import SimulationResult
+    from pluto_fleet.shared.domain.model import Mission
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 NAMES = sorted(path.parent.name for path in EXAMPLES.glob("*/app.pluto"))
@@ -61,7 +62,7 @@ class Example:
         """Simulate the missions to their end."""
         trace: list[Mapping[str, object]] = []
         outcome = simulate(
-            import_module(f"{self.name}.flow").APP,
+            described(import_module(f"{self.name}.flow").APP),
             deepcopy(self.missions),
             self.fleet,
             seed=seed,
@@ -95,7 +96,7 @@ def built(name: str, into: Path) -> Example:
         del sys.modules[module]
     sys.path.insert(0, str(package / "src"))
     try:
-        app = import_module(f"{name}.flow").APP
+        app = described(import_module(f"{name}.flow").APP)
         fleet = load_fleet(EXAMPLES / name / "fleet.toml", app)
         missions = load_missions(EXAMPLES / name / "missions.toml", app, fleet.airspace)
     finally:

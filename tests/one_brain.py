@@ -1,6 +1,7 @@
-"""Lets the compiled apps that a test imports share this process's brain: the library has room for one.
+"""Lets all that a test imports share one brain: the compiler's, the library's copy, and those of apps.
 
-An app's program has a process of its own, where the library takes the brain that the app carries.
+So a test can make an app of its own, compile one beside it, and compare what comes of both. In an app's
+program the library and the app have each their own; tests/seam and tests/library fly such programs.
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ from importlib.util import spec_from_loader
 from pathlib import Path
 from types import ModuleType
 
-_OF_AN_APP = re.compile(r"(?P<app>\w+)\._runtime(?P<inner>\..+)?")
-"""A module that an app carries."""
+ONE = "plutoc_runtime"
+_ANOTHER = re.compile(r"((?P<app>\w+)\._runtime|pluto_fleet\.shared)(?P<inner>\..+)?")
+"""A module of the brain that an app carries, or of the library's copy."""
 BLOCKS = ".blocks"
 
 
@@ -57,7 +59,7 @@ class OneBrain(Elsewhere):
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         """Return where a module of the brain is, or of an app's blocks."""
-        found = _OF_AN_APP.fullmatch(name)
+        found = _ANOTHER.fullmatch(name)
         inner = "" if found is None else found["inner"] or ""
         if found is None or not f"{inner}.".startswith(f"{BLOCKS}."):
             return super().find_spec(name, path, target)
@@ -67,8 +69,8 @@ class OneBrain(Elsewhere):
 
 
 def _brain(name: str) -> str | None:
-    found = _OF_AN_APP.fullmatch(name)
-    return None if found is None else f"plutoc_runtime{found['inner'] or ''}"
+    found = _ANOTHER.fullmatch(name)
+    return None if found is None else f"{ONE}{found['inner'] or ''}"
 
 
 def share_one_brain() -> None:

@@ -17,8 +17,8 @@ from .process import Notes, kernel_says
 from .work import Work, fails
 
 if TYPE_CHECKING:
-    from plutoc_runtime.brain import Brain
-    from plutoc_runtime.domain.trace import Event
+    from pluto_fleet.shared.brain import Brain
+    from pluto_fleet.shared.domain.trace import Event
 
 HOME = (1.0, 1.0, 0.0)
 """Where all drones stand."""

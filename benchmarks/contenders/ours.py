@@ -19,8 +19,8 @@ from .process import Ask, Notes, parser, report
 from .work import Done, Work
 
 if TYPE_CHECKING:
-    from plutoc_runtime.brain import Brain
-    from plutoc_runtime.domain.trace import Event
+    from pluto_fleet.shared.brain import Brain
+    from pluto_fleet.shared.domain.trace import Event
 
 TARGET = (1.0, 1.0, 1.2)
 """Where all trips go: straight up from home."""
@@ -28,24 +28,16 @@ AN_HOUR = 3600.0
 """On a slow machine it may take long until all are in the air, and none may be given up before."""
 
 
-def runtime(name: str) -> Any:
-    """Return a module of the runtime, or of the library that was given it."""
-    return import_module(name)
-
-
 def load() -> None:
     """Import all that flies, as every contender has when its clock starts."""
-    from pluto_fleet.scaffolding import bind  # before anything of the runtime is imported
-
-    bind("measured._runtime")
-    import_module("measured.flow")
     for name in (
-        "plutoc_runtime.domain.airspace",
+        "measured.flow",
+        "measured._runtime.brain",
+        "measured._runtime.domain.airspace",
         "pluto_fleet.journal.event_line",
         "pluto_fleet.process.hook_runner",
-        "plutoc_runtime.brain",
     ):
-        runtime(name)
+        import_module(name)
 
 
 class Journal:
@@ -53,7 +45,7 @@ class Journal:
 
     def __init__(self) -> None:
         self.lines: list[str] = []
-        self._line: Callable[[Event], str] = runtime("pluto_fleet.journal.event_line").line
+        self._line: Callable[[Event], str] = import_module("pluto_fleet.journal.event_line").line
 
     def note(self, event: Event) -> None:
         """Format an event."""
@@ -86,13 +78,13 @@ def missions(work: Work, safe_time: float | None) -> list[dict[str, Any]]:
 def brain(work: Work, flights: Flights, hooks: Any) -> Brain:
     """Return the app's brain, which says what has happened if anybody wants to hear it."""
     app = import_module("measured.flow").APP
-    made: Brain = runtime("plutoc_runtime.brain").Brain(
+    made: Brain = import_module("measured._runtime.brain").Brain(
         app,
         {
             "drones": [{"id": str(number), "home": HOME} for number in range(work.drones)],
             "silent": flights.hear is None,
         },
-        space=runtime("plutoc_runtime.domain.airspace").Airspace(),
+        space=import_module("measured._runtime.domain.airspace").Airspace(),
         hooks=hooks,
     )
     return made
@@ -125,7 +117,7 @@ def listener(given: argparse.Namespace) -> Hear:
 async def in_real_time(given: argparse.Namespace, work: Work, notes: Notes) -> Ask:
     """Fly on asyncio."""
     flights = (AllTogether if given.together else FromTheLoop)(listener(given), work, notes)
-    hooks = runtime("pluto_fleet.process.hook_runner").RealHooks(flights)
+    hooks = import_module("pluto_fleet.process.hook_runner").RealHooks(flights)
     flights.brain = brain(work, flights, hooks)
     hooks.ended = lambda number: flights.tell({"hook": number})
     await flights.run(missions(work, AN_HOUR if given.together else None), work.drones)

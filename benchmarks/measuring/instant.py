@@ -7,26 +7,27 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from pluto_fleet.app import described
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.jobs.job import Job
 from pluto_fleet.jobs.reports import Down, DroneReport, FleetReport
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.domain import model
+from pluto_fleet.shared.domain.actions import BUILT_IN
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.app import App
+from pluto_fleet.shared.domain.fields import Entity, Field, FieldType
+from pluto_fleet.shared.domain.model import Category, Point
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.fleet.policies import first
+from pluto_fleet.shared.flow.run import Run
+from pluto_fleet.shared.time.kernel import FLEET, EventKind, Kernel
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.domain import model
-from plutoc_runtime.domain.actions import BUILT_IN
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.fields import Entity, Field, FieldType
-from plutoc_runtime.domain.model import Category, Point
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.policies import first
-from plutoc_runtime.flow.run import Run
-from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel
 
 HOME: Point = (1.0, 1.0, 0.0)
 SECONDS = 10.0
@@ -63,18 +64,20 @@ async def flow(run: Run[Mission]) -> Status:
             return status
 
 
-APP = App(
-    name="instant",
-    title="Drones that are there at once",
-    flow=flow,
-    mission=Mission,
-    trip=Trip,
-    fields=(
-        Field(name="delay", on=Entity.TRIP, type=FieldType.TIME, label="Delay"),
-        Field(name="priority", on=Entity.TRIP, type=FieldType.INT, label="Priority", default=0),
-    ),
-    categories=(Category(name="quick"),),
-    actions=BUILT_IN,
+APP = described(
+    App(
+        name="instant",
+        title="Drones that are there at once",
+        flow=flow,
+        mission=Mission,
+        trip=Trip,
+        fields=(
+            Field(name="delay", on=Entity.TRIP, type=FieldType.TIME, label="Delay"),
+            Field(name="priority", on=Entity.TRIP, type=FieldType.INT, label="Priority", default=0),
+        ),
+        categories=(Category(name="quick"),),
+        actions=BUILT_IN,
+    )
 )
 
 

@@ -10,7 +10,7 @@ import json
 from collections.abc import AsyncIterator, Mapping
 from contextlib import closing
 
-from plutoc_runtime.domain.model import Point
+from pluto_fleet.drones import Point
 
 
 class Lines(asyncio.DatagramProtocol):

@@ -8,8 +8,7 @@ from math import dist, radians
 
 from wrenlib import Radio, State
 
-from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry, Reports
-from plutoc_runtime.domain.model import Point
+from pluto_fleet.drones import DroneEvent, DroneSetup, DroneTelemetry, Point, Reports
 
 
 class Wren:

@@ -23,8 +23,8 @@ OURS = STD
 """Carried code of this package lies in the blocks' folder itself; other packages' in one more."""
 LIBRARY = "pluto_fleet"
 LIBRARY_FOLDER = "_fleet"
-BRAIN = f"{LIBRARY}/_brain"
-"""Where a library that was built has its copy of the brain; one that is worked on has none."""
+BRAIN = f"{LIBRARY}/shared"
+"""Where the library has its copy of the brain; in a checkout it is a link, which is not followed."""
 
 
 class NoLibrary(Exception):

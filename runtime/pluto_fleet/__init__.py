@@ -1,8 +1,4 @@
 """The library that flies compiled apps: real time, journal, gateway, drones, station and trials."""
 
-from .scaffolding import provide_brain
-
 __version__ = "3.0.0"
 """Its first two numbers are the newest seam that it speaks."""
-
-provide_brain()

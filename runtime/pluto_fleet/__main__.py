@@ -10,11 +10,10 @@ import sys
 from argparse import Action, ArgumentParser
 from collections.abc import Sequence
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import quoted
-
 from .process.exit_code import BAD_INPUT, ExitCode
+from .shared import output
+from .shared.domain.errors import BadInput
+from .shared.domain.text import quoted
 
 _NAME = "pluto-fleet"
 _ABOUT = "The library that flies apps compiled by plutoc."

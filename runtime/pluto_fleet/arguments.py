@@ -6,7 +6,7 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable
 from math import isfinite
 
-from plutoc_runtime.domain.text import quoted
+from .shared.domain.text import quoted
 
 
 def whole_number(least: int | None = None, most: int | None = None) -> Callable[[str], int]:

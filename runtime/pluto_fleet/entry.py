@@ -6,35 +6,41 @@ TYPE_CHECKING = False  # `typing` itself is slow to import
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from plutoc_runtime.domain.app import App
-
     from .seam import Seam
 
 
-def start(name: str, load: Callable[[], App], *, brain: str, seam: Seam) -> int:
+def start(name: str, load: Callable[[], object], *, brain: str, seam: Seam) -> int:
     """Run the command that an app's program was called with, and return its exit code.
 
     `brain` is the name of the app's embedded runtime package, `seam` its seam.
     """
-    from .seam import meet
-
-    if not meet(name, brain, seam):
+    if not _meet(name, brain, seam):
         return 2
     from .cli import start as begin
 
-    return begin(name, load)
+    return begin(name, load, brain.rpartition(".")[0], seam)
 
 
-def main(app: App, argv: Sequence[str] | None = None, *, brain: str, seam: Seam) -> int:
+def main(app: object, argv: Sequence[str] | None = None, *, brain: str, seam: Seam) -> int:
     """Run one command of an app that is loaded, and return its exit code."""
-    from .seam import NEWEST, meet
-
-    if not meet(app.name, brain, seam):
+    if not _meet(str(getattr(app, "name", "")), brain, seam):
         return 2
-    if seam[0] < NEWEST[0]:
-        from .older import loaded_again
-
-        app = loaded_again(brain)
     from .cli import main as run
+    from .older import is_older, loaded_again
 
-    return run(app, argv)
+    return run(loaded_again(brain) if is_older(seam) else app, argv)
+
+
+def _meet(name: str, brain: str, seam: Seam) -> bool:
+    """Return whether this library can fly an app, and say why it cannot; lend its brain to an older one."""
+    from .older import is_older, provide
+    from .seam import problem
+    from .shared import output
+
+    why = problem(name, seam)
+    if why is not None:
+        output.tell(why)
+        return False
+    if is_older(seam):
+        provide(brain)
+    return True

@@ -1,7 +1,7 @@
-"""Scaffolding: flies an app of seam 2 with today's brain, under its modules' former names.
+"""Flies an app of seam 2 with this library's copy of the brain, under its modules' former names.
 
 Seam 2 was the brain's modules themselves; the flow and the blocks that such an app carries import a few
-of them. All this goes with the scaffolding.
+of them. So the copy stands in for what the app carries, and is driven as any other brain.
 """
 
 from __future__ import annotations
@@ -11,11 +11,12 @@ from collections.abc import Sequence
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
+from importlib.util import spec_from_file_location
+from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+from . import shared
+from .seam import NEWEST, Seam
 
 _MOVED = {
     "domain.results": "domain.model",
@@ -29,28 +30,55 @@ _MOVED = {
 }
 """The former modules, and where their names are today."""
 
+_COPY = Path(shared.__file__).parent
+
+
+def is_older(seam: Seam) -> bool:
+    """Return whether an app of this seam is flown by the library's copy of the brain."""
+    return seam[0] < NEWEST[0]
+
 
 def provide(brain: str) -> None:
-    """Make today's modules importable by their former names, for the app with this brain."""
-    sys.meta_path.insert(0, _Former(brain))
+    """Make the library's copy take the place of an app's brain, before the app is loaded or again."""
+    if any(isinstance(one, _Copy) and one.brain == brain for one in sys.meta_path):
+        return
+    sys.meta_path[:0] = [_Former(brain), _Copy(brain)]
     package = brain.rpartition(".")[0]
     kept = (f"{package}.__main__", brain, f"{brain}.command")
     for name in [one for one in sys.modules if one.startswith(f"{package}.") and one not in kept]:
         del sys.modules[name]
-    queue, policies = (
-        import_module(f"plutoc_runtime.fleet.{one}") for one in ("queue", "policies")
-    )
+    queue, policies = (import_module(f"{brain}.fleet.{one}") for one in ("queue", "policies"))
     policies.__path__ = []  # it was a package
-    results = import_module("plutoc_runtime.domain.model").ResultStore
-    results.for_evaluator = import_module("plutoc_runtime.hooks.context").results_for
+    results = import_module(f"{brain}.domain.model").ResultStore
+    results.for_evaluator = import_module(f"{brain}.hooks.context").results_for
     for name in ("Policy", "Choice", "Able", "Batch", "lowest"):
         setattr(queue, name, getattr(policies, name))
 
 
-def loaded_again(brain: str) -> App:
-    """Return an app that was loaded with its own brain as an app of today's brain."""
-    app: App = import_module(f"{brain.rpartition('.')[0]}.flow").APP
-    return app
+def loaded_again(brain: str) -> object:
+    """Return an app that was loaded with its own brain as an app of the library's copy."""
+    return import_module(f"{brain.rpartition('.')[0]}.flow").APP
+
+
+class _Copy(MetaPathFinder):
+    """Finds a brain's modules in the library's copy."""
+
+    def __init__(self, brain: str) -> None:
+        self.brain = brain
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        if not fullname.startswith(f"{self.brain}."):
+            return None
+        place = _COPY.joinpath(*fullname.removeprefix(f"{self.brain}.").split("."))
+        if (place / "__init__.py").is_file():
+            home = [str(place)]
+            return spec_from_file_location(
+                fullname, place / "__init__.py", submodule_search_locations=home
+            )
+        file = place.with_suffix(".py")
+        return spec_from_file_location(fullname, file) if file.is_file() else None
 
 
 class _Former(MetaPathFinder, Loader):
@@ -70,5 +98,5 @@ class _Former(MetaPathFinder, Loader):
     def exec_module(self, module: ModuleType) -> None:
         """Fill a former module with the names of those where they are now."""
         home = _MOVED[module.__name__.removeprefix(self._brain)]
-        given = vars(import_module(f"plutoc_runtime.{home}"))
+        given = vars(import_module(f"{self._brain}{home}"))
         vars(module).update({name: one for name, one in given.items() if name[:2] != "__"})

@@ -6,33 +6,23 @@ speaks the newest first number and the one before.
 
 from __future__ import annotations
 
-import sys
 from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__
-from .older import provide
-from .scaffolding import bind
+from .shared.domain.errors import BadInput
 
 Seam = tuple[int, int]
 
 OLDEST, NEWEST = (2, 0), (3, 0)
 """The range of seams that this library supports."""
 
-_met: Seam | None = None
 
-
-def meet(app: str, brain: str, seam: Seam) -> bool:
-    """Use an app's brain in this process; return False, after a message, if the seams do not match."""
-    global _met
+def checked(app: str, seam: Seam) -> Seam:
+    """Return an app's seam; raise `BadInput` if this library does not speak it."""
     why = problem(app, seam)
     if why is not None:
-        print(why, file=sys.stderr)
-        return False
-    bind(brain, carries=seam[0] == NEWEST[0])
-    if seam[0] < NEWEST[0]:
-        provide(brain)
-    _met = seam
-    return True
+        raise BadInput(why)
+    return seam
 
 
 def problem(app: str, seam: Seam) -> str | None:
@@ -55,15 +45,10 @@ def written(seam: Seam) -> str:
     return ".".join(map(str, seam))
 
 
-def versions(app: str) -> str:
-    """Return the versions of the app, its seam and this library in one line."""
+def versions(app: str, seam: Seam) -> str:
+    """Return the versions of an app, its seam and this library in one line."""
     try:
         number = version(app.rstrip("_"))
     except PackageNotFoundError:
         number = "(not installed)"
-    return f"{app} {number}, seam {met()}, pluto-fleet {__version__}"
-
-
-def met() -> str | None:
-    """Return the seam of this process's app; None: there is no app."""
-    return None if _met is None else written(_met)
+    return f"{app} {number}, seam {written(seam)}, pluto-fleet {__version__}"

@@ -7,10 +7,14 @@ mappings, except for the app, the space and the hooks. Seconds since the app's s
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from .domain.app import SEAM
+from .domain.app import app_data as about
+from .domain.errors import BadInput
+from .domain.guard import put_guard
 from .domain.model import AfterTrip, Drone, ResultStore
 from .domain.status import DroneStatus
 from .domain.trace import Trace
@@ -18,12 +22,13 @@ from .fleet.fleet import Fleet
 from .fleet.orders import Order, Orders
 from .fleet.queue import Queue
 from .fleet.reach import Reach
+from .fleet.waiting import hindrances
 from .flow.control import Control
 from .flow.engine import Engine
 from .flow.mission import Core
 from .flow.recording import Recording
 from .flow.restore import Restorer
-from .flow.standing import drone_standing, mission_of, standing_of
+from .flow.standing import drone_standing, mission_of, standing_of, whereabouts_of
 from .hooks.plain_data import value_data
 from .time.kernel import FLEET
 from .time.told import AT_ONCE, HookRunner, ToldTime
@@ -38,7 +43,7 @@ if TYPE_CHECKING:
     from .flow.mission import MissionState
     from .time.kernel import Task
 
-__all__ = ["SEAM", "Brain"]
+__all__ = ["SEAM", "BadInput", "Brain", "about", "put_guard"]
 
 
 class Brain:
@@ -54,10 +59,12 @@ class Brain:
     ) -> None:
         """`fleet` has the `drones` (`id`, `category`, `home`), and perhaps `after_trip`, `max_airborne`.
 
+        `speeds` are those of categories that fly at others than the app says: the mean, and the top one.
         With `recorded` in it, the events say all from which a later brain can go on; no drone is free
         before `go_on` has said how it is, and the brain must be told what is `durable`. With `silent`
         nothing is kept for `events`. Without `hooks` they are called at once.
         """
+        app = _as_fast(app, fleet.get("speeds", {}))
         self._app, recorded = app, fleet.get("recorded", False)
         self._kernel = kernel = ToldTime(hooks, fleet.get("midnight", 0.0))
         self._events: list[Event] = []
@@ -193,8 +200,8 @@ class Brain:
 
     def drones(self) -> Mapping[str, Any]:
         """Return where every drone stands."""
-        why = self._core.fleet.unready
-        return {one.id: drone_standing(one, why.get(one, "")) for one in self._core.fleet.drones}
+        fleet = self._core.fleet
+        return {one.id: drone_standing(one, fleet) for one in fleet.drones}
 
     @property
     def living(self) -> int:
@@ -211,15 +218,29 @@ class Brain:
         """Return what is known of a drone; it stays current."""
         return self._orders.drones[drone]
 
-    @property
-    def core(self) -> Core:
-        """What is inside: for a station, until it reads all that it shows from `standing`."""
-        return self._core
+    def whereabouts(self) -> Mapping[str, Any]:
+        """Return where each mission that has not ended is in its graph.
 
-    @property
-    def states(self) -> Mapping[str, MissionState]:
-        """The missions inside, by name: for a station, as above."""
-        return self._states
+        `lives`: whether it is in its graph at all; `block`: the declaration of the block at which it
+        waits; its `drone`, whether that is just `allocated`, or `flies`; `until` when it is delayed.
+        """
+        living = {name: one for name, one in self._states.items() if not one.ended}
+        return {name: whereabouts_of(one, self._app.flow) for name, one in living.items()}
+
+    def waiting(self, missions: Collection[str]) -> Mapping[str, Any]:
+        """Return what keeps drones from flying these missions, of those that wait for one.
+
+        `missions` by name, and as `low` the drones whose batteries are too low for every trip that waits.
+        """
+        fleet = self._core.fleet
+        requests = {id(one.trip): one for one in fleet.queue.waiters()}
+        asked = {name: self._states[name].mission for name in missions if name in self._states}
+        found = {
+            name: hindrances(fleet, requests[id(one.trips[0])])
+            for name, one in asked.items()
+            if one.trips and id(one.trips[0]) in requests
+        }
+        return {"missions": found, "low": [one.id for one in fleet.queue.too_low()]}
 
     def close(self) -> None:
         """End everything where it is; nothing may be called after that."""
@@ -247,6 +268,14 @@ def _drones(
         )
         for index, one in enumerate(fleet["drones"])
     )
+
+
+def _as_fast(app: App, speeds: Mapping[str, Any]) -> App:
+    """Return the app with its categories as fast as their drones fly."""
+    kinds = {one.name: one for one in app.categories}
+    for name, (speed, top_speed) in speeds.items():
+        kinds[name] = replace(kinds[name], speed=speed, top_speed=top_speed)
+    return replace(app, categories=tuple(kinds.values())) if speeds else app
 
 
 def _nothing(_: object) -> None:

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from pluto_fleet.app import described
 from tests.flying import NAMES, Example, built
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+    from pluto_fleet.app import App
 
 
 @pytest.fixture(scope="session", params=NAMES)
@@ -22,5 +23,5 @@ def example(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
 @pytest.fixture
 def example_app(example: Example) -> App:
     """Return its app."""
-    app: App = import_module(f"{example.name}.flow").APP
+    app: App = described(import_module(f"{example.name}.flow").APP)
     return app

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from plutoc_runtime.brain import Brain
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.app import App
+from pluto_fleet.app import App
+from pluto_fleet.shared.brain import Brain
+from pluto_fleet.shared.domain.airspace import Airspace
 from tests.runtime import apps
 
 Data = Mapping[str, Any]

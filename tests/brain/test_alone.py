@@ -13,21 +13,21 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from pluto_fleet.flight import simulate as library
-from plutoc_runtime.alone import simulate as alone
-from plutoc_runtime.alone.faults import CARRYING_HOME, OUTAGE, Faults
-from plutoc_runtime.alone.ideal import IdealDrones
-from plutoc_runtime.alone.simulate import SimulationResult
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Point, Trip
-from plutoc_runtime.domain.status import DroneStatus, Status
-from plutoc_runtime.flow.own_action import OwnAction
+from pluto_fleet.shared.alone import simulate as alone
+from pluto_fleet.shared.alone.faults import CARRYING_HOME, OUTAGE, Faults
+from pluto_fleet.shared.alone.ideal import IdealDrones
+from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Point, Trip
+from pluto_fleet.shared.domain.status import DroneStatus, Status
+from pluto_fleet.shared.flow.own_action import OwnAction
 from tests.flying import A_WEEK, Example
 from tests.runtime import apps
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.hooks.context import Context
+    from pluto_fleet.app import App
+    from pluto_fleet.shared.hooks.context import Context
 
 ROUGH = Faults(crash=0.03, link=0.15, action=0.15, battery=0.1)
 SEEDS = range(6)

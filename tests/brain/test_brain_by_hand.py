@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from plutoc_runtime.brain import Brain
+from pluto_fleet.shared.brain import Brain
 from tests.brain.hand import charged, settled, trip
 from tests.runtime import apps
 

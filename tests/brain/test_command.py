@@ -16,14 +16,14 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.app import App
 from pluto_fleet.cli import main as with_library
 from pluto_fleet.journal import event_line as journal_line
-from plutoc_runtime import command
-from plutoc_runtime.alone import simulate as alone
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain import app
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.trace import dumped
+from pluto_fleet.shared import command
+from pluto_fleet.shared.alone import simulate as alone
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain import app
+from pluto_fleet.shared.domain.trace import dumped
 from tests.flying import EXAMPLES, compiled
 from tests.runtime import apps
 from tests.runtime.cli.conftest import MISSIONS
@@ -199,7 +199,8 @@ def test_json_is_that_of_the_library_and_says_in_which_world(
     """The same keys, numbers of three decimals, and one key more; for one drone the same numbers."""
     fleet = missions.with_name("one.toml")
     fleet.write_text('[[drone]]\nid = "one"\ncategory = "all"\nhome = [1, 1]\n')
-    app = replace(APP, categories=(replace(APP.categories[0], name="all", actions=None),))
+    one = replace(APP.categories[0], name="all", actions=None)
+    app = apps.changed(APP, categories=(one,))
     trace = missions.with_name("trace.jsonl")
     for flags in ([], ["--fail", "link=50%,battery=20%"], ["--until", "20 s"]):
         words = ["simulate", str(missions), "--fleet", str(fleet), "--json", "--seed", "4"]

@@ -14,20 +14,20 @@ from hypothesis import strategies as st
 from pluto_fleet.files import fleet as full_fleet
 from pluto_fleet.files import missions as full_missions
 from pluto_fleet.files.fleet_text import fleet_text
+from pluto_fleet.files.missions_text import missions_text
+from pluto_fleet.shared.alone import files
+from pluto_fleet.shared.alone import simulate as alone
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
+from pluto_fleet.shared.domain.model import AfterTrip
 from pluto_fleet.trials.explore import random_missions
-from pluto_fleet.trials.report import missions_text
-from plutoc_runtime.alone import files
-from plutoc_runtime.alone import simulate as alone
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
-from plutoc_runtime.domain.model import AfterTrip
 from tests.flying import EXAMPLES
 from tests.runtime.files.an_app import APP, PLAIN
 from tests.runtime.files.test_fleet import FULL
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
+    from pluto_fleet.app import App
+    from pluto_fleet.shared.domain.model import Mission
     from tests.flying import Example
 
 

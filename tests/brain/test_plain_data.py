@@ -13,10 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.flight import simulate as library
-from plutoc_runtime.alone import simulate as alone
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.brain import Brain
-from plutoc_runtime.domain.trace import Event
+from pluto_fleet.shared.alone import simulate as alone
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.brain import Brain
+from pluto_fleet.shared.domain.trace import Event
 from tests.brain.hand import charged, settled, trip
 from tests.equivalence.campaign import OURS, drawn
 from tests.equivalence.flows import packaged

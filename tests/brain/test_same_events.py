@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from plutoc_runtime.alone.simulate import simulate as alone
+from pluto_fleet.shared.alone.simulate import simulate as alone
 from tests.equivalence.campaign import OURS, drawn
 from tests.equivalence.drivers import in_real_time, seen
 from tests.equivalence.flows import packaged

@@ -20,14 +20,14 @@ from hypothesis import strategies as st
 from pluto_fleet.files import fleet as full_fleet
 from pluto_fleet.files import missions as full_missions
 from pluto_fleet.files.toml import toml_text
-from plutoc_runtime.alone import files
-from plutoc_runtime.alone.toml import LARGEST
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput
+from pluto_fleet.shared.alone import files
+from pluto_fleet.shared.alone.toml import LARGEST
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
 from tests.runtime.files.an_app import APP, PLAIN
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+    from pluto_fleet.app import App
 
 FENCED = Airspace(no_fly=(((4.0, 4.0), (6.0, 4.0), (6.0, 6.0), (4.0, 6.0)),))
 PLACE = re.compile(

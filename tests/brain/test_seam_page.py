@@ -7,8 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from plutoc_runtime.brain import Brain
-from plutoc_runtime.flow.control import _COMMANDS
+from pluto_fleet.shared.brain import Brain
+from pluto_fleet.shared.flow.control import _COMMANDS
 from tests.flying import compiled
 
 PAGE = (Path(__file__).parents[2] / "docs/seam.md").read_text("utf-8")
@@ -31,7 +31,7 @@ def test_the_flight_by_hand_is_flown(tmp_path: Path) -> None:
 def test_every_call_order_and_command_is_on_it() -> None:
     named = set(re.findall(r"`([\w-]+)", PAGE))
     calls = {name for name in vars(Brain) if not name.startswith("_")}
-    inside = {"core", "states", "telemetry", "close", "living", "drones"}
+    inside = {"telemetry", "close", "living"}
     assert calls - inside <= named
     ordered = set(re.findall(r'"do": "(\w+)"', ORDERS)) | set(re.findall(r'_ask\("(\w+)"', ORDERS))
     assert ordered

@@ -15,7 +15,7 @@ from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones.errors import LinkLost
 from pluto_fleet.drones.protocol import DroneEvent, DroneSetup
-from plutoc_runtime.domain.model import Point
+from pluto_fleet.shared.domain.model import Point
 
 FAST = 1.0
 """Metres per second: tests must not wait, and no course is followed faster."""

@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.crtp.equipment import camera, picture, port_of
 from pluto_fleet.drones.errors import ActionNotDone, Rejected
-from plutoc_runtime.domain.model import Item, Photo
+from pluto_fleet.shared.domain.model import Item, Photo
 from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")

@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import plutoc_runtime
+import pluto_fleet
 
-_RUNTIME = Path(plutoc_runtime.__file__).parents[1]
+_RUNTIME = Path(pluto_fleet.__file__).parents[1]
 _PROGRAM = f"""
 import sys
 sys.path.insert(0, {str(_RUNTIME)!r})

@@ -17,7 +17,7 @@ from pluto_fleet.crtp.equipment import HEIGHT, WIDTH, frames
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.packets import NULL
 from pluto_fleet.crtp.server import HOST, Server
-from plutoc_runtime.domain.errors import BadInput
+from pluto_fleet.shared.domain.errors import BadInput
 from tests.crtp.starting import COMMAND
 
 ECHO = b"\xfcare you there"

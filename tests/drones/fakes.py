@@ -8,8 +8,8 @@ from math import dist, inf
 
 from pluto_fleet.drones.errors import Crashed, LinkLost, Rejected
 from pluto_fleet.drones.protocol import CRASHED, DroneEvent, DroneTelemetry
-from plutoc_runtime.domain.actions import Plain
-from plutoc_runtime.domain.model import Item, Point
+from pluto_fleet.shared.domain.actions import Plain
+from pluto_fleet.shared.domain.model import Item, Point
 from tests.drones.jumping import the_loop
 
 

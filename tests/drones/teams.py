@@ -16,10 +16,10 @@ from pluto_fleet.drones.real_fleet import RequiredAction
 from pluto_fleet.drones.team import Team
 from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.domain.model import Category
-from plutoc_runtime.time.kernel import FLEET, Task
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import FlightFailed
+from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.time.kernel import FLEET, Task
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
 

@@ -8,8 +8,8 @@ import pytest
 
 from pluto_fleet.drones.errors import Rejected
 from pluto_fleet.drones.real_fleet import RequiredAction
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.model import Category, Item
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Category, Item
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
 from tests.drones.teams import flying

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.domain.errors import Failure
+from pluto_fleet.shared.domain.errors import Failure
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
 from tests.drones.teams import flying

@@ -12,10 +12,10 @@ from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
 from pluto_fleet.drones.team import make_team
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput, Failure
+from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.simulation.body import SimulatedDrone
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput, Failure
-from plutoc_runtime.domain.model import Point
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import run, the_loop
 from tests.drones.teams import SCOUT, flying

@@ -11,7 +11,7 @@ import pytest
 
 from pluto_fleet.drones.errors import NavigationError
 from pluto_fleet.drones.protocol import BATTERY_LOW, DroneEvent
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
 from tests.drones.teams import Flown, flying

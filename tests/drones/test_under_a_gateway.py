@@ -18,9 +18,9 @@ from pluto_fleet.gateway.process import LINGERS, Ending
 from pluto_fleet.gateway.server import Server
 from pluto_fleet.jobs.telemetry import Publisher
 from pluto_fleet.process.ipc import line
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.model import Point
-from plutoc_runtime.time.future import Future
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.time.future import Future
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
 from tests.drones.teams import FIELD, Flown, flying

@@ -12,8 +12,8 @@ from pluto_fleet.drones.errors import LinkLost, Rejected
 from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from pluto_fleet.drones.safety import outside_area
 from pluto_fleet.drones.team import Team
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import Failure
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure
 from tests.drones.fakes import FakeDrone
 from tests.drones.jumping import the_loop
 from tests.drones.teams import FIELD, Flown, flying

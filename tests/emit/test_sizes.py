@@ -12,14 +12,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.app import described
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.files.missions import load_missions
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.fields import Entity
 from plutoc.compile import compile_source
 from plutoc.emit.package import Package
 from plutoc.source import Source
 from plutoc_blocks import BLOCKS
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.fields import Entity
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NUMBERS = itertools.count()
@@ -139,7 +140,7 @@ def test_a_missions_file_cannot_give_what_no_block_needs(
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text, encoding="utf-8")
     monkeypatch.syspath_prepend(tmp_path / "src")
-    app = import_module(f"{name}.flow").APP
+    app = described(import_module(f"{name}.flow").APP)
     airspace = default_fleet(app).airspace
     missions = tmp_path / "missions.toml"
     needed = {field.name for one in has for field in KINDS[OPTIONAL[one]].needs}

@@ -13,12 +13,13 @@ from random import Random
 from types import SimpleNamespace
 from typing import Any
 
+from pluto_fleet.shared.domain.errors import ActionFailed
+from pluto_fleet.shared.domain.model import Drone, Mission, Results, Trip
+from pluto_fleet.shared.domain.status import TripStatus
+from pluto_fleet.shared.hooks.context import Context, Verdict
 from plutoc.block import HookKind
 from plutoc.graph.model import Graph, Hook
-from plutoc_runtime.domain.errors import ActionFailed
-from plutoc_runtime.domain.model import Drone, Mission, Results, Trip
-from plutoc_runtime.domain.status import Status, TripStatus
-from plutoc_runtime.hooks.context import Context, Verdict
+from plutoc_runtime.domain.status import Status
 
 PAUSES = (0.0, 0.0, 0.5, 1.0, 2.0, 4.0, 6.5, 15.0)
 PATIENCE = 40

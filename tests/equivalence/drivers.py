@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Any, TypeVarTuple
 from pluto_fleet.flight.simulate import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.alone.simulate import SimulationResult
-from plutoc_runtime.domain.errors import BadInput
+from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.shared.domain.errors import BadInput
 
 if TYPE_CHECKING:
+    from pluto_fleet.app import App
     from pluto_fleet.files.fleet import FleetFile
-    from plutoc_runtime.alone.faults import Faults
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
-    from plutoc_runtime.domain.trace import Event
+    from pluto_fleet.shared.alone.faults import Faults
+    from pluto_fleet.shared.domain.model import Mission
+    from pluto_fleet.shared.domain.trace import Event
     from tests.equivalence.fly import Record
     from tests.equivalence.worlds import World
 

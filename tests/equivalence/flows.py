@@ -11,11 +11,11 @@ from importlib import import_module
 from importlib.abc import InspectLoader
 from types import CodeType, ModuleType, SimpleNamespace
 
+from pluto_fleet.shared.domain.app import App
 from plutoc.emit.flow_file import flow_file
 from plutoc.emit.model_file import model_file
 from plutoc.graph.model import Graph
 from plutoc.plan.model import Plan
-from plutoc_runtime.domain.app import App
 from tests.equivalence import strangers
 from tests.equivalence.patience import Patience
 

@@ -7,22 +7,24 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
+from pluto_fleet.app import described
 from pluto_fleet.flight.simulate import simulate
-from plutoc_runtime.alone.simulate import SimulationResult
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import Drone, Mission
-from plutoc_runtime.domain.trace import Event
+from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Drone, Mission
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.domain.trace import Event
 from tests.equivalence.behaviour import Behaviour
 from tests.equivalence.flows import Package
 from tests.equivalence.patience import Spins
 from tests.equivalence.worlds import World
 
 if TYPE_CHECKING:
+    from pluto_fleet.app import App
     from pluto_fleet.files.fleet import FleetFile
-    from plutoc_runtime.alone.faults import Faults
-    from plutoc_runtime.domain.app import App, Flow
-    from plutoc_runtime.domain.status import Status
-    from plutoc_runtime.flow.run import Run
+    from pluto_fleet.shared.alone.faults import Faults
+    from pluto_fleet.shared.domain.app import Flow
+    from pluto_fleet.shared.flow.run import Run
 
 ANY: tuple[type[Exception], ...] = (Exception,)
 """All that ends a run is kept, and compared."""
@@ -71,12 +73,15 @@ def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool
     )
     app = package.app(behaviour.hooks(package.graph))
     if world.entry is not None and world.entry[0] in app.resumes:
-        app = replace(app, flow=partial(_entered, app.flow, world.entry))
-    missions = world.made(app)
+        block, status = world.entry
+        entry = block, Status(status.value)
+        app = replace(app, flow=partial(_entered, app.flow, entry))
+    flown = described(app)
+    missions = world.made(flown)
     ends: Sequence[str]
     try:
         outcome = fly(
-            app,
+            flown,
             missions,
             world.fleet,
             seed=world.seed,

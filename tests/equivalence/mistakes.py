@@ -6,6 +6,8 @@ from copy import copy
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from pluto_fleet.shared.flow.run import watch
+from pluto_fleet.shared.time.future import Future
 from plutoc.block import Gate, Param
 from plutoc.plan.model import (
     Arm,
@@ -25,14 +27,12 @@ from plutoc.plan.passes.watch import watch as watch_pass
 from plutoc.plan.rewrite import rewritten
 from plutoc_blocks.gate_fifo.step import pass_first
 from plutoc_blocks.timer_monitor.step import timer_limit
-from plutoc_runtime.flow.run import watch
-from plutoc_runtime.time.future import Future
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.status import Status
-    from plutoc_runtime.flow.run import Branch, Run
-    from plutoc_runtime.trips.deadlines import Limit
-    from plutoc_runtime.trips.flight import Flight
+    from pluto_fleet.shared.domain.status import Status
+    from pluto_fleet.shared.flow.run import Branch, Run
+    from pluto_fleet.shared.trips.deadlines import Limit
+    from pluto_fleet.shared.trips.flight import Flight
 
 
 def swap_arms(step: Step, _: Step) -> Body:

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TypeVar
 
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.model import AfterTrip
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.model import AfterTrip
 from tests.equivalence.campaign import Finding
 from tests.equivalence.worlds import MissionPlan, World
 

@@ -11,15 +11,15 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
+from pluto_fleet.app import App
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import AfterTrip, Item, Mission, Point, Trip
 from plutoc.emit.model_file import fields_of
 from plutoc.graph.model import Graph
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
-from plutoc_runtime.domain.model import AfterTrip, Item, Mission, Point, Trip
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.shared.domain.trace import Event
 from plutoc.cli import main
-from plutoc_runtime.domain.trace import Event
 from tests.flying import EXAMPLES, MISHAPS, Example, built
 
 SEEDS = range(10)

@@ -9,15 +9,16 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.app import described
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.shared.alone.faults import Faults
 from plutoc import registry
 from plutoc.cli import main
 from plutoc.diagnostic import Rejected
 from plutoc.graph.resolve import resolve
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
-from plutoc_runtime.alone.faults import Faults
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted([DOCS / "language.md", *DOCS.glob("tutorial/*.md")])
@@ -116,7 +117,7 @@ def test_a_trip_is_put_back_as_the_reference_says(
     assert main(["compile", str(source), "-o", str(tmp_path / "out")]) == 0
     monkeypatch.syspath_prepend(str(tmp_path / "out" / "src"))
     try:
-        app = import_module("trips_again.flow").APP
+        app = described(import_module("trips_again.flow").APP)
         outcome = simulate(
             app,
             [app.mission(name="m", trips=[app.trip(name="A", action="measure", target=(2, 2, 1))])],
@@ -144,7 +145,7 @@ def with_name(name: str, language: str) -> str:
 
 def test_reference_lists_what_trips_missions_and_drones_offer() -> None:
     """Every public attribute of the three stands on the page."""
-    from plutoc_runtime.domain.model import Drone, Mission, Trip
+    from pluto_fleet.shared.domain.model import Drone, Mission, Trip
 
     text = (DOCS / "tutorial/hooks.md").read_text("utf-8")
     # what the runtime needs of them, and hooks do not

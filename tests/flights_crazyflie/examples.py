@@ -22,7 +22,7 @@ from tempfile import mkdtemp
 from typing import Any
 
 from pluto_fleet.crtp.flight_log import Point
-from plutoc_runtime.hooks.plain_data import point_of
+from pluto_fleet.shared.hooks.plain_data import point_of
 from tests.apart import apart
 from tests.flights_crazyflie.campaign import gateway_left
 from tests.flights_crazyflie.flight import Event, Flight

@@ -15,7 +15,7 @@ from pluto_fleet.crtp import process
 from pluto_fleet.crtp.flight_log import COMMANDS, TRACE, CommandRecord, PositionRecord
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.reader import Reader
-from plutoc_runtime.domain.errors import BadInput
+from pluto_fleet.shared.domain.errors import BadInput
 from tests.kill.lives import Lives, eventually
 from tests.kill.trial import end_gateway, gateway_of
 

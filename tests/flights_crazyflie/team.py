@@ -15,11 +15,11 @@ from pluto_fleet.drones.real_fleet import SLACK, RealDrone, RealFleet
 from pluto_fleet.drones.team import Team, make_team
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.domain.actions import Plain
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.domain.model import Category, Item, Point
-from plutoc_runtime.time.kernel import FLEET, Task
+from pluto_fleet.shared.domain.actions import Plain
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import FlightFailed
+from pluto_fleet.shared.domain.model import Category, Item, Point
+from pluto_fleet.shared.time.kernel import FLEET, Task
 from tests.kill.lives import eventually
 
 T = TypeVar("T")

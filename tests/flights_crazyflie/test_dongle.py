@@ -9,8 +9,8 @@ import pytest
 
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import MemoryLog
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.model import Point
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Point
 from tests.crtp.radio import Ether, plugged_in
 from tests.flights_crazyflie.team import commanded, no_thread_is_left
 

@@ -15,8 +15,8 @@ from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.faults import Value
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
-from plutoc_runtime.domain.errors import Failure
-from plutoc_runtime.domain.model import Point
+from pluto_fleet.shared.domain.errors import Failure
+from pluto_fleet.shared.domain.model import Point
 from tests.flights_crazyflie.judge import dropped
 from tests.flights_crazyflie.team import Flown, commanded, no_thread_is_left
 

@@ -23,7 +23,7 @@ from pluto_fleet.crtp.flight_log import CommandRecord, Point
 from pluto_fleet.drones.vehicle import CLIMB_LIMIT
 from pluto_fleet.journal.place import commands_note
 from pluto_fleet.process.ipc import ask
-from plutoc_runtime.hooks.plain_data import point_of
+from pluto_fleet.shared.hooks.plain_data import point_of
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import astray, dropped, left_in_the_air, nearest

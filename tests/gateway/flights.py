@@ -8,15 +8,15 @@ from dataclasses import dataclass, field
 from pluto_fleet.gateway.executor import Leaving
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.actions import BUILT_IN, Plain
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Category, Item, Point
+from pluto_fleet.shared.time.kernel import FLEET, Kernel
+from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.domain.actions import BUILT_IN, Plain
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import Category, Item, Point
-from plutoc_runtime.time.kernel import FLEET, Kernel
-from plutoc_runtime.time.virtual import VirtualTime
 
 SCOUT = Category(name="scout", speed=0.5, flight_time=420, charge_time=1200)
 PILLS = Item(name="pills", mass=0.004)

@@ -10,18 +10,18 @@ from collections.abc import Awaitable, Callable, Coroutine
 from pathlib import Path
 from typing import Any, TypeVar
 
-import plutoc_runtime
+import pluto_fleet
 from pluto_fleet.gateway.process import LOCK
 from pluto_fleet.gateway.remote import RemoteLink
 from pluto_fleet.gateway.settings import Settings
 from pluto_fleet.gateway.starting import connect
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.world_store import DEEDS
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import SCOUT, Task
 
 T = TypeVar("T")
@@ -29,7 +29,7 @@ T = TypeVar("T")
 SPEED = 100.0
 
 PROGRAM = (
-    f"import sys; sys.path.insert(0, {str(Path(plutoc_runtime.__path__[0]).parent)!r}); "
+    f"import sys; sys.path.insert(0, {str(Path(pluto_fleet.__path__[0]).parent)!r}); "
     "from pluto_fleet.gateway.process import main; sys.exit(main(sys.argv[1:]))"
 )
 COMMAND = (sys.executable, "-c", PROGRAM)

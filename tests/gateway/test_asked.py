@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import FLEET
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.time.kernel import FLEET
 from tests.gateway.flights import Field, Task
 from tests.gateway.processes import Brain, played
 

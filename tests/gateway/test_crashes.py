@@ -13,11 +13,11 @@ from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.gateway.lossy_line import LOST, LossyLine
 from pluto_fleet.jobs.reports import Down, JobState
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.time.kernel import FLEET
+from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.drones import WorldAction
 from pluto_fleet.simulation.radio import Radio
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import FLEET
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly
 

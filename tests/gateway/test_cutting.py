@@ -13,9 +13,9 @@ from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.gateway.process import LEDGER
 from pluto_fleet.gateway.starting import cut_directly
 from pluto_fleet.jobs.reports import Down
+from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
+from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.simulation.world_store import DRONES
-from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import THERE, Field, Task
 from tests.gateway.processes import Brain, pid, played
 from tests.runtime.simulation.flights import failure, fly

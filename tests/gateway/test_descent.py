@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.jobs.reports import Down, JobState
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import Failure
-from plutoc_runtime.time.kernel import FLEET
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure
+from pluto_fleet.shared.time.kernel import FLEET
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly
 

@@ -6,9 +6,9 @@ import pytest
 
 from pluto_fleet.gateway.lossy_line import LOST, LossyLine
 from pluto_fleet.jobs.reports import Down, JobState
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.simulation.radio import ANSWER, COMMAND, Radio
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import failure, fly
 

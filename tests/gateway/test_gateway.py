@@ -6,9 +6,9 @@ import pytest
 
 from pluto_fleet.gateway.gateway import Busy
 from pluto_fleet.jobs.reports import Down, FleetReport, JobState
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.time.kernel import FLEET
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
+from pluto_fleet.shared.time.kernel import FLEET
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 

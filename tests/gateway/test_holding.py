@@ -12,7 +12,7 @@ from threading import Timer
 import pytest
 
 from pluto_fleet.gateway.drone_lock import DroneInUse, lock_drones
-from plutoc_runtime.domain.errors import BadInput
+from pluto_fleet.shared.domain.errors import BadInput
 
 ROOT = Path(__file__).parents[2]
 RADIO = "radio://0/80/2M/E7E7E7E7E7"

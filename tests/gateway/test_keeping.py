@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.simulation.world_store import DEEDS, DRONES, Moment, WorldStore, this_moment
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import FLEET
 from tests.gateway.flights import PILLS, THERE, Field, Task
 from tests.runtime.simulation.flights import failure, fly
 

@@ -10,8 +10,8 @@ import pytest
 
 from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.jobs.reports import Entry, JobState
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.model import Photo
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Photo
 from tests.gateway.flights import Field, Task
 from tests.runtime.simulation.flights import fly
 

@@ -16,8 +16,8 @@ from pluto_fleet.gateway.process import LOG, main
 from pluto_fleet.gateway.starting import connect, let_end, speed_in, still_runs, stop_directly
 from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.domain.errors import BadInput, Failure, FlightFailed
-from plutoc_runtime.domain.model import Photo
+from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Photo
 from tests.gateway.flights import THERE, Task
 from tests.gateway.processes import SPEED, Brain, deeds, pid, played, settings
 

@@ -16,13 +16,13 @@ from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.lives import FlightSetup, aloft, may_hover
 from pluto_fleet.jobs.reports import DroneReport
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Drone, Point
+from pluto_fleet.shared.domain.status import DroneStatus, Status
+from pluto_fleet.shared.hooks.plain_data import trip_data
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import Drone, Point
-from plutoc_runtime.domain.status import DroneStatus, Status
-from plutoc_runtime.hooks.plain_data import trip_data
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.gateway.sightings import SEEN, Sightings, sightings_in
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from tests.gateway.flights import Field
 
 

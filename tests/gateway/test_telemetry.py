@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Mapping
 
 from pluto_fleet.jobs.telemetry import Publisher
-from plutoc_runtime.domain.model import Telemetry
+from pluto_fleet.shared.domain.model import Telemetry
 from tests.gateway.flights import Field
 
 News = Mapping[str, bool]

@@ -18,12 +18,12 @@ from pluto_fleet.gateway.wire import (
 )
 from pluto_fleet.jobs.reports import DroneReport, Entry, FleetReport, JobState
 from pluto_fleet.process.ipc import line, message_in
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
+from pluto_fleet.shared.domain.model import Category, Photo
 from pluto_fleet.simulation.body import SimulatedDrone
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
-from plutoc_runtime.domain.model import Category, Photo
 from tests.gateway.flights import Task
 from tests.gateway.processes import settings
 

@@ -8,14 +8,14 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.domain.actions import BUILT_IN, Action, Parameter
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.errors import ActionFailed
-from plutoc_runtime.domain.model import Category, Drone, Mission, Results, Trip
-from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.domain.status import Status, TripStatus
-from plutoc_runtime.hooks.context import Context, LiveDrone
-from plutoc_runtime.hooks.testing import AppKit
+from pluto_fleet.shared.domain.actions import BUILT_IN, Action, Parameter
+from pluto_fleet.shared.domain.app import App
+from pluto_fleet.shared.domain.errors import ActionFailed
+from pluto_fleet.shared.domain.model import Category, Drone, Mission, Results, Trip
+from pluto_fleet.shared.domain.quantities import Type
+from pluto_fleet.shared.domain.status import Status, TripStatus
+from pluto_fleet.shared.hooks.context import Context, LiveDrone
+from pluto_fleet.shared.hooks.testing import AppKit
 
 SCOUT = Category(name="scout", actions=frozenset({"take_photo"}))
 CARRIER = Category(name="carrier", payload=0.2, actions=frozenset({"pour"}))

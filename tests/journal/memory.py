@@ -11,7 +11,7 @@ from pluto_fleet.journal import errors
 from pluto_fleet.journal.database import Row
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.reader import Read
-from plutoc_runtime.domain.trace import Event
+from pluto_fleet.shared.domain.trace import Event
 
 
 class Memory:

@@ -18,7 +18,7 @@ from pluto_fleet.cli import main
 from pluto_fleet.journal import place
 from pluto_fleet.journal.store import Store
 from pluto_fleet.report import sentences
-from plutoc_runtime.domain.status import DroneStatus
+from pluto_fleet.shared.domain.status import DroneStatus
 from tests.runtime.files.an_app import APP
 
 ROOT = Path(__file__).parents[2]

@@ -9,7 +9,6 @@ from pathlib import Path
 import tomlkit
 
 import pluto_fleet
-import plutoc_runtime
 
 _PROGRAM = (
     "import sys; sys.path[:0] = sys.argv[1:3]; del sys.argv[1:3]; "
@@ -25,7 +24,6 @@ def installed(folder: Path) -> tuple[str, ...]:
     no_caches = shutil.ignore_patterns("__pycache__")
     library = folder / "pluto_fleet"
     shutil.copytree(pluto_fleet.__path__[0], library, ignore=no_caches)
-    shutil.copytree(plutoc_runtime.__path__[0], library / "_brain", ignore=no_caches)
     needed = folder / "needed"
     shutil.copytree(tomlkit.__path__[0], needed / "tomlkit", ignore=no_caches)
     return (sys.executable, "-I", "-S", "-c", _PROGRAM, str(folder), str(needed))

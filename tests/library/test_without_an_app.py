@@ -55,10 +55,10 @@ def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ..
         "sys.path[:0] = sys.argv[1:3]\n"
         "import pluto_fleet\n"
         "names = [one.name for one in walk_packages(pluto_fleet.__path__, 'pluto_fleet.')]\n"
-        "out = ('pluto_fleet._brain', 'pluto_fleet.station.web.server', 'pluto_fleet.cli.plot')\n"
+        "out = ('pluto_fleet.shared', 'pluto_fleet.station.web.server', 'pluto_fleet.cli.plot')\n"
         "for name in names:\n"
         "    if not name.startswith(out): import_module(name)\n"
-        "import plutoc_runtime.domain.errors as errors; print(len(names), errors.__file__)\n"
+        "import pluto_fleet.shared.domain.errors as errors; print(len(names), errors.__file__)\n"
     )
     *first, _, folder, needed = program
     done = subprocess.run(
@@ -67,7 +67,7 @@ def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ..
     assert (done.returncode, done.stderr) == (0, "")
     number, home = done.stdout.split()
     assert int(number) > 200
-    assert home == f"{folder}/pluto_fleet/_brain/domain/errors.py"
+    assert home == f"{folder}/pluto_fleet/shared/domain/errors.py"
 
 
 def test_the_program_says_its_version(program: tuple[str, ...]) -> None:

@@ -6,8 +6,8 @@ from collections.abc import AsyncIterator, Callable, Coroutine, Mapping
 from functools import wraps
 from typing import Any
 
+from pluto_fleet.drones import Point
 from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
-from plutoc_runtime.domain.model import Point
 from tests.navigation.simulated import Simulated
 
 NUMBER = 7

@@ -20,14 +20,14 @@ from pluto_fleet.drones.protocol import (
     DroneTelemetry,
 )
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Category, Point
+from pluto_fleet.shared.time.kernel import Task
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.model import Category, Point
-from plutoc_runtime.time.kernel import Task
 
 PACE = 10.0
 """How fast time passes for the simulated drone: one of 0.5 m/s flies at 5."""

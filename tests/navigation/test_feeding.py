@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.drones import localization
 from pluto_fleet.drones.localization import LocalizationFeed
-from plutoc_runtime.domain.model import Point
+from pluto_fleet.shared.domain.model import Point
 
 
 class Drone:

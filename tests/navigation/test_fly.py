@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-import plutoc_runtime
+import pluto_fleet
 from tests.flying import compiled
 from tests.kill.trial import end_gateway
 from tests.navigation.test_loading import offered
@@ -57,7 +57,7 @@ def fly(folder: Path, fleet: str) -> subprocess.CompletedProcess[str]:
     (folder / "missions.toml").write_text(MISSIONS)
     (folder / "fleet.toml").write_text(fleet)
     offered(folder, "pluto-wren", "plutoc.navigations", "wren = wren:Wren")
-    runtime = Path(plutoc_runtime.__path__[0]).parent
+    runtime = Path(pluto_fleet.__path__[0]).parent
     words = ["fly", "missions.toml", "--fleet", "fleet.toml", "--journal", "flight.journal"]
     try:
         return subprocess.run(

@@ -9,7 +9,7 @@ from lines import Lines
 
 from pluto_fleet.drones.loading import make_localization
 from pluto_fleet.drones.localization import LocalizationFeed
-from plutoc_runtime.domain.model import Point
+from pluto_fleet.shared.domain.model import Point
 
 
 class Drone:

@@ -15,7 +15,7 @@ from pluto_fleet.drones.loading import (
     make_localization,
     make_navigation,
 )
-from plutoc_runtime.domain.errors import BadInput
+from pluto_fleet.shared.domain.errors import BadInput
 from tests.navigation import classes
 from tests.navigation.simulated import setup
 

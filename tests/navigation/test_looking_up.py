@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.drones import loading
 from pluto_fleet.drones.loading import load_localization, load_navigation
-from plutoc_runtime.domain.errors import BadInput
+from pluto_fleet.shared.domain.errors import BadInput
 from tests.navigation import classes
 
 RUN = "import pathlib; pathlib.Path({mark!r}).touch()\n"

@@ -9,8 +9,8 @@ from math import inf, nan
 import pytest
 
 from pluto_fleet.drones.commands import result_of
-from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.domain.model import Photo, Point
+from pluto_fleet.shared.domain.errors import FlightFailed
+from pluto_fleet.shared.domain.model import Photo, Point
 
 
 @dataclass

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-import plutoc_runtime
+import pluto_fleet
 from pluto_fleet.drones import errors, plugins
 from pluto_fleet.drones.conformance.contract import NavigationContract
 
@@ -36,7 +36,7 @@ def test_the_page_shows_the_files_as_they_are(name: str, place: int, update: boo
 def test_the_test_file_that_the_page_shows_is_one(tmp_path: Path) -> None:
     """As its reader runs it: with pytest, and nothing of ours besides."""
     (tmp_path / "test_wren.py").write_text(BLOCK.findall(PAGE)[2])
-    runtime = Path(plutoc_runtime.__path__[0]).parent
+    runtime = Path(pluto_fleet.__path__[0]).parent
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-k", "go_to_is_refused or falls_silent", "-rs"],
         cwd=tmp_path,

@@ -13,8 +13,8 @@ from typing import ClassVar
 
 from pluto_fleet.drones.errors import LinkLost, Rejected
 from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
+from pluto_fleet.shared.domain.model import Category, Point
 from pluto_fleet.simulation.body import SimulatedDrone
-from plutoc_runtime.domain.model import Category, Point
 from tests.navigation.simulated import SPEED, Simulated, SimulatedContract
 
 

@@ -159,7 +159,7 @@ def test_the_library_is_built_with_the_brain_as_it_is(library: Path) -> None:
         for path in source.rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
     }
-    inside = "pluto_fleet/_brain/"
+    inside = "pluto_fleet/shared/"
     with ZipFile(library) as wheel:
         names = [name for name in wheel.namelist() if name.startswith(inside)]
         assert {name.removeprefix(inside): wheel.read(name) for name in names} == ours

@@ -3,12 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from pluto_fleet.app import App, described
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.shared.domain import app as brain_app
+from pluto_fleet.shared.domain import model
+from pluto_fleet.shared.domain.actions import BUILT_IN, Action
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.fields import Entity, Field, FieldType
+from pluto_fleet.shared.domain.model import AfterTrip, Category, Item, Point
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.fleet.policies import Policy, nearest
+from pluto_fleet.shared.flow.run import Run
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.gap_monitor.step import watch_gap
@@ -21,18 +34,6 @@ from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.timer_monitor.step import watch_timer
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.simulate import SimulationResult
-from plutoc_runtime.domain import model
-from plutoc_runtime.domain.actions import BUILT_IN, Action
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.fields import Entity, Field, FieldType
-from plutoc_runtime.domain.model import AfterTrip, Category, Item, Point
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.fleet.policies import Policy, nearest
-from plutoc_runtime.flow.run import Run
 
 __all__ = ["SimulationResult"]
 
@@ -84,17 +85,25 @@ def app(
     evaluators: Mapping[str, Callable[..., object]] | None = None,
 ) -> App:
     """Return an app of this flow."""
-    return App(
-        name="tested",
-        title="Tested",
-        flow=flow,
-        mission=Mission,
-        trip=Trip,
-        fields=FIELDS,
-        categories=tuple(categories),
-        actions={**BUILT_IN, **{action.name: action for action in actions}},
-        evaluators=evaluators or {},
+    return described(
+        brain_app.App(
+            name="tested",
+            title="Tested",
+            flow=flow,
+            mission=Mission,
+            trip=Trip,
+            fields=FIELDS,
+            categories=tuple(categories),
+            actions={**BUILT_IN, **{action.name: action for action in actions}},
+            evaluators=evaluators or {},
+        )
     )
+
+
+def changed(app: App, **changes: Any) -> App:
+    """Return an app with other facts, for the library and for its brain."""
+    given: Any = app.given
+    return described(replace(given, **changes))
 
 
 def watched(run: Run[Any], status: Status) -> Coroutine[Any, Any, Status]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 import sys
 
-from pluto_fleet.scaffolding import bind
 from tests.one_brain import Elsewhere
 
 EMBEDDED = os.environ.get("PLUTO_EMBEDDED")
@@ -18,7 +17,10 @@ HOME = "carrier._runtime"
 
 
 def embedded_name(name: str) -> str | None:
-    """Return where an embedded copy has this block's step; None: this is none."""
+    """Return where an embedded copy has this module of the brain, or block's step; None: it is neither."""
+    for brain in ("pluto_fleet.shared", "plutoc_runtime"):
+        if f"{name}.".startswith(f"{brain}."):
+            return f"{HOME}{name.removeprefix(brain)}"
     if name.startswith("plutoc_blocks.") and name.endswith(".step"):
         return f"{HOME}.blocks.{name.split('.')[1]}"
     return None
@@ -27,5 +29,4 @@ def embedded_name(name: str) -> str | None:
 if EMBEDDED:
     assert not [name for name in sys.modules if embedded_name(name)], "loaded before the copy"
     sys.path.insert(0, EMBEDDED)
-    bind(HOME)
     sys.meta_path.insert(0, Elsewhere(embedded_name))

@@ -5,14 +5,14 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Sequence
 
+from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.simulate import SimulationResult
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.trace import Event
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.shared.domain.trace import Event
 from tests.runtime import apps
 
 

@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
+from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.recorded_flight import RecordedFlight
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.fields import Entity, Field, FieldType
+from pluto_fleet.shared.domain.model import Mission
+from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import FLEET, EventKind
+from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation, WorldAction
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.fields import Entity, Field, FieldType
-from plutoc_runtime.domain.model import Mission
-from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, EventKind
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.journal.memory import Memory
 
 from . import apps
@@ -44,7 +43,7 @@ def enterable(**flow: Any) -> App:
     actions = flow.pop("actions", ())
     app = apps.app(apps.flow(**flow), actions=actions)
     points = ("wait", "allocate") if flow.get("clock") else ("allocate",)
-    return replace(app, resumes=points, fields=FIELDS)
+    return apps.changed(app, resumes=points, fields=FIELDS)
 
 
 class _AtOnce:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from typing import Any, TypeVar
 
-from plutoc_runtime.time.kernel import Call, EventKind, Kernel, Key, Task, Timer
+from pluto_fleet.shared.time.kernel import Call, EventKind, Kernel, Key, Task, Timer
 
 T = TypeVar("T")
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from pluto_fleet.gateway.lossy_line import LossyLine
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.hooks.context import Context
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.hooks.context import Context
 
 from . import apps
 from .living import Living, enterable, names

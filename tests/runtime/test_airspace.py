@@ -9,10 +9,10 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from plutoc_runtime.domain.airspace import MARGIN, Airspace
-from plutoc_runtime.domain.geometry import enters, inside, tidy
-from plutoc_runtime.domain.model import Point
-from plutoc_runtime.fleet.reach import length
+from pluto_fleet.shared.domain.airspace import MARGIN, Airspace
+from pluto_fleet.shared.domain.geometry import enters, inside, tidy
+from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.fleet.reach import length
 
 Polygon = tuple[tuple[float, float], ...]
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import AfterTrip, Category, Drone, Trip
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.batch_optimal import batch_optimal
-from plutoc_runtime.fleet.own_policy import own_policy
-from plutoc_runtime.fleet.policies import Policy, first, least_used, nearest
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Trip
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.fleet.batch_optimal import batch_optimal
+from pluto_fleet.shared.fleet.own_policy import own_policy
+from pluto_fleet.shared.fleet.policies import Policy, first, least_used, nearest
 from tests.runtime import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))

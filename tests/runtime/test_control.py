@@ -8,11 +8,11 @@ from dataclasses import replace
 import pytest
 
 from pluto_fleet.jobs.reports import Down
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Drone, Trip
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.trials.invariants import violations
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import Drone, Trip
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.context import Context
 
 from . import apps
 from .living import Living, enterable, names

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import AfterTrip
-from plutoc_runtime.domain.status import DroneStatus
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.told import Stuck
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import AfterTrip
+from pluto_fleet.shared.domain.status import DroneStatus
+from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.told import Stuck
 
 from . import apps
 from .living import Living, enterable, names

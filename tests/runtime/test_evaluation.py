@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.domain.model import Mission, Results
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.hooks.context import Verdict
+from pluto_fleet.shared.domain.model import Mission, Results
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.hooks.context import Verdict
 from tests.runtime import apps
 
 

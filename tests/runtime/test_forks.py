@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import Category
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.context import Context
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Context
 from tests.runtime import apps, in_real_time
 
 Fly = Callable[[Callable[..., object]], apps.SimulationResult]

@@ -8,14 +8,14 @@ from typing import Any
 import pytest
 
 from pluto_fleet.process.signal_guard import guard_hooks, interrupted_by_a_person
-from plutoc_runtime.domain import guard
-from plutoc_runtime.domain.errors import Cancelled
+from pluto_fleet.shared.domain import guard
+from pluto_fleet.shared.domain.errors import Cancelled
 
 
 @pytest.fixture(autouse=True)
 def _alone() -> Iterator[None]:
     """Call hooks as a package does that has no library beside it, then as the other tests do."""
-    guard.put(guard.Guard())
+    guard.put_guard(guard.Guard())
     yield
     guard_hooks()
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 
+from pluto_fleet.shared.time.future import Future
 from plutoc_blocks.clock.step import wait_for_time
-from plutoc_runtime.time.future import Future
 
 
 def test_these_tests_run_on_the_copy_that_is_meant() -> None:

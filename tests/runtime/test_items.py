@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.errors import ActionFailed
-from plutoc_runtime.domain.model import Drone
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.context import Context
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.errors import ActionFailed
+from pluto_fleet.shared.domain.model import Drone
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Context
 from tests.runtime import apps
 
 HOMES = ((0.5, 0.5, 0.0), (6.0, 0.5, 0.0))

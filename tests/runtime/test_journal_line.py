@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.journal.event_line import exact, line
-from plutoc_runtime.domain.trace import dumped
+from pluto_fleet.shared.domain.trace import dumped
 
 FACTS = (
     st.none()

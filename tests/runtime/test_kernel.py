@@ -8,11 +8,11 @@ from functools import partial
 import pytest
 
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.domain.errors import Cancelled
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import EventKind
-from plutoc_runtime.time.told import Stuck
-from plutoc_runtime.time.virtual import VirtualTime
+from pluto_fleet.shared.domain.errors import Cancelled
+from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import EventKind
+from pluto_fleet.shared.time.told import Stuck
+from pluto_fleet.shared.time.virtual import VirtualTime
 
 
 def test_events_of_one_instant_come_by_kind_then_key_in_any_order_of_entry() -> None:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.jobs.landing_sites import free_spot, free_spots
-from plutoc_runtime.domain.airspace import Airspace
+from pluto_fleet.shared.domain.airspace import Airspace
 
 MAP = Airspace(size=(8.0, 6.0), no_fly=(((2, 2), (5, 2), (5, 4), (2, 4)), ((6, 0), (8, 0), (8, 1))))
 places = st.tuples(st.floats(0, 8), st.floats(0, 6), st.floats(0, 3))

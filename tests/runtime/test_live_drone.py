@@ -8,15 +8,15 @@ from functools import partial, wraps
 
 import pytest
 
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import ActionFailed, Failure, FlightFailed
+from pluto_fleet.shared.domain.fleet_data import WorldData
+from pluto_fleet.shared.domain.model import Category, Drone
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Context, LiveDrone, can_wait
+from pluto_fleet.shared.time.future import Future
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import ActionFailed, Failure, FlightFailed
-from plutoc_runtime.domain.fleet_data import WorldData
-from plutoc_runtime.domain.model import Category, Drone
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.context import Context, LiveDrone, can_wait
-from plutoc_runtime.time.future import Future
 from tests.runtime import apps, in_real_time
 
 Hook = Callable[..., object]

@@ -6,7 +6,6 @@ import asyncio
 import json
 from collections.abc import Awaitable, Callable
 from contextlib import closing
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,15 +22,15 @@ from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.store import Store
 from pluto_fleet.process.ipc import NotRunning, ask
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import Category
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.domain.trace import Event
 from tests.runtime import apps
 
 SCOUT = Category(name="scout", speed=1.0)
@@ -56,7 +55,9 @@ class Tried:
 
     def __init__(self, folder: Path) -> None:
         self.path = folder / "a.journal"
-        self.app = replace(apps.app(apps.flow(), categories=[SCOUT]), resumes=("wait", "allocate"))
+        self.app = apps.changed(
+            apps.app(apps.flow(), categories=[SCOUT]), resumes=("wait", "allocate")
+        )
         self.fleet = apps.fleet(airspace=AIRSPACE)
         self.told: list[Event] = []
         self.drones = simulated(self.app, self.fleet)

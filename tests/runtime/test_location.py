@@ -7,17 +7,17 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.fleet.own_policy import own_policy
+from pluto_fleet.shared.fleet.policies import Policy, nearest
+from pluto_fleet.shared.flow.run import Run
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.gate_fifo.step import pass_first
 from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.alone.simulate import SimulationResult
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.own_policy import own_policy
-from plutoc_runtime.fleet.policies import Policy, nearest
-from plutoc_runtime.flow.run import Run
 from tests.runtime import apps
 
 

@@ -12,11 +12,11 @@ from pluto_fleet.gateway.executor import Executor
 from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.report.sentences import line_of
-from plutoc_runtime.domain.errors import BadInput, Failure
-from plutoc_runtime.domain.model import Drone
-from plutoc_runtime.domain.status import DroneStatus
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET
+from pluto_fleet.shared.domain.errors import BadInput, Failure
+from pluto_fleet.shared.domain.model import Drone
+from pluto_fleet.shared.domain.status import DroneStatus
+from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import FLEET
 from tests.journal.memory import Memory
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable, names
@@ -32,7 +32,7 @@ def living(*names: str, homes: int = 2, attempts: int = 5) -> Living:
 
 def drone(living: Living, id: str = "cf1") -> Drone:
     """Return a drone as the latest life sees it."""
-    return next(one for one in living.life.brain.core.fleet.drones if one.id == id)
+    return next(one for one in living.life.brain._core.fleet.drones if one.id == id)
 
 
 def records(living: Living) -> Records:
@@ -122,7 +122,7 @@ def test_a_lost_drone_stays_lost_in_the_next_life_though_it_calls_itself_well() 
     fleet.crash(20.0)
     seen: list[Any] = []
     fleet.at(60.0, lambda: seen.append((drone(fleet).status, records(fleet).lost["cf1"]["at"])))
-    fleet.at(60.0, lambda: seen.append(fleet.life.brain.core.fleet.unready[drone(fleet)]))
+    fleet.at(60.0, lambda: seen.append(fleet.life.brain.drones()["cf1"]["unready"]))
     fleet.at(61.0, lambda: fleet.life.control.bring_back("cf1"))
     assert fleet.run() == ["COMPLETED"] * 8
     (status, at), why = seen
@@ -214,7 +214,7 @@ def test_a_drone_that_was_not_ready_is_asked_anew_when_a_person_has_looked_after
     fleet.run(2.0)
     heard: list[str] = []
     vars(fleet.gateway.navigation).update(mended=heard.append)
-    fleet.life.brain.core.fleet.unready[drone(fleet)] = "it has crashed"
+    fleet.life.brain._core.fleet.unready[drone(fleet)] = "it has crashed"
     assert fleet.life.control.bring_back("cf1") == "cf1 is asked whether it is well"
     assert heard == ["cf1"]
 

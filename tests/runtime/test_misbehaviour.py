@@ -11,18 +11,18 @@ from typing import Any
 import pytest
 
 from pluto_fleet.process.signal_guard import Interrupted, interrupted_by_a_person
+from pluto_fleet.shared.domain.errors import ActionFailed, Cancelled
+from pluto_fleet.shared.domain.model import Mission
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.flow import mission as state
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.flow.run import Run
+from pluto_fleet.shared.hooks.context import Context, Verdict
 from plutoc_blocks.gate_funnel.step import wait_for_all
 from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_evaluator.step import evaluate_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.priority_manager.step import raise_priority
-from plutoc_runtime.domain.errors import ActionFailed, Cancelled
-from plutoc_runtime.domain.model import Mission
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.flow import mission as state
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.flow.run import Run
-from plutoc_runtime.hooks.context import Context, Verdict
 from tests.runtime import apps
 
 Hook = Callable[..., object]

@@ -7,14 +7,14 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.model import Mission
+from pluto_fleet.shared.domain.status import Status, TripStatus
+from pluto_fleet.shared.flow import mission as state
+from pluto_fleet.shared.flow.run import Run
+from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.trials.invariants import violations
 from plutoc_blocks.mission_modifier.step import modify_mission
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.model import Mission
-from plutoc_runtime.domain.status import Status, TripStatus
-from plutoc_runtime.flow import mission as state
-from plutoc_runtime.flow.run import Run
-from plutoc_runtime.hooks.context import Context
 from tests.runtime import apps
 
 ANY_END = (Status.STANDBY, Status.COMPLETED, Status.FAILED)

@@ -12,13 +12,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.journal.fold import Records
-from plutoc_runtime.domain.errors import ActionFailed
-from plutoc_runtime.domain.model import Mission, Photo
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.domain.text import LONGEST_VALUE, shown
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.context import Context, Verdict
-from plutoc_runtime.hooks.plain_data import keepable, value_data, value_of
+from pluto_fleet.shared.domain.errors import ActionFailed
+from pluto_fleet.shared.domain.model import Mission, Photo
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.domain.text import LONGEST_VALUE, shown
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Context, Verdict
+from pluto_fleet.shared.hooks.plain_data import keepable, value_data, value_of
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 

@@ -9,9 +9,9 @@ import pytest
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.files.plan_check import endless, problems
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import Category, Item, Point
-from plutoc_runtime.fleet.reach import Miss, chain_of, miss_of, why_not
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Category, Item, Point
+from pluto_fleet.shared.fleet.reach import Miss, chain_of, miss_of, why_not
 from tests.runtime.files.an_app import APP, FieldMission, FieldTrip
 
 SCOUT, CARRIER = APP.categories

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import Category
-from plutoc_runtime.fleet.reach import docked, flight_seconds, needed
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.fleet.reach import docked, flight_seconds, needed
 
 SCOUT = Category(name="scout", speed=0.5, flight_time=420)
 PLAIN = Airspace(cruise_height=1.2)

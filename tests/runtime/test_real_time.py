@@ -13,16 +13,16 @@ from typing import Any
 import pytest
 
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Category, Drone, Mission
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.flow import mission as state
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.flow.run import Run
+from pluto_fleet.shared.hooks.context import Context
+from pluto_fleet.shared.time.kernel import FLEET
 from plutoc_blocks.mission_modifier.step import modify_mission
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import Category, Drone, Mission
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.flow import mission as state
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.flow.run import Run
-from plutoc_runtime.hooks.context import Context
-from plutoc_runtime.time.kernel import FLEET
 from tests.runtime import apps, in_real_time
 
 FAST = Category(name="scout", speed=200.0)

@@ -11,12 +11,12 @@ import pytest
 
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.model import Drone, Results, Trip
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.context import Context, Verdict
-from plutoc_runtime.time.future import Future
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.model import Drone, Results, Trip
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Context, Verdict
+from pluto_fleet.shared.time.future import Future
 
 from . import apps
 from .living import Living, enterable, names
@@ -264,7 +264,7 @@ def test_a_held_mission_that_is_let_go_on_may_still_be_uncertain() -> None:
     """Its action was under way when the app died, and the block it came from is gone."""
     app = enterable(clock=True, actions=(OwnAction(name="spray", hook=_spray),))
     living = Living(app, apps.mission("a", apps.trip("1", 3, action="spray", delay=1.0)))
-    changed = replace(app, resumes=("somewhere",))
+    changed = apps.changed(app, resumes=("somewhere",))
     living.crash(12.0, app=changed)
     assert living.run() == ["HELD"]
     living.decide_at_rest("a", "go-on")

@@ -29,7 +29,7 @@ from pluto_fleet.process.ipc import (
     publish,
     withdraw,
 )
-from plutoc_runtime.domain.errors import BadInput
+from pluto_fleet.shared.domain.errors import BadInput
 
 
 class Told:

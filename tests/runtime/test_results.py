@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from plutoc_runtime.domain.model import Mission, Result, ResultStore, Trip
-from plutoc_runtime.hooks.context import View, results_for
+from pluto_fleet.shared.domain.model import Mission, Result, ResultStore, Trip
+from pluto_fleet.shared.hooks.context import View, results_for
 
 
 def test_every_result_is_found_again_however_many_there_are() -> None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from plutoc_runtime.domain.status import DroneStatus, Status
-from plutoc_runtime.domain.trace import Event
+from pluto_fleet.shared.domain.status import DroneStatus, Status
+from pluto_fleet.shared.domain.trace import Event
 from tests.runtime import apps
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from pluto_fleet.seam import written
-from plutoc_runtime.domain.app import SEAM
+from pluto_fleet.shared.domain.app import SEAM
 from tests.flying import EXAMPLES, compiled_file
 
 HERE = Path(__file__).parent
@@ -56,9 +56,22 @@ def unpacked(kept: Kept, folder: Path) -> Path:
     return folder / kept.name
 
 
+WATCHED = HERE.parent / "library/watched"
+"""A folder with what makes every Python watch its imports."""
+
+
 def environment(package: Path) -> dict[str, str]:
-    """Return one in which this package is found first."""
-    return {**os.environ, "PYTHONPATH": str(package / "src")}
+    """Return one in which this package is found first, and what the library imports is written down."""
+    path = os.pathsep.join((str(package / "src"), str(WATCHED)))
+    return {**os.environ, "PYTHONPATH": path, "PLUTO_IMPORTS": str(package / "imports.txt")}
+
+
+def imported(package: Path) -> set[str]:
+    """Return which modules of the package's `_runtime` the library has imported, and where."""
+    try:
+        return set((package / "imports.txt").read_text(encoding="utf-8").splitlines())
+    except FileNotFoundError:
+        return set()
 
 
 def said(package: Path, *words: str) -> subprocess.CompletedProcess[str]:

@@ -45,8 +45,8 @@ NAMES = {
 PROGRAM = f"""
 import json, sys
 from importlib import import_module
-from pluto_fleet.seam import meet
-assert meet({NAME!r}, "{NAME}._runtime", (2, 0))
+from pluto_fleet.older import provide
+provide("{NAME}._runtime")
 for module, names in json.loads(sys.argv[1]).items():
     found = import_module(f"{NAME}._runtime.{{module}}")
     print(*(f"{{module}}.{{name}}" for name in names if not hasattr(found, name)), end="")

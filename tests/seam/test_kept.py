@@ -22,6 +22,7 @@ from tests.seam.packages import (
     Kept,
     begun,
     environment,
+    imported,
     plan,
     said,
     unpacked,
@@ -75,6 +76,7 @@ def test_packages_of_every_seam_are_kept() -> None:
 
 @pytest.mark.parametrize("kept", KEPT, ids=str)
 def test_it_is_flown(kept: Kept, tmp_path: Path) -> None:
+    """And the library imports nothing of it but its brain, from the first instant to the last."""
     package = unpacked(kept, tmp_path)
     assert f"seam {kept.seam}," in said(package, "--version").stdout
     assert said(package, "simulate", *plan(kept.name)).returncode == 0
@@ -83,6 +85,28 @@ def test_it_is_flown(kept: Kept, tmp_path: Path) -> None:
     flown = said(package, *flight)
     assert flown.returncode == 0, flown.stderr
     assert (POURS in flown.stdout) == (kept.name == WITH_HOOKS)
+    assert imported(package) >= only_the_brain(kept.name)
+    if kept.seam == written(NEWEST):
+        assert imported(package) == only_the_brain(kept.name)
+
+
+def only_the_brain(name: str) -> set[str]:
+    """Return all that the library may import of an app, and where it does."""
+    return {f"pluto_fleet.app {name}._runtime.brain"}
+
+
+def test_it_is_tried(tmp_path: Path) -> None:
+    """By `plutoc test`, which kills it at every instant."""
+    package = unpacked(Kept(written(NEWEST), NAME), tmp_path)
+    tried = subprocess.run(
+        [sys.executable, "-m", "pluto_fleet.trials", NAME, "--seeds", "1"],
+        env=environment(package),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert tried.returncode == 0, tried.stderr + tried.stdout
+    assert imported(package) == only_the_brain(NAME)
 
 
 @pytest.mark.parametrize("kept", KEPT, ids=str)
@@ -109,6 +133,8 @@ def test_it_is_resumed(seam: str, end: signal.Signals, tmp_path: Path) -> None:
     resumed = said(package, "resume", str(journal))
     assert resumed.returncode == 0, resumed.stderr
     assert "missions completed" in resumed.stdout.splitlines()[-1]
+    if seam == written(NEWEST):
+        assert imported(package) == only_the_brain(NAME)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,17 @@ from pathlib import Path
 
 import pytest
 
-from tests.seam.packages import SEAMS, SOURCES, WITH_HOOKS, Kept, unpacked
+from pluto_fleet.seam import NEWEST, written
+from tests.seam.packages import (
+    SEAMS,
+    SOURCES,
+    WATCHED,
+    WITH_HOOKS,
+    Kept,
+    environment,
+    imported,
+    unpacked,
+)
 from tests.station.browser.installed import App
 from tests.station.browser.serving import Station, until
 
@@ -16,12 +26,17 @@ POURS = "pours on"
 
 
 @pytest.fixture(params=SEAMS)
-def station(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Station]:
+def station(
+    request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Station]:
     """The station of the package with hooks; none of its processes is left behind."""
     package = unpacked(Kept(request.param, WITH_HOOKS), tmp_path)
+    monkeypatch.setenv("PLUTO_IMPORTS", environment(package)["PLUTO_IMPORTS"])
     program = tmp_path / "program"
+    watch, path = str(WATCHED / "sitecustomize.py"), [str(package / "src"), *sys.path]
     program.write_text(
-        f"#!{sys.executable}\nimport sys\nsys.path[:] = {[str(package / 'src'), *sys.path]!r}\n"
+        f"#!{sys.executable}\nimport runpy, sys\n"
+        f"runpy.run_path({watch!r})\nsys.path[:] = {path!r}\n"
         f"from {WITH_HOOKS}.__main__ import main\nsys.exit(main())\n",
         encoding="utf-8",
     )
@@ -36,6 +51,8 @@ def station(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Station]
         yield station
     finally:
         station.end()
+    if request.param == written(NEWEST):
+        assert imported(package) == {f"pluto_fleet.app {WITH_HOOKS}._runtime.brain"}
 
 
 def test_it_is_planned_flown_stopped_and_gone_on_with(station: Station) -> None:

@@ -13,7 +13,7 @@ import pytest
 
 import pluto_fleet
 from pluto_fleet.seam import NEWEST, OLDEST, problem, written
-from plutoc_runtime.domain.app import SEAM
+from pluto_fleet.shared.domain.app import SEAM
 from tests.flying import EXAMPLES, compiled
 
 NAME = "drugs_distribution"

@@ -15,24 +15,24 @@ from random import Random
 from types import SimpleNamespace
 from typing import Any
 
+from pluto_fleet.app import App, described
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import Simulation, simulate
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import AfterTrip, Category, Mission, Point, Results
+from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.flow import mission as state
+from pluto_fleet.shared.hooks.context import Context, Verdict
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.compile import planned
 from plutoc.graph.model import Graph, Hook
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import AfterTrip, Category, Mission, Point, Results
 from plutoc_runtime.domain.status import Status
-from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.flow import mission as state
-from plutoc_runtime.hooks.context import Context, Verdict
 from tests.equivalence.flows import packaged
 from tests.equivalence.patience import Spins
 
@@ -79,7 +79,7 @@ class Hooks:
             if self.flown.get(mission.name) != mission.attempts:
                 self.flown[mission.name], self.free[mission.name] = mission.attempts, False
             others = [status for status in hook.emits if status is not says]
-            if mission.status is Status.COMPLETED:
+            if mission.status.value == Status.COMPLETED.value:
                 others = [status for status in others if status is Status.STANDBY]
             self.free[mission.name] |= bool(others) or (bool(hook.emits) and bool(mission.trips))
             await context.sleep(pause)
@@ -104,8 +104,9 @@ def endings(checked: Checked, seed: int, *, real: bool = False) -> tuple[End, ..
     """Fly an app's missions, and return what became of each."""
     hooks = Hooks(seed=seed, graph=checked.graph)
     app = packaged(planned(checked)).app(hooks.module(), patient=real)
-    app = replace(app, categories=(_category(app, 200.0 if real else 2.0),))
-    missions = _missions(app, Random(seed), 0.003 if real else 1.2)
+    app = replace(app, categories=(_category(app.categories[0], 200.0 if real else 2.0),))
+    flown = described(app)
+    missions = _missions(flown, Random(seed), 0.003 if real else 1.2)
     launched: dict[object, float] = {}
     ended: dict[object, None] = {}
 
@@ -117,7 +118,7 @@ def endings(checked: Checked, seed: int, *, real: bool = False) -> tuple[End, ..
 
     try:
         with _fewer_calls():
-            (_really if real else _virtually)(app, missions, seed, hear)
+            (_really if real else _virtually)(flown, missions, seed, hear)
     except (BadInput, Spins):
         return (End.HANGS,)
     late = (REAL if real else VIRTUAL) / 2
@@ -134,7 +135,7 @@ def endings(checked: Checked, seed: int, *, real: bool = False) -> tuple[End, ..
 def _end(mission: Mission[Any], hooks: Hooks) -> End:
     if GOES_ROUND in mission.reason:
         return End.CHOSEN if hooks.free.get(mission.name) else End.HANGS
-    return End.COMPLETED if mission.status is Status.COMPLETED else End.FAILED
+    return End.COMPLETED if mission.status.value == "COMPLETED" else End.FAILED
 
 
 def _virtually(
@@ -174,8 +175,8 @@ def _fewer_calls() -> Iterator[None]:
         state.MOST_CALLS = usual
 
 
-def _category(app: App, speed: float) -> Category:
-    return replace(app.categories[0], speed=speed, flight_time=1e7)
+def _category(given: Category, speed: float) -> Category:
+    return replace(given, speed=speed, flight_time=1e7)
 
 
 def _fleet(app: App, airspace: Airspace) -> FleetFile:

@@ -23,8 +23,10 @@ from random import Random
 from time import perf_counter, process_time
 from typing import Any
 
+from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.report.report import table
+from pluto_fleet.shared.domain.model import AfterTrip, Mission
 from pluto_fleet.trials.case import WORDS, Case
 from pluto_fleet.trials.explore import (
     Finding,
@@ -38,8 +40,6 @@ from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import smallest_case
 from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.model import AfterTrip, Mission
 from tests.flying import NAMES
 from tests.trials.examples import example, fleet_of, missions_of
 

@@ -8,19 +8,20 @@ from importlib import import_module
 from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+from pluto_fleet.app import described
 from pluto_fleet.files.fleet import FleetFile, load_fleet
 from pluto_fleet.files.missions import load_missions
+from pluto_fleet.shared.domain.model import Mission
 from plutoc.check.model import Checked
 from plutoc.compile import analyse, planned
 from plutoc.emit.stubs import EXPORTS
 from plutoc.plan.build import build
 from plutoc.source import Source
-from plutoc_runtime.domain.model import Mission
 from tests.equivalence.flows import Package, in_memory, packaged
 from tests.flying import EXAMPLES
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+    from pluto_fleet.app import App
 
 Overrides = Mapping[str, Callable[..., object]]
 
@@ -37,7 +38,7 @@ def example(name: str, overrides: Overrides | None = None, *, plain: bool = Fals
     plan = build(checked(name)) if plain else planned(checked(name))
     package = packaged(plan, overrides or {})
     hooks = SimpleNamespace(**vars(_hooks(name, package)))
-    return package.app(hooks, patient=True)
+    return described(package.app(hooks, patient=True))
 
 
 WAITING = """
@@ -58,7 +59,7 @@ WAITING = """
 def app_of(text: str, hooks: Overrides | None = None) -> App:
     """Return the app of a source, with the hooks that it needs."""
     package = packaged(planned(analyse(Source("app.pluto", text))[0]))
-    return package.app(SimpleNamespace(**(hooks or {})), patient=True)
+    return described(package.app(SimpleNamespace(**(hooks or {})), patient=True))
 
 
 def fleet_of(name: str, app: App) -> FleetFile:

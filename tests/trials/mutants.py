@@ -15,13 +15,13 @@ from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.jobs import AssignedJob
 from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal.fold import Records
+from pluto_fleet.shared.domain.status import DroneStatus
+from pluto_fleet.shared.fleet.fleet import Fleet
+from pluto_fleet.shared.flow import standing
+from pluto_fleet.shared.flow.engine import Engine
+from pluto_fleet.shared.flow.restore import Restorer
+from pluto_fleet.shared.hooks import plain_data
 from pluto_fleet.trials.record import TrialRecord
-from plutoc_runtime.domain.status import DroneStatus
-from plutoc_runtime.fleet.fleet import Fleet
-from plutoc_runtime.flow import standing
-from plutoc_runtime.flow.engine import Engine
-from plutoc_runtime.flow.restore import Restorer
-from plutoc_runtime.hooks import plain_data
 
 Plant = Callable[[pytest.MonkeyPatch], None]
 

@@ -10,17 +10,18 @@ from random import Random
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+from pluto_fleet.app import described
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import AfterTrip
+from pluto_fleet.shared.hooks.context import Verdict
 from plutoc.compile import analyse, planned
 from plutoc.source import Source
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import AfterTrip
-from plutoc_runtime.hooks.context import Verdict
 from tests.equivalence.flows import packaged
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+    from pluto_fleet.app import App
 
 POLICIES = ("nearest", "first", "least_used", "batch_optimal")
 REPEATS = ("", " safe", " once", " ask")
@@ -95,7 +96,8 @@ def _flight(rng: Random, blocks: list[str], flows: list[str]) -> str:
 def random_app(rng: Random) -> App:
     """Return such an app, on the runtime in place; its hooks take their time and do no wrong."""
     package = packaged(planned(analyse(Source("app.pluto", random_source(rng)))[0]))
-    return package.app(SimpleNamespace(do0=_act, do1=_act, judge_it=_judge), patient=True)
+    hooks = SimpleNamespace(do0=_act, do1=_act, judge_it=_judge)
+    return described(package.app(hooks, patient=True))
 
 
 async def _act(_: object, __: object, context: Any) -> object:

@@ -31,8 +31,8 @@ from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
 from tests.trials.random_apps import random_app, random_fleet, random_source
 
 if TYPE_CHECKING:
+    from pluto_fleet.app import App
     from pluto_fleet.files.fleet import FleetFile
-    from plutoc_runtime.domain.app import App
 
 CASES = 10
 """Of either kind that is drawn, for each app."""

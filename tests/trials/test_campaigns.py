@@ -7,13 +7,13 @@ from typing import Any
 import pytest
 
 from invariants import hashes
+from pluto_fleet.shared.domain.model import Drone
+from pluto_fleet.shared.fleet.reach import CLIMB_SPEED
+from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.simulation.body import Body
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from pluto_fleet.trials.explore import random_case
 from pluto_fleet.trials.lives import tried
-from plutoc_runtime.domain.model import Drone
-from plutoc_runtime.fleet.reach import CLIMB_SPEED
-from plutoc_runtime.hooks.context import Context
 from tests.trials import campaign, strangers
 from tests.trials.examples import example, fleet_of
 

@@ -7,14 +7,14 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.app import App
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile, default_fleet
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import AfterTrip, Item, Mission, Point
+from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.trials.case import Case, Strike, StrikeKind, Weather
 from pluto_fleet.trials.lives import tried
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.model import AfterTrip, Item, Mission, Point
-from plutoc_runtime.hooks.context import Context
 from tests.trials.examples import app_of
 
 CARRIER = app_of("""

@@ -7,6 +7,7 @@ from functools import partial
 
 import pytest
 
+from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.trials.delay_rule import DelaysAreWaited
 from pluto_fleet.trials.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
 from pluto_fleet.trials.invariants import RULES, Invariants, violations
@@ -20,7 +21,6 @@ from pluto_fleet.trials.rules import (
     Say,
     TripsDoNotOverlap,
 )
-from plutoc_runtime.domain.trace import Event
 
 Trace = Sequence[Event]
 Change = Callable[[list[dict[str, object]]], None]

@@ -8,11 +8,11 @@ from itertools import chain
 
 import pytest
 
+from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.trials.case import FAIR, Case
 from pluto_fleet.trials.explore import everywhere, random_case, random_missions
 from pluto_fleet.trials.lives import tried
-from plutoc_runtime.domain.app import App
 from tests.trials.examples import example, fleet_of
 from tests.trials.mutants import MUTANTS
 

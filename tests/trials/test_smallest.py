@@ -11,7 +11,13 @@ from random import Random
 
 import pytest
 
+from pluto_fleet.app import App
 from pluto_fleet.files.fleet import default_fleet
+from pluto_fleet.shared.alone import simulate
+from pluto_fleet.shared.domain.model import Drone
+from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.fleet.fleet import Fleet
+from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.trials import command as trials
 from pluto_fleet.trials import invariants
 from pluto_fleet.trials.command import test as trial
@@ -20,12 +26,6 @@ from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import report
 from pluto_fleet.trials.rules import Say, at
 from pluto_fleet.trials.shrink import MistakeKinds
-from plutoc_runtime.alone import simulate
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.model import Drone
-from plutoc_runtime.domain.trace import Event
-from plutoc_runtime.fleet.fleet import Fleet
-from plutoc_runtime.hooks.context import Context
 from tests.trials.examples import app_of
 from tests.trials.mutants import free_in_flight
 from tests.trials.random_apps import random_app

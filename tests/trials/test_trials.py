@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from pluto_fleet.files.fleet import default_fleet, load_fleet
 from pluto_fleet.files.fleet_text import fleet_text
 from pluto_fleet.files.missions import load_missions
+from pluto_fleet.files.missions_text import missions_text
 from pluto_fleet.trials import explore
 from pluto_fleet.trials.case import (
     FAIR,
@@ -27,7 +28,6 @@ from pluto_fleet.trials.case import (
 )
 from pluto_fleet.trials.explore import Tally, explored, random_case, random_missions, small_case
 from pluto_fleet.trials.lives import TrialRun, tried
-from pluto_fleet.trials.report import missions_text
 from pluto_fleet.trials.shrink import shrunk
 from tests.trials.examples import WAITING, app_of, example, fleet_of
 

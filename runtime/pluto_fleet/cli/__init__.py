@@ -6,22 +6,22 @@ import os
 import sys
 from functools import partial
 
-from plutoc_runtime import output
-
 from ..process.exit_code import BAD_INPUT, INTERNAL, ExitCode
+from ..shared import output
 
 TYPE_CHECKING = False  # `typing` itself is slow to import, and plutoc's `--version` does without
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from typing import NoReturn
+    from typing import Any, NoReturn
 
-    from plutoc_runtime.domain.app import App
+    from ..app import App
+    from ..seam import Seam
 
 _WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
 """Commands that need only an app's name: a Stop must work even if hooks.py does not."""
 
 
-def start(name: str, load: Callable[[], App]) -> int:
+def start(name: str, load: Callable[[], object], package: str, seam: Seam) -> int:
     """Load an app and run the command that the program was called with."""
     # Earlier libraries start these two by the app's program, and must not meet its own code.
     if sys.argv[1:2] == ["gateway"]:
@@ -35,18 +35,21 @@ def start(name: str, load: Callable[[], App]) -> int:
     app: App | None = None
     ending = ExitCode(name)
     with ending:
-        from plutoc_runtime.hooks.calls import loaded
-
         from ..process.forked import end_if_forked, refused
         from ..process.signal_guard import guard_hooks, interrupted_by_a_person
+        from ..shared.hooks.calls import loaded
 
         guard_hooks()
         parent = os.getpid()
         if sys.argv[1:2] in _WITHOUT_HOOKS:
-            app = _bare(name)
+            from ..app import bare
+
+            app = bare(name, package, seam)
         else:
             with interrupted_by_a_person(), refused():
-                app = loaded(load)
+                from ..app import described
+
+                app = described(loaded(load))
         end_if_forked(parent)  # as its hooks were loaded
     code = _heard(app) if app is not None else ending.code
     if code == BAD_INPUT and "--supervised" in sys.argv:
@@ -58,26 +61,6 @@ def start(name: str, load: Callable[[], App]) -> int:
 
         leave_in_time(name, code)
     return code
-
-
-def _bare(name: str) -> App:
-    """Return an app with nothing but its name, for commands that need no more."""
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission, Trip
-
-    def flow(_: object) -> NoReturn:
-        raise RuntimeError("nothing flies here")
-
-    return App(
-        name=name,
-        title=name,
-        flow=flow,
-        mission=Mission,
-        trip=Trip,
-        fields=(),
-        categories=(),
-        actions={},
-    )
 
 
 def _heard(app: App) -> int:
@@ -105,12 +88,17 @@ def _ended_by_hooks(name: str, status: int) -> NoReturn:
     leave(INTERNAL)
 
 
-def main(app: App, argv: Sequence[str] | None = None) -> int:
-    """Run one command of the app and return its exit code; `argv` is without the program."""
+def main(app: Any, argv: Sequence[str] | None = None) -> int:
+    """Run one command of an app, as its package describes it; return its exit code.
+
+    `argv` is without the program.
+    """
+    from ..app import described
+
     output.prepare()
     ending = ExitCode(app.name)
     with ending:
-        ending.code = _command(app, argv)
+        ending.code = _command(described(app), argv)
         output.flush()
     return ending.code
 

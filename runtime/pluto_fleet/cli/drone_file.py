@@ -8,20 +8,18 @@ from math import dist
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import counted, number, place, printable
-
 from ..files.fleet import APART, CRAZYFLIE, fleet_of
 from ..files.reading import parsed
 from ..files.toml import toml_value
+from ..shared import output
+from ..shared.domain.airspace import Airspace
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import counted, number, place, printable
 from .drone_status import heard
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.geometry import Corner
-
+    from ..app import App
+    from ..shared.domain.geometry import Corner
     from .drone_status import DroneAnswer
 
 

@@ -14,9 +14,6 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import number, printable, quoted
-
 from ..drones.loading import load_navigation, make_localization
 from ..drones.localization import LocalizationFeed
 from ..drones.protocol import Identifiable, Locatable, Scannable
@@ -25,12 +22,13 @@ from ..drones.team import make_one
 from ..files.fleet import OWN
 from ..gateway.drone_lock import DroneInUse, lock_drones
 from ..process.text import of
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import number, printable, quoted
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
-
     from ..drones.protocol import DroneNavigation, DroneTelemetry
     from ..files.options import Options
+    from ..shared.domain.model import Point
 
 CONNECT_WITHIN, ANSWER_WITHIN, CLOSE_WITHIN, SCAN_WITHIN = 15.0, 12.0, 10.0, 90.0
 """Time-outs in seconds."""

@@ -7,11 +7,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import counted, percent, place, quoted
-from plutoc_runtime.domain.trace import dumped
-
 from ..crazyflie.driver import require
 from ..files.drones import which
 from ..files.errors import near
@@ -19,12 +14,15 @@ from ..files.fleet import CRAZYFLIE, load_fleet, navigation_of, not_real, option
 from ..files.reading import shortened
 from ..journal.place import folder_of
 from ..report.report import table
+from ..shared import output
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import counted, percent, place, quoted
+from ..shared.domain.trace import dumped
 from .drone_file import write_fleet
 from .drone_status import DroneQuery, answers, found, heard, identified
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..drones.protocol import DroneTelemetry
     from ..files.fleet import FleetFile
     from ..files.options import Options

@@ -14,12 +14,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import counted, number
-from plutoc_runtime.fleet.reach import CLIMB_SPEED
-
 from ..drones.protocol import Acts
 from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
@@ -28,22 +22,26 @@ from ..flight.simulate import simulate
 from ..jobs.controls import ForwardingControls
 from ..report.report import exit_code, report, table
 from ..report.sentences import line_of
+from ..shared import output
+from ..shared.alone.faults import Faults
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import counted, number
+from ..shared.fleet.reach import CLIMB_SPEED
 from .plans import load
 from .preflight import check_real, made
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from plutoc_runtime.alone.simulate import SimulationResult
-
-    # was an import of itself
-    from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Item, Point
-    from plutoc_runtime.time.kernel import Kernel
-
+    from ..app import App
     from ..files.drones import DroneEntry
     from ..jobs.controls import Controls
+    from ..shared.alone.simulate import SimulationResult
+
+    # was an import of itself
+    from ..shared.domain.actions import Plain
+    from ..shared.domain.model import Item, Point
+    from ..shared.time.kernel import Kernel
     from .options import Options
     from .plans import LoadedPlan
 

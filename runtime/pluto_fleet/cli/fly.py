@@ -11,11 +11,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import printable
-
 from ..flight.config import End, FlightResult, Stops
 from ..flight.lives import (
     FlightObserver,
@@ -35,6 +30,10 @@ from ..journal.store import Store
 from ..process import respawn as again
 from ..report.report import report_of, waiting_lines
 from ..report.sentences import line_of
+from ..shared import output
+from ..shared.alone.faults import Faults
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import printable
 from .interrupts import Interrupts
 from .plans import load
 from .preflight import check_real
@@ -42,12 +41,11 @@ from .shutdown import run as run_until_complete
 from .supervise import STOPS, Supervised, supervise
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Drone
-    from plutoc_runtime.domain.trace import Event
-
+    from ..app import App
     from ..flight.fly import Recovered
     from ..journal.fold import Records
+    from ..shared.domain.model import Drone
+    from ..shared.domain.trace import Event
     from .options import Options
 
 
@@ -189,11 +187,13 @@ async def _heard(
 def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:
     """Fly in another process, and restart it when it crashes; `first`: it has not begun."""
     speed = ["--speed", str(options.speed)] if options.speed else []
-    on = again.command("resume", str(journal), *speed, "--supervised")
+    on = again.command(app.package, "resume", str(journal), *speed, "--supervised")
     return supervise(
         Supervised(
             name=app.name,
-            first=on if first is None else again.command(*first, *speed, "--supervised"),
+            first=(
+                on if first is None else again.command(app.package, *first, *speed, "--supervised")
+            ),
             again=lambda: on if journal.exists() else None,
             finished=lambda: finished(records_in(app, journal)) if journal.exists() else 0,
             over=partial(_is_over, app, journal),

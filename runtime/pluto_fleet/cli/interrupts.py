@@ -16,14 +16,13 @@ from threading import Timer
 from types import FrameType
 from typing import Protocol
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
-
 from ..flight.offline import leave_stop
 from ..gateway.starting import stop_directly
 from ..jobs.reports import Down
 from ..journal.place import gateway_folder
 from ..process.forked import in_children, leave
+from ..shared import output
+from ..shared.domain.errors import BadInput
 
 STOP_DIRECTLY_AFTER = 1.0
 """Seconds that the app may take to stop its drones, before the gateway is told directly."""

@@ -10,20 +10,18 @@ from collections.abc import Iterator
 from contextlib import closing, suppress
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.text import counted
-
 from ..journal import place
 from ..journal.mending import mend
 from ..journal.reader import Reader
 from ..report.sentences import journal_sentence
+from ..shared import output
+from ..shared.domain.text import counted
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..journal.database import Row
     from .options import Options
 

@@ -6,18 +6,17 @@ from argparse import Action, ArgumentParser
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-from plutoc_runtime import output
-from plutoc_runtime.alone.faults import FAULTS, shares
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.quantities import time_from, typed
+from typing import TYPE_CHECKING, Any
 
 from ..arguments import whole_number
+from ..shared import output
+from ..shared.alone.faults import FAULTS, shares
+from ..shared.domain.errors import BadInput
+from ..shared.domain.quantities import time_from, typed
 from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_flies
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+    from ..app import App
 
 
 @dataclass
@@ -101,7 +100,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
     parser = _plain(ArgumentParser(prog=app.name, description=app.title, allow_abbrev=False))
     what = "say which app this is, which seam it speaks, and by which library it flies"
-    parser.add_argument("--version", action=_Version, nargs=0, help=what)
+    parser.add_argument("--version", action=_Version, app=app, nargs=0, help=what)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
 
     def command(name: str, what: str) -> ArgumentParser:
@@ -143,10 +142,14 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
 class _Version(Action):
     """Prints the versions, which are slow to look up."""
 
+    def __init__(self, *, app: App, **given: Any) -> None:
+        super().__init__(**given)
+        self._app = app
+
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
         from ..seam import versions
 
-        output.line(versions(parser.prog))
+        output.line(versions(self._app.name, self._app.seam))
         parser.exit()
 
 

@@ -7,20 +7,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import counted, printable
-
 from ..files.crtp_fleet import fleet_from, missing_categories
 from ..files.fleet import FleetFile, as_flown, fleet_of, too_fast
 from ..files.missions import missions_of
 from ..files.plan_check import endless, idle_actions, look_alikes, problems
 from ..files.reading import parsed, shortened, text_of
+from ..shared import output
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import counted, printable
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
-
+    from ..app import App
+    from ..shared.domain.model import Mission
     from .options import Options
 
 

@@ -6,8 +6,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import BadInput
-
 from ..crazyflie.driver import require
 from ..drones import plugins
 from ..drones.loading import hears, load_localization, load_navigation
@@ -15,10 +13,10 @@ from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one, top_speed
 from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real
 from ..files.reading import shortened
+from ..shared.domain.errors import BadInput
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..drones.protocol import DroneNavigation
     from ..files.drones import DroneEntry
     from ..files.fleet import FleetFile

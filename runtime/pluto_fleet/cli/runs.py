@@ -9,28 +9,26 @@ from pathlib import Path
 from statistics import mean, median
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.alone.simulate import outcome_data, trips_data
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.status import COMPLETED
-from plutoc_runtime.domain.text import (
+from ..process.text import in_shell
+from ..report.report import exit_code, last_line, table
+from ..shared import output
+from ..shared.alone.simulate import outcome_data, trips_data
+from ..shared.domain.errors import BadInput
+from ..shared.domain.status import COMPLETED
+from ..shared.domain.text import (
     counted,
     duration,
     number,
     percent,
     printable,
 )
-from plutoc_runtime.domain.trace import dumped
-
-from ..process.text import in_shell
-from ..report.report import exit_code, last_line, table
+from ..shared.domain.trace import dumped
 from ..trials.invariants import ENDS, Invariants, items_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.alone.simulate import SimulationResult
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..report.progress import Progress
+    from ..shared.alone.simulate import SimulationResult
     from ..trials.invariants import Items
     from .options import Options
     from .plans import LoadedPlan

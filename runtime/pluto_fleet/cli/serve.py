@@ -11,9 +11,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
-
 from ..files.fleet import as_flown
 from ..files.reading import text_of
 from ..flight.mission_status import finished, records_in
@@ -22,6 +19,8 @@ from ..journal import place
 from ..process import respawn as again
 from ..process.forked import not_for_children
 from ..process.text import in_shell
+from ..shared import output
+from ..shared.domain.errors import BadInput
 from ..station.config import StationConfig
 from ..station.plan.plan import MissionPlan
 from ..station.session import Phase
@@ -40,8 +39,7 @@ from .supervise import Supervised, supervise
 if TYPE_CHECKING:
     from socket import socket
 
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from .options import Options
 
     Serve = Callable[[Api, socket, Callable[[], object]], Coroutine[object, object, None]]
@@ -248,7 +246,7 @@ def _alone(config: StationConfig) -> Iterator[None]:
 
 def _supervised(app: App, options: Options, config: StationConfig) -> int:
     """Serve in another process, and restart it when it crashes."""
-    first = again.command(*_words(options))
+    first = again.command(app.package, *_words(options))
 
     def done() -> int:
         journal = place.newest_in(config.folder)

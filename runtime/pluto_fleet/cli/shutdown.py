@@ -10,12 +10,11 @@ import time
 from collections.abc import Coroutine
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import ANY_ERROR
-from plutoc_runtime.hooks.calls import said
-
 from ..process.forked import leave
 from ..process.signal_guard import by_a_person
+from ..shared import output
+from ..shared.domain.errors import ANY_ERROR
+from ..shared.hooks.calls import said
 
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess

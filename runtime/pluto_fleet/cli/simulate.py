@@ -9,24 +9,22 @@ from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.simulate import SimulationResult, outcome_data
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import duration
-from plutoc_runtime.domain.trace import Event, dumped
-
 from ..flight.simulate import simulate as simulated
 from ..journal.event_line import line
 from ..process.signal_guard import Interrupted
 from ..report.progress import Progress, simulation_progress
 from ..report.report import exit_code, report
 from ..report.sentences import line_of
+from ..shared import output
+from ..shared.alone.faults import Faults
+from ..shared.alone.simulate import SimulationResult, outcome_data
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import duration
+from ..shared.domain.trace import Event, dumped
 from .plans import LoadedPlan, load
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from .options import Options
 
 Listener = Callable[[Event], None]

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
-from plutoc_runtime import output
+from ..shared import output
 
 GIVES_UP_AFTER = 6
 """Crashes in a row, with no progress in between, before it gives up."""

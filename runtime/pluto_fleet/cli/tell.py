@@ -9,10 +9,6 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import printable, quoted
-
 from ..flight import offline
 from ..flight.mission_status import ANSWERS, records_in, waiting
 from ..flight.offline import record_decision
@@ -24,10 +20,12 @@ from ..journal.place import commands_note, gateway_folder
 from ..process.ipc import AnswerLost, NoAnswer, NotRunning, ask
 from ..process.text import in_shell
 from ..report.report import waiting_lines
+from ..shared import output
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import printable, quoted
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..journal.fold import Records
     from .options import Options
 

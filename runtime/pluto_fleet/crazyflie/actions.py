@@ -16,16 +16,14 @@ from pathlib import Path
 from struct import Struct
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.actions import PICK, RELEASE
-from plutoc_runtime.domain.model import Photo
-from plutoc_runtime.domain.text import quoted
-
 from ..drones.errors import ActionNotDone, PositionLost, Rejected
+from ..shared.domain.actions import PICK, RELEASE
+from ..shared.domain.model import Photo
+from ..shared.domain.text import quoted
 from . import logs, messages, parameters
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.actions import Plain
-
+    from ..shared.domain.actions import Plain
     from .options import CrazyflieOptions
     from .session import CrazyflieSession
     from .worker import Worker

@@ -12,10 +12,9 @@ from math import hypot
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import number, quoted
-
 from ..drones.errors import LinkLost
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import number, quoted
 from . import logs, messages, parameters
 from .driver import (
     LINK_CONTROL,
@@ -29,8 +28,7 @@ from .session import CrazyflieSession, SessionObserver
 from .worker import Worker
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
-
+    from ..shared.domain.model import Point
     from .options import CrazyflieOptions
 
 

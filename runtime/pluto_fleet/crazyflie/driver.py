@@ -17,11 +17,9 @@ from threading import Lock, Thread, Timer
 from time import sleep
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput
-
 from ..drones.errors import NotReady
 from ..process.ipc import is_private
-from ..scaffolding import app_package
+from ..shared.domain.errors import BadInput
 from . import messages
 
 if TYPE_CHECKING:
@@ -37,7 +35,7 @@ _LOADING = Lock()
 def require() -> None:
     """Raise `BadInput` with the command that installs cflib if it is missing; imports nothing."""
     if find_spec("cflib") is None:
-        raise BadInput(messages.no_cflib(_package()))
+        raise BadInput(messages.NO_CFLIB)
 
 
 def load() -> None:
@@ -47,17 +45,11 @@ def load() -> None:
             import cflib.crazyflie
             import cflib.crtp.radiodriver
         except ImportError as error:
-            raise NotReady(f"{messages.no_cflib(_package())} ({error})") from error
+            raise NotReady(f"{messages.NO_CFLIB} ({error})") from error
         # errors are reported here
         logging.getLogger("cflib").addHandler(logging.NullHandler())
         if not cflib.crtp.CLASSES:  # once per process: each call adds all drivers
             cflib.crtp.init_drivers()
-
-
-def _package() -> str | None:
-    """Return the package whose extra installs cflib, if this is part of one."""
-    package = app_package()
-    return None if package == "pluto_fleet" else package
 
 
 def packet(port: int, channel: int, data: bytes) -> CRTPPacket:

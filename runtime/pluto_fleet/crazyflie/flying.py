@@ -7,8 +7,6 @@ from contextlib import suppress
 from math import inf, isfinite
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.text import number
-
 from ..drones.errors import (
     NavigationError,
     NotReady,
@@ -17,12 +15,12 @@ from ..drones.errors import (
     Rejected,
     TargetTimeout,
 )
+from ..shared.domain.text import number
 from . import commander, messages, supervisor
 from .trajectory import NEAR, SLACK, braking, hovers, speed_limits_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
-
+    from ..shared.domain.model import Point
     from .session import CrazyflieSession
     from .state import State
 

@@ -6,21 +6,17 @@ from collections.abc import Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.text import number, quoted
-
-from ..process.text import in_shell
+from ..shared.domain.text import number, quoted
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
+    from ..shared.domain.model import Point
 
 
 PROTOCOL = 12
 """The least protocol version of the firmware, since which it reports its supervisor's state."""
 
 
-def no_cflib(package: str | None) -> str:
-    what = "pluto-fleet[crazyflie]" if package is None else f"{package.rstrip('_')}[crazyflie]"
-    return f"to fly Crazyflies, cflib is needed: pip install {in_shell(what)}"
+NO_CFLIB = "to fly Crazyflies, cflib is needed: pip install 'pluto-fleet[crazyflie]'"
 
 
 # The link

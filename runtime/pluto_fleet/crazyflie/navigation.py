@@ -8,10 +8,9 @@ from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.text import quoted
-
 from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
 from ..drones.protocol import LINK_LOST, DroneEvent, DroneTelemetry
+from ..shared.domain.text import quoted
 from . import (
     actions,
     connection,
@@ -29,10 +28,9 @@ from .preflight import firmware_facts
 from .supervisor import stop_motors
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Item, Point
-
     from ..drones.protocol import DroneSetup
+    from ..shared.domain.actions import Plain
+    from ..shared.domain.model import Item, Point
     from .session import CrazyflieSession
     from .state import State
 

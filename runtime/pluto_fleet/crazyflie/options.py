@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 from math import sqrt
 from sys import float_info
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import number, quoted
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import number, quoted
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,9 +8,8 @@ from contextlib import suppress
 from math import isclose, isfinite
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.text import number, quoted
-
 from ..drones.errors import LinkLost, Rejected
+from ..shared.domain.text import number, quoted
 from . import messages
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from math import dist, inf, isfinite, radians
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
+    from ..shared.domain.model import Point
 
 
 # Together 23 of the 26 bytes of a block, so that position and status belong to one moment.

@@ -14,13 +14,11 @@ from dataclasses import dataclass
 from math import dist, inf, sqrt
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fleet.reach import CLIMB_SPEED
-
+from ..shared.fleet.reach import CLIMB_SPEED
 from . import messages, parameters
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
-
+    from ..shared.domain.model import Point
     from .session import CrazyflieSession
     from .state import State
 

@@ -15,9 +15,8 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import TypeVar
 
-from plutoc_runtime.domain.errors import ANY_ERROR
-
 from ..drones.errors import LinkLost
+from ..shared.domain.errors import ANY_ERROR
 from . import messages
 
 T = TypeVar("T")

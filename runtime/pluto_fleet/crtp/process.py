@@ -19,11 +19,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from plutoc_runtime.domain.errors import BadInput
-
 from ..process import locks, respawn
 from ..process.forked import deaf, in_children, not_for_children
 from ..process.ipc import NotRunning, answering, ask, listening
+from ..shared.domain.errors import BadInput
 from .drone import Build, SimulatedCrazyflie
 from .equipment import camera, port_of
 from .flight_log import FileLog, Point

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..shared.domain.model import Photo, Point
 from .errors import (
     ActionNotDone,
     BatteryLow,
@@ -56,6 +57,8 @@ __all__ = [
     "NavigationError",
     "NotReady",
     "OutsideArea",
+    "Photo",
+    "Point",
     "PositionLost",
     "Readable",
     "Rejected",

@@ -7,7 +7,7 @@ from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from typing import Any, TypeVar
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from ..shared.domain.errors import Failure, FlightFailed
 
 T = TypeVar("T")
 

@@ -12,20 +12,18 @@ from functools import partial
 from math import dist, inf, isfinite
 from typing import TYPE_CHECKING, Any, SupportsFloat
 
-from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.model import Photo
-from plutoc_runtime.domain.text import percent, place, shown
-
 from ..jobs.job import motors_cut
+from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.model import Photo
+from ..shared.domain.text import percent, place, shown
 from .protocol import Acts, Readable
 from .telemetry import RISING
 from .timeouts import shortened
 from .vehicle import LAND, RISE, SLOWEST_PLANNED, TIME_MARGIN
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Item, Point
-
+    from ..shared.domain.model import Item, Point
     from .vehicle import Vehicle
 
 

@@ -11,9 +11,8 @@ from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.text import duration, place
-
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.text import duration, place
 from .commands import LANDED_LIMIT, land
 from .vehicle import TIME_FACTOR, TIME_MARGIN
 

@@ -20,9 +20,8 @@ from importlib.util import resolve_name
 from tempfile import TemporaryFile
 from typing import IO, NamedTuple
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import duration, quoted
-
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import duration, quoted
 from . import plugins
 from .plugins import CallStyle, Method, PluginKind
 from .timeouts import shortened

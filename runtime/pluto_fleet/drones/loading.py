@@ -17,9 +17,8 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
-from plutoc_runtime.domain.text import quoted
-
+from ..shared.domain.errors import ANY_ERROR, BadInput
+from ..shared.domain.text import quoted
 from . import plugins
 from .inspection import look_up, problems, try_import
 from .plugins import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, PluginKind

@@ -14,11 +14,10 @@ from collections.abc import AsyncIterator, Callable, Mapping
 from math import isfinite
 from typing import TYPE_CHECKING, Protocol
 
-from plutoc_runtime.domain.text import quoted
+from ..shared.domain.text import quoted
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
-
+    from ..shared.domain.model import Point
     from .protocol import Locatable
 
 

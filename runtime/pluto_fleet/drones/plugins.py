@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import Enum
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import quoted
-
 from ..files.errors import near
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import quoted
 
 
 class CallStyle(Enum):
@@ -105,7 +104,14 @@ def no_such_module(kind: PluginKind, name: str, module: str) -> BadInput:
 
 def needs(kind: PluginKind, name: str, missing: str) -> BadInput:
     """Return the error about a module that the class needs."""
+    if missing.partition(".")[0] == _FORMER:
+        here = "what it had for a navigation is in pluto_fleet.drones now, such as Point"
+        return kind.refused(name, f"imports {quoted(missing)}: {here}")
     return kind.refused(name, f"needs {quoted(missing)}: install it with pip")
+
+
+_FORMER = "plutoc_runtime"
+"""What navigations imported `Point` from before seam 3."""
 
 
 def no_such_class(kind: PluginKind, name: str, wanted: str, there: Sequence[str]) -> BadInput:

@@ -31,8 +31,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Item, Point
+    from ..shared.domain.actions import Plain
+    from ..shared.domain.model import Item, Point
 
 
 LINK_LOST = "link lost"

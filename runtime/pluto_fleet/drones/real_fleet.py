@@ -6,14 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.actions import BUILT_IN, Plain
-
 from ..files.fleet import navigation_of, options_of
+from ..shared.domain.actions import BUILT_IN, Plain
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Mission
-
     from ..files.fleet import FleetFile
+    from ..shared.domain.model import Mission
 
 SLACK = 0.15
 """Metres of a real drone's position error: drones are kept apart by this much more."""

@@ -5,9 +5,8 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.text import place
-
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.text import place
 from .vehicle import LOOK
 
 if TYPE_CHECKING:

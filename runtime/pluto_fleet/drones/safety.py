@@ -12,20 +12,18 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
-from plutoc_runtime.domain.geometry import Polygon, distance, inside, tidy
-from plutoc_runtime.domain.text import duration, number, percent, place
-
 from ..jobs.landing_sites import free_spot
+from ..shared.domain.errors import ANY_ERROR, Failure, FlightFailed
+from ..shared.domain.geometry import Polygon, distance, inside, tidy
+from ..shared.domain.text import duration, number, percent, place
 from .commands import descend, fly
 from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from .timeouts import shortened
 from .vehicle import LAND, RISE
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Point
-
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Point
     from .protocol import DroneEvent
     from .vehicle import Vehicle
 

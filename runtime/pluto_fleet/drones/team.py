@@ -11,11 +11,10 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
-from plutoc_runtime.domain.actions import BUILT_IN, Plain
-from plutoc_runtime.domain.errors import ANY_ERROR
-
 from ..jobs.reports import DroneReport
 from ..jobs.telemetry import Publisher
+from ..shared.domain.actions import BUILT_IN, Plain
+from ..shared.domain.errors import ANY_ERROR
 from . import commands, plugins
 from .connection import Connection, close
 from .loading import make_localization, make_navigation
@@ -28,14 +27,13 @@ from .vehicle import Cargo, TeamDrone, Vehicle
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.errors import FlightFailed
-    from plutoc_runtime.domain.model import Category, Item, Point, Telemetry
-    from plutoc_runtime.time.kernel import Kernel
-
     from ..jobs.controls import FleetDrone
     from ..jobs.job import Job
     from ..jobs.telemetry import Subscription
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.errors import FlightFailed
+    from ..shared.domain.model import Category, Item, Point, Telemetry
+    from ..shared.time.kernel import Kernel
     from .protocol import DroneNavigation
     from .real_fleet import RealDrone, RealFleet, RequiredAction
 

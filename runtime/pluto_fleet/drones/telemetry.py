@@ -14,8 +14,7 @@ from .errors import Crashed, LinkLost, OutsideArea, Rejected, TargetTimeout
 from .protocol import CRASHED, DroneEvent, DroneTelemetry
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
-
+    from ..shared.domain.model import Point
     from .protocol import DroneSetup
     from .timeouts import NavigationCalls
 

@@ -9,8 +9,8 @@ from contextlib import suppress
 from functools import partial
 from typing import Any, Generic, NoReturn, TypeVar
 
-from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
-from plutoc_runtime.domain.text import duration, printable
+from ..shared.domain.errors import ANY_ERROR, Failure, FlightFailed
+from ..shared.domain.text import duration, printable
 
 T = TypeVar("T")
 

@@ -14,18 +14,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.text import place
-from plutoc_runtime.fleet.reach import CLIMB_SPEED, docked
-
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.text import place
+from ..shared.fleet.reach import CLIMB_SPEED, docked
 from .command_queue import CommandQueue
 from .protocol import CaredFor
 from .telemetry import EMPTY, VehicleTelemetry
 from .timeouts import NavigationCalls, shortened
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Category, Point
-
+    from ..shared.domain.model import Category, Point
     from .protocol import DroneNavigation
 
 

@@ -6,18 +6,16 @@ from dataclasses import replace
 from itertools import count
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import BadInput
-
 from ..files.fleet import CRAZYFLIE, OWN, navigation_of
 from ..jobs.landing_sites import free_spots
+from ..shared.domain.errors import BadInput
 from .fleet import DEFAULT_SIZE, FleetFile, default_fleet, fleet_of
 from .reading import parsed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from .drones import DroneEntry
 
 

@@ -5,18 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain import values
-from plutoc_runtime.domain.fleet_data import DroneData
-from plutoc_runtime.domain.plan_rules import Cells, crowded
-from plutoc_runtime.domain.text import quoted
-
+from ..shared.domain import values
+from ..shared.domain.fleet_data import DroneData
+from ..shared.domain.plan_rules import Cells, crowded
+from ..shared.domain.text import quoted
 from . import errors
 from .options import Options, options_under
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
+    from ..shared.domain.airspace import Airspace
     from .reading import Table
 
 

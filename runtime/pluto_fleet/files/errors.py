@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from plutoc_runtime.domain.text import number, quoted
+from ..shared.domain.text import number, quoted
 
 
 def listed(words: Iterable[str]) -> str:

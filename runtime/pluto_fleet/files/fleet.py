@@ -8,22 +8,20 @@ from itertools import cycle, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain import values
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.fleet_data import Feature, FleetData, Source, WorldData
-from plutoc_runtime.domain.model import AfterTrip
-from plutoc_runtime.domain.quantities import Type
-
+from ..shared.domain import values
+from ..shared.domain.airspace import Airspace
+from ..shared.domain.fleet_data import Feature, FleetData, Source, WorldData
+from ..shared.domain.model import AfterTrip
+from ..shared.domain.quantities import Type
 from . import errors
 from .drones import DroneEntry, named_navigations, read_drones
 from .options import Options, navigation_options, options_under
 from .reading import Document, Table, read
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.geometry import Corner
-    from plutoc_runtime.domain.model import Point
-
+    from ..app import App
+    from ..shared.domain.geometry import Corner
+    from ..shared.domain.model import Point
     from .options import Options
 
 

@@ -9,8 +9,7 @@ from .fleet import CRAZYFLIE, OWN
 from .toml import toml_text
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.fleet_data import WorldData
-
+    from ..shared.domain.fleet_data import WorldData
     from .drones import DroneEntry
     from .fleet import FleetFile
 

@@ -6,20 +6,19 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain import values
-from plutoc_runtime.domain.actions import PICK, RELEASE, Action, Plain
-from plutoc_runtime.domain.fields import Entity, FieldType
-from plutoc_runtime.domain.model import Item, Point, Trip
-from plutoc_runtime.domain.plan_rules import wrongly_carried
-from plutoc_runtime.domain.text import quoted
-
+from ..shared.domain import values
+from ..shared.domain.actions import PICK, RELEASE, Action, Plain
+from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.model import Item, Point, Trip
+from ..shared.domain.plan_rules import wrongly_carried
+from ..shared.domain.text import quoted
 from . import errors
 from .reading import Document, Table, read
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission, Trip
+    from ..app import App
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Mission, Trip
 
 
 ELSEWHERE = {

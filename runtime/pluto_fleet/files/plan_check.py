@@ -9,16 +9,15 @@ from math import dist
 from typing import TYPE_CHECKING, Any
 from unicodedata import normalize
 
-from plutoc_runtime.domain.actions import BUILT_IN
-from plutoc_runtime.domain.fields import Entity, FieldType
-from plutoc_runtime.domain.text import quoted
-from plutoc_runtime.fleet.reach import Lacks, Miss, chain_of, miss_of
+from ..shared.domain.actions import BUILT_IN
+from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.text import quoted
+from ..shared.fleet.reach import Lacks, Miss, chain_of, miss_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Category, Mission, Point, Trip
-
+    from ..app import App
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Category, Mission, Point, Trip
     from .drones import DroneEntry
     from .fleet import FleetFile
 

@@ -9,17 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from plutoc_runtime.alone import toml
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.values import name, point, shown
-
+from ..shared.alone import toml
+from ..shared.domain.errors import BadInput
+from ..shared.domain.values import name, point, shown
 from . import errors
 from .toml import TomlLines, TomlPath, line_of, places
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Point
-
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Point
     from .toml import TomlPath
 
 

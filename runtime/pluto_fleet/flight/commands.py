@@ -11,11 +11,10 @@ from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 from typing import Protocol
 
-from plutoc_runtime.domain.errors import BadInput
-
 from ..jobs.reports import Down
 from ..journal.errors import why
 from ..process.ipc import Answer, answering, listening
+from ..shared.domain.errors import BadInput
 
 
 class Control(Protocol):

@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Drone, Mission
-    from plutoc_runtime.domain.trace import Event
-
+    from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.job import GatewayLink
     from ..jobs.reports import Down
     from ..journal.fold import Records
     from ..process.realtime import RealTime
+    from ..shared.domain.model import Drone, Mission
+    from ..shared.domain.trace import Event
 
     Connect = Callable[[RealTime, int, Callable[[], object]], Awaitable[GatewayLink]]
 

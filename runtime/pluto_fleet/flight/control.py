@@ -11,14 +11,12 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.domain.text import counted, quoted
-from plutoc_runtime.flow.control import PRIORITY
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Task
-
 from ..jobs.reports import Down, reported_result
+from ..shared.domain.errors import BadInput
+from ..shared.domain.status import Status
+from ..shared.domain.text import counted, quoted
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET, Task
 from .mission_status import aside, in_order
 from .reconcile import ANSWERS as DONE_OR_NOT
 from .reconcile import (
@@ -38,6 +36,9 @@ from .reconcile import (
 if TYPE_CHECKING:
     from ..journal.fold import Record
     from .recorded_brain import RecordedBrain
+
+PRIORITY = "priority"
+"""The field of trips with the priority in the queue, in apps whose graph has one."""
 
 Then = Callable[[str, "Record"], None]
 
@@ -189,7 +190,8 @@ class Control:
         return paused or (self._run.patient and any(one is not None for one in waiting))
 
     def _command(self, command: str, **request: Any) -> None:
-        self._run.driver.call(partial(self._run.brain.command, {"command": command, **request}))
+        told = {"command": command, **request}
+        self._run.driver.call(partial(self._run.app.perform, self._run.brain, told))
 
     # Suspending one mission, and resuming it
 

@@ -7,15 +7,14 @@ from collections.abc import Callable, Mapping
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, EventKind
-
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET, EventKind
 from .orders import Message, Order
 
 if TYPE_CHECKING:
-    from plutoc_runtime.brain import Brain
-    from plutoc_runtime.domain.trace import Event
-    from plutoc_runtime.time.kernel import Kernel
+    from ..shared.brain import Brain
+    from ..shared.domain.trace import Event
+    from ..shared.time.kernel import Kernel
 
 
 class Driver:

@@ -13,26 +13,24 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput, Cancelled
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET
-
 from ..jobs.reports import Down
 from ..journal.errors import JournalError
 from ..journal.writer import Writer
 from ..process.hook_runner import RealHooks
 from ..process.realtime import RealTime
+from ..shared.domain.errors import BadInput, Cancelled
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET
 from .commands import hear_commands, perform, stop_in
 from .config import End, FlightResult
 from .recorded_flight import RecordedFlight
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.trace import Event
-    from plutoc_runtime.time.kernel import Task
-
     from ..jobs.job import GatewayLink
     from ..journal.fold import Records
     from ..journal.store import Store
+    from ..shared.domain.trace import Event
+    from ..shared.time.kernel import Task
     from .config import FlightConfig, Stops
 
 SNAPSHOT_EVERY = 50_000

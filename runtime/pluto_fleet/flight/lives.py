@@ -9,10 +9,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import place
-
 from ..drones.real_fleet import real_fleet
 from ..files.crtp_fleet import fleet_from
 from ..files.fleet import as_flown
@@ -24,7 +20,11 @@ from ..gateway.starting import connect, speed_in
 from ..journal.header import Header, check
 from ..journal.place import commands_note, gateway_folder
 from ..journal.store import Store
+from ..process import respawn
 from ..process.text import in_shell
+from ..shared.alone.faults import Faults
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import place
 from .config import End, FlightConfig, FlightResult, Stops
 from .fly import Recovered, live, recovered
 from .live_flight import LiveFlight
@@ -32,12 +32,11 @@ from .mission_status import all_over, finished
 from .offline import pending_stop
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Drone, Mission
-    from plutoc_runtime.domain.trace import Event
-
+    from ..app import App
     from ..drones.real_fleet import RealFleet
     from ..files.fleet import FleetFile
+    from ..shared.domain.model import Drone, Mission
+    from ..shared.domain.trace import Event
 
 GATEWAY_DEATHS = 5
 """How many gateways may die in a row without progress in between."""
@@ -160,11 +159,12 @@ async def run_flight(
         real=None if flight.sim else await _real(flight, folder, known),
         speed=flight.speed,
     )
+    gateway = respawn.library("gateway", beside=flight.app.package)
     setting = FlightConfig(
         app=flight.app,
         missions=flight.missions,
         fleet=flight.fleet,
-        connect=lambda kernel, epoch, lost: connect(folder, settings, kernel, epoch, lost),
+        connect=lambda kernel, epoch, lost: connect(folder, settings, kernel, epoch, lost, gateway),
         note=commands_note(flight.journal),
         tell=observer.tell,
         speed=flight.speed,

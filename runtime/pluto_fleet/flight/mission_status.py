@@ -8,15 +8,14 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.status import Status
-
 from ..journal.errors import Damaged
 from ..journal.fold import Record, Records
 from ..journal.header import check
 from ..journal.reader import Reader
+from ..shared.domain.status import Status
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+    from ..app import App
 
 ANSWERS = {"question": ("done", "not-done", "cancel"), "held": ("go-on", "cancel")}
 """The possible answers for each question of a mission."""

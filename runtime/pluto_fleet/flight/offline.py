@@ -7,21 +7,19 @@ from collections.abc import Mapping, Sequence
 from contextlib import closing, suppress
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.text import printable
-
 from ..jobs.reports import Down
 from ..journal.header import check
 from ..journal.place import gateway_folder
 from ..journal.store import Store
+from ..shared.domain.text import printable
 from .fly import recovered
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Point
-
+    from ..app import App
     from ..journal.fold import Records
+    from ..shared.domain.model import Point
 
 Event = Mapping[str, object]
 

@@ -6,19 +6,17 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import Cancelled, FlightFailed
-from plutoc_runtime.hooks.plain_data import item_of
-
 from ..gateway.wire import result_data
+from ..shared.domain.errors import Cancelled, FlightFailed
+from ..shared.hooks.plain_data import item_of
 
 if TYPE_CHECKING:
     from collections.abc import Coroutine
 
-    from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Item, Point
-    from plutoc_runtime.time.kernel import Kernel, Key, Task
-
     from ..jobs.job import CommandLink
+    from ..shared.domain.actions import Plain
+    from ..shared.domain.model import Item, Point
+    from ..shared.time.kernel import Kernel, Key, Task
 
 Order = Mapping[str, Any]
 Message = dict[str, Any]

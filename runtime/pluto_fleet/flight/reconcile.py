@@ -9,17 +9,15 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.domain.text import shown
-from plutoc_runtime.hooks.plain_data import value_data
-
 from ..jobs.reports import Entry, JobState
+from ..shared.domain.errors import FlightFailed
+from ..shared.domain.text import shown
+from ..shared.hooks.plain_data import value_data
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..journal.fold import Record
 
 Data = dict[str, Any]

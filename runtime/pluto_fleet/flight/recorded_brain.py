@@ -10,29 +10,25 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.brain import Brain
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.flow.standing import drones_of, fleet_data, update
-from plutoc_runtime.time.kernel import FLEET, Kernel
-
 from ..jobs.reports import reported_result
 from ..journal.recorder import Recorder, Sink
-from ..process.signal_guard import guard_hooks
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.status import Status
+from ..shared.flow.standing import drones_of, fleet_data, update
+from ..shared.time.kernel import FLEET, Kernel
 from .driver import Driver
 from .mission_status import aside, in_order
 from .orders import Dispatcher, Order, outcome
 from .reconcile import Outcome, ended, id_of, in_flight, outcome_of, trip_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Drone, Mission
-    from plutoc_runtime.domain.trace import Event
-    from plutoc_runtime.time.told import HookRunner
-
+    from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.job import CommandLink
     from ..journal.fold import Record, Records
+    from ..shared.domain.model import Drone, Mission
+    from ..shared.domain.trace import Event
+    from ..shared.time.told import HookRunner
 
 Listener = Callable[["Event"], object]
 
@@ -58,11 +54,9 @@ class RecordedBrain:
 
         `midnight`: the seconds between the midnight before the app's start and the start.
         """
-        guard_hooks()
         self.app, self.fleet, self.kernel, self.link = app, fleet, kernel, link
         self.recorder = Recorder(kernel, sink, records)
-        self.brain = Brain(
-            app,
+        self.brain = app.new_brain(
             {**fleet_data(fleet), "recorded": True, "midnight": midnight},
             space=fleet.airspace,
             hooks=hooks,

@@ -10,22 +10,20 @@ from collections.abc import Coroutine, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import place, quoted
-from plutoc_runtime.flow.standing import mission_data
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Task
-
 from ..files.reading import shortened
 from ..process.text import of
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import place, quoted
+from ..shared.flow.standing import mission_data
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET, Task
 from .control import Control
 from .recorded_brain import RecordedBrain
 from .recovery import Recovery
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Mission
-
     from ..jobs.reports import FleetReport
+    from ..shared.domain.model import Mission
 
 HELPLESS = 12.0
 """Seconds after which a drone on the ground would have begun to fly home, if it could."""

@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.fields import Entity
-from plutoc_runtime.domain.status import Status
-
 from ..gateway.wire import result_data
 from ..jobs.reports import reported_result
+from ..shared.domain.fields import Entity
+from ..shared.domain.status import Status
 from .mission_status import in_order
 from .reconcile import (
     ANSWERS,
@@ -27,8 +26,7 @@ from .reconcile import (
 )
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..jobs.reports import DroneReport, FleetReport
     from ..journal.fold import Record
     from .control import Control

@@ -7,30 +7,26 @@ from contextlib import closing
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.simulate import Bound, SimulationResult, see_through
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.brain import Brain
-from plutoc_runtime.flow.standing import drones_of, fleet_data, mission_data, take_over
-from plutoc_runtime.time.virtual import VirtualTime
-
 from ..gateway.gateway import Gateway
-from ..process.signal_guard import guard_hooks
+from ..shared.alone.simulate import Bound, SimulationResult, see_through
+from ..shared.alone.world import World
+from ..shared.flow.standing import drones_of, fleet_data, mission_data, results_of, take_over
+from ..shared.time.virtual import VirtualTime
 from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation
 from .driver import Driver
 from .orders import Dispatcher
 
 if TYPE_CHECKING:
-    from plutoc_runtime.alone.faults import Faults
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
-    from plutoc_runtime.domain.trace import Event
-    from plutoc_runtime.time.future import Future
-    from plutoc_runtime.time.kernel import Kernel
-
+    from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.controls import Controls
     from ..process.hook_runner import RealHooks
+    from ..shared.alone.faults import Faults
+    from ..shared.domain.model import Mission
+    from ..shared.domain.trace import Event
+    from ..shared.time.future import Future
+    from ..shared.time.kernel import Kernel
 
 Listener = Callable[["Event"], object]
 Around = Callable[["Kernel", "Controls"], "Controls"]
@@ -73,7 +69,7 @@ class Simulation:
         for drone, body in bodies.items():
             body.on_change = partial(self._changed.__setitem__, drone, None)
         keys = {drone: body.key for drone, body in bodies.items()}
-        self.brain = Brain(app, fleet_data(fleet), space=fleet.airspace, hooks=hooks)
+        self.brain = app.new_brain(fleet_data(fleet), space=fleet.airspace, hooks=hooks)
         dispatcher = Dispatcher(kernel, gateway.link(1), keys)
         self._driver = driver = Driver(
             kernel, self.brain, obey=dispatcher.obey, motions=self._motions, hear=listener
@@ -121,6 +117,7 @@ class Simulation:
             ),
             flown={one.id: self._navigation.flown(one.id) for one in self._drones},
             events=tuple(events),
+            results=results_of(missions, standing["results"]),
             given_up=given_up,
         )
 
@@ -142,7 +139,6 @@ def simulate(
     Without such a time it is given up if missions fly again and again without success.
     `around` wraps the drones' controls for the gateway; `slack` keeps drones further apart.
     """
-    guard_hooks()
     bound, events = Bound(missions), list[Any]()
 
     def listen(event: Event) -> None:

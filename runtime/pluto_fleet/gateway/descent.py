@@ -11,20 +11,18 @@ from itertools import islice
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.fleet.reach import docked
-from plutoc_runtime.time.kernel import FLEET, Kernel, Task
-
 from ..jobs.reports import Down
+from ..shared.domain.errors import FlightFailed
+from ..shared.fleet.reach import docked
+from ..shared.time.kernel import FLEET, Kernel, Task
 from .traffic.choosing import DescendingDrone
 from .traffic.courses import Course, course
 from .traffic.timetable import Timetable, timetable
 from .traffic.ways import ways_home
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-
     from ..jobs.controls import FleetDrone
+    from ..shared.domain.airspace import Airspace
     from .executor import Executor
     from .traffic.traffic import Traffic
     from .traffic.ways import Section

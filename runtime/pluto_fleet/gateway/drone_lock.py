@@ -14,11 +14,10 @@ from contextlib import contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import quoted
-
 from ..process import locks
 from ..process.ipc import is_private
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import quoted
 
 LEAVING = 8.0
 """Seconds that a gateway whose drones have landed may take to release them."""

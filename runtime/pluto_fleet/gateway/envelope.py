@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.text import number
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.text import number
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Point
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Point
 
 
 class Envelope:

@@ -8,23 +8,21 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from plutoc_runtime.domain.airspace import permitted_way, way_from
-from plutoc_runtime.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
-from plutoc_runtime.fleet.reach import docked, flight_seconds
-from plutoc_runtime.time.kernel import FLEET, Kernel, Task
-
 from ..jobs.job import motors_cut
+from ..shared.domain.airspace import permitted_way, way_from
+from ..shared.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
+from ..shared.fleet.reach import docked, flight_seconds
+from ..shared.time.kernel import FLEET, Kernel, Task
 from .envelope import Envelope
 from .ledger import CutMotors
 from .traffic.ways import Section
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Point, Telemetry
-
     from ..jobs.controls import Controls, FleetDrone
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Point, Telemetry
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
 

@@ -10,12 +10,11 @@ from collections.abc import Callable, Coroutine, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from plutoc_runtime.domain.errors import BadInput, Cancelled, Failure, FlightFailed
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel, Task
-
 from ..jobs.controls import FleetDrone
 from ..jobs.reports import Down, DroneReport, FleetReport
+from ..shared.domain.errors import BadInput, Cancelled, Failure, FlightFailed
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET, EventKind, Kernel, Task
 from .descent import Descent
 from .envelope import Envelope
 from .executor import Executor, Leaving
@@ -23,11 +22,10 @@ from .jobs import Jobs
 from .traffic.traffic import Traffic
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Point, Telemetry
-
     from ..jobs.controls import Controls
     from ..jobs.job import Job, Report
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Point, Telemetry
     from .ledger import Ledger
 
 

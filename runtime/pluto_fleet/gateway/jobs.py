@@ -7,16 +7,14 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import EventKind, Kernel, Key
-
 from ..jobs.reports import DroneReport, Entry, JobState, reported_result
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.time.kernel import EventKind, Kernel, Key
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Item
-
     from ..jobs.job import Job, Report
+    from ..shared.domain.actions import Plain
+    from ..shared.domain.model import Item
     from .envelope import Envelope
     from .ledger import Ledger
 

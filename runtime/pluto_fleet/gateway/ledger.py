@@ -10,10 +10,9 @@ from dataclasses import replace
 from pathlib import Path
 from zlib import crc32
 
-from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.hooks.plain_data import value_of
-
 from ..jobs.reports import Entry, JobState
+from ..shared.domain.errors import FlightFailed
+from ..shared.hooks.plain_data import value_of
 from .wire import entry_data
 
 

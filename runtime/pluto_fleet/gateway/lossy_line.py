@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.time.kernel import FLEET, EventKind
+from ..shared.time.kernel import FLEET, EventKind
 
 if TYPE_CHECKING:
     from ..jobs.job import Report

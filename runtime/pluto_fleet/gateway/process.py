@@ -15,12 +15,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import printable
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, EventKind
-
 from ..drones.real_fleet import SLACK
 from ..jobs.reports import Down
 from ..jobs.telemetry import Publisher
@@ -28,6 +22,11 @@ from ..process import locks
 from ..process.forked import deaf, in_children
 from ..process.ipc import listening
 from ..process.realtime import RealTime
+from ..shared.alone.world import World
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import printable
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET, EventKind
 from ..simulation.drones import SimulatedNavigation
 from ..simulation.world_store import WorldStore, this_moment
 from .drone_lock import LEAVING, lock_drones

@@ -9,20 +9,18 @@ from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.time.future import Future
-
 from ..process.ipc import Message, line, message_in
+from ..shared.domain.errors import BadInput
+from ..shared.time.future import Future
 from .wire import drone_report_of, fleet_report_of, job_data, result_of
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
-    from plutoc_runtime.domain.model import Point, Telemetry
-    from plutoc_runtime.time.kernel import Kernel
-
     from ..jobs.job import Job, Report
     from ..jobs.reports import Down, DroneReport, FleetReport
+    from ..shared.domain.model import Point, Telemetry
+    from ..shared.time.kernel import Kernel
 
 GATEWAY_TIMEOUT = 5.0
 """Seconds of real time without a message after which the gateway is lost."""

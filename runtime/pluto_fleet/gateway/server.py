@@ -11,12 +11,11 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput, Cancelled, FlightFailed
-from plutoc_runtime.domain.text import quoted, shown
-from plutoc_runtime.time.kernel import FLEET, Task
-
 from ..jobs.reports import Down
 from ..process.ipc import Message, line, message_in
+from ..shared.domain.errors import BadInput, Cancelled, FlightFailed
+from ..shared.domain.text import quoted, shown
+from ..shared.time.kernel import FLEET, Task
 from .gateway import Busy
 from .wire import (
     MAX_COMMAND,

@@ -6,17 +6,15 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
-from plutoc_runtime.domain.model import Category
-
 from ..drones.real_fleet import RealFleet, real_of
+from ..shared.alone.faults import Faults
+from ..shared.domain.airspace import Airspace
+from ..shared.domain.fleet_data import Feature, Source, WorldData
+from ..shared.domain.model import Category
 from ..simulation.body import SimulatedDrone, simulated
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..files.fleet import FleetFile
 
 PATIENCE = 3.0

@@ -15,14 +15,13 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import Failure
-from plutoc_runtime.hooks.plain_data import point_of
+from ..shared.domain.errors import Failure
+from ..shared.hooks.plain_data import point_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.errors import FlightFailed
-    from plutoc_runtime.domain.model import Point, Telemetry
-
     from ..jobs.telemetry import Publisher, Subscription
+    from ..shared.domain.errors import FlightFailed
+    from ..shared.domain.model import Point, Telemetry
 
 SEEN = "seen.json"
 """The file, in the gateway's folder."""

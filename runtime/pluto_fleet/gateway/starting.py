@@ -12,19 +12,18 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import BadInput
-
 from ..jobs.reports import Down
 from ..process import locks, respawn
 from ..process.ipc import ask
 from ..process.ipc import connect as open_connection
+from ..shared.domain.errors import BadInput
 from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
 from .remote import GATEWAY_TIMEOUT, RemoteLink
 from .settings import Settings, data_of
 from .wire import MAX_REPORT
 
 if TYPE_CHECKING:
-    from plutoc_runtime.time.kernel import Kernel
+    from ..shared.time.kernel import Kernel
 
 _WITHIN, _EACH = 10.0, 0.01
 """Seconds that a gateway may take to start, and between two polls."""

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from math import isinf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.hooks.plain_data import (
+from ..jobs.reports import DroneReport, Entry, FleetReport, JobState
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.hooks.plain_data import (
     item_data,
     item_of,
     point_of,
@@ -17,16 +18,13 @@ from plutoc_runtime.hooks.plain_data import (
     value_of,
 )
 
-from ..jobs.reports import DroneReport, Entry, FleetReport, JobState
-
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Item, Point, Telemetry
-
     from ..jobs.job import Job
     from ..process.ipc import Message
+    from ..shared.domain.actions import Plain
+    from ..shared.domain.model import Item, Point, Telemetry
 
 STALE_AFTER = 2.0
 """Seconds without a message after which a drone's position is stale."""

@@ -11,9 +11,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Category, Item, Point, Telemetry
-
+    from ..shared.domain.actions import Plain
+    from ..shared.domain.model import Category, Item, Point, Telemetry
     from .job import Job
     from .reports import DroneReport
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Protocol
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from ..shared.domain.errors import Failure, FlightFailed
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Item, Point, Telemetry
-
+    from ..shared.domain.actions import Plain
+    from ..shared.domain.model import Item, Point, Telemetry
     from .reports import Down, DroneReport, FleetReport
 
 

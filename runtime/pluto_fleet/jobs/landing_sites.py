@@ -7,8 +7,8 @@ from math import ceil, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Point
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Point
 
 _STEP = 0.25
 """Metres between the candidate places."""

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
+from ..shared.domain.errors import Failure, FlightFailed
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
+    from ..shared.domain.model import Point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

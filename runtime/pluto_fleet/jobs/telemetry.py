@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Telemetry
+    from ..shared.domain.model import Telemetry
 
 V = TypeVar("V")
 

@@ -15,8 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 from zlib import crc32
 
-from plutoc_runtime.domain.trace import Event
-
+from ..shared.domain.trace import Event
 from . import errors, wal
 from .errors import TROUBLE
 

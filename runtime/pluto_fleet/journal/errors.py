@@ -6,8 +6,8 @@ import sqlite3
 from errno import EDQUOT, EFBIG, ENOSPC
 from pathlib import Path
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import counted
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import counted
 
 TROUBLE = (sqlite3.Error, UnicodeDecodeError)
 """The exceptions of the database; the second where it quotes damaged text."""

@@ -8,11 +8,11 @@ from json.encoder import encode_basestring_ascii
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.text import shown
-from plutoc_runtime.domain.trace import dumped
+from ..shared.domain.text import shown
+from ..shared.domain.trace import dumped
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.trace import Event
+    from ..shared.domain.trace import Event
 
 
 def line(event: Event) -> str:

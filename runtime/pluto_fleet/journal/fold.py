@@ -12,11 +12,10 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.actions import PICK, RELEASE
+from ..shared.domain.actions import PICK, RELEASE
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.trace import Event
-
+    from ..shared.domain.trace import Event
     from .reader import Read
 
 

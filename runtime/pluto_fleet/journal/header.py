@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import __version__
-from ..seam import met
+from ..seam import written
 from . import errors
 from .errors import JournalError
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+    from ..app import App
 
 Header = Mapping[str, Any]
 
@@ -47,7 +47,7 @@ def header(
         "app_hash": fingerprint(app),
         "language": LANGUAGE,
         "events": EVENTS,
-        "seam": met(),
+        "seam": written(app.seam),
         "library": __version__,
         "missions": missions,
         "fleet": fleet,

@@ -11,14 +11,13 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
-from plutoc_runtime.time.future import Future
-
+from ..shared.time.future import Future
 from .event_line import exact
 from .fold import Record, Records
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.trace import Event
-    from plutoc_runtime.time.kernel import Kernel
+    from ..shared.domain.trace import Event
+    from ..shared.time.kernel import Kernel
 
 
 class Sink(Protocol):

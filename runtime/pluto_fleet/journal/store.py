@@ -11,8 +11,7 @@ from contextlib import closing, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
-from plutoc_runtime.domain.trace import Event
-
+from ..shared.domain.trace import Event
 from . import errors
 from .database import (
     APPLICATION,

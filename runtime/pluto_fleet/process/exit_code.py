@@ -6,9 +6,9 @@ import os
 import traceback
 from errno import ENAMETOOLONG
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import printable
+from ..shared import output
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import printable
 
 BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 

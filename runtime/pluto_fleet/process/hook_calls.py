@@ -13,9 +13,8 @@ from threading import Thread
 from types import CodeType, CoroutineType, coroutine
 from typing import Any, NoReturn, TypeVar, cast
 
-from plutoc_runtime.domain.errors import ANY_ERROR
-from plutoc_runtime.domain.guard import as_a_fault, guarded
-
+from ..shared.domain.errors import ANY_ERROR
+from ..shared.domain.guard import as_a_fault, guarded
 from .forked import end_if_forked
 from .signal_guard import by_a_person
 

@@ -20,8 +20,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput
-
+from ..shared.domain.errors import BadInput
 from .forked import not_for_children
 
 if TYPE_CHECKING:

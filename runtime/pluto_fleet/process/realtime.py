@@ -9,10 +9,9 @@ from functools import partial
 from math import inf
 from typing import TypeVar
 
-from plutoc_runtime.domain.errors import ANY_ERROR
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import Call, EventKind, Kernel, Key
-
+from ..shared.domain.errors import ANY_ERROR
+from ..shared.time.future import Future
+from ..shared.time.kernel import Call, EventKind, Kernel, Key
 from .hook_calls import End, end_at_once, end_of, never_waits
 from .signal_guard import by_a_person, guard_hooks
 

@@ -1,4 +1,4 @@
-"""Starting this program again, or the library's own, as another process."""
+"""Starting an app's program again, or the library's own, as another process."""
 
 from __future__ import annotations
 
@@ -6,8 +6,6 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-
-from ..scaffolding import LIBRARY, app_package
 
 _START = (
     "import sys; from importlib import import_module as load; "
@@ -17,23 +15,24 @@ _START = (
 )
 """Imports the package from where it was found now, even if another has its name."""
 
-
-def command(*arguments: str) -> list[str]:
-    """Return the command line that starts this package's program with these arguments."""
-    return _command(app_package(), *arguments)
+LIBRARY = "pluto_fleet"
 
 
-def library(*arguments: str) -> list[str]:
+def command(package: str, *arguments: str) -> list[str]:
+    """Return the command line that starts a package's program with these arguments."""
+    return _command(package, _home(package), *arguments)
+
+
+def library(*arguments: str, beside: str = LIBRARY) -> list[str]:
     """Return the command line that starts the library's own program, which imports no app.
 
-    What lies beside the app, such as a navigation of its own, is found there as it is here.
+    What lies `beside` an app's package, such as a navigation of its own, is found there as it is here.
     """
-    return _command(LIBRARY, *arguments)
+    return _command(LIBRARY, _home(beside), *arguments)
 
 
-def _command(package: str, *arguments: str) -> list[str]:
-    found = (_home(package), package, _home(app_package()))
-    return [sys.executable, "-P", "-c", _START, *found, *arguments]
+def _command(package: str, also: str, *arguments: str) -> list[str]:
+    return [sys.executable, "-P", "-c", _START, _home(package), package, also, *arguments]
 
 
 def _home(package: str) -> str:

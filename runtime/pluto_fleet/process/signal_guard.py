@@ -9,8 +9,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import TypeVar
 
-from plutoc_runtime.domain.guard import NOT_ITS_OWN, Guard, as_a_fault, put
-
+from ..shared.domain.guard import Guard, put_guard
 from .forked import end_if_forked, in_children
 
 T = TypeVar("T")
@@ -56,9 +55,7 @@ class _InAProcess(Guard):
             raise
         except BaseException as error:
             end_if_forked(parent, error)
-            if not issubclass(type(error), NOT_ITS_OWN):
-                raise
-            raise as_a_fault(error) from error.__cause__
+            raise
         end_if_forked(parent)
         return returned
 
@@ -70,12 +67,13 @@ class _InAProcess(Guard):
         return issubclass(kind, Interrupted) or handler is signal.default_int_handler
 
 
-_IN_A_PROCESS = _InAProcess()
+IN_A_PROCESS = _InAProcess()
+"""The guard of hooks that run in this process."""
 
-by_a_person = _IN_A_PROCESS.by_a_person
+by_a_person = IN_A_PROCESS.by_a_person
 """Return whether an error is the user's Ctrl-C, or may be."""
 
 
 def guard_hooks() -> None:
-    """Install this guard for hooks that run in this process."""
-    put(_IN_A_PROCESS)
+    """Install this guard for what the library itself calls of an app; an app's brain is given it, too."""
+    put_guard(IN_A_PROCESS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from shlex import quote
 
-from plutoc_runtime.domain.text import printable
+from ..shared.domain.text import printable
 
 
 def in_shell(text: object) -> str:

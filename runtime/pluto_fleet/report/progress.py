@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import TextIO
 
-from plutoc_runtime import output
+from ..shared import output
 
 _AFTER, _EVERY = 1.0, 0.1
 """Seconds of real time until the bar appears, and between two updates."""

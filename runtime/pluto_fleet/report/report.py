@@ -7,10 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from plutoc_runtime.alone.simulate import trips_data
-from plutoc_runtime.domain.fields import FieldType
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.domain.text import (
+from ..flight.mission_status import ANSWERS, aside, count_flights, in_order, waiting
+from ..process.text import in_shell
+from ..shared.alone.simulate import trips_data
+from ..shared.domain.fields import FieldType
+from ..shared.domain.status import Status
+from ..shared.domain.text import (
     counted,
     duration,
     number,
@@ -18,15 +20,11 @@ from plutoc_runtime.domain.text import (
     printable,
 )
 
-from ..flight.mission_status import ANSWERS, aside, count_flights, in_order, waiting
-from ..process.text import in_shell
-
 if TYPE_CHECKING:
-    from plutoc_runtime.alone.simulate import SimulationResult
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Drone, Mission
-
+    from ..app import App
     from ..journal.fold import Record, Records
+    from ..shared.alone.simulate import SimulationResult
+    from ..shared.domain.model import Drone, Mission
 
 
 class MissionRow(NamedTuple):

@@ -6,10 +6,10 @@ import time
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.text import duration, printable
+from ..shared.domain.text import duration, printable
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.trace import Event
+    from ..shared.domain.trace import Event
 
 
 def line_of(event: Event) -> str | None:

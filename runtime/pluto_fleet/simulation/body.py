@@ -12,20 +12,19 @@ from math import inf
 from operator import is_
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.faults import Drawn, befell
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.fleet.reach import CLIMB_SPEED, docked
-from plutoc_runtime.fleet.telemetry import Charge, Leg, resting
-from plutoc_runtime.hooks.plain_data import item_data, item_of, point_of
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, Key
-
 from ..jobs.reports import DroneReport
+from ..shared.alone.faults import Drawn, befell
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.fleet.reach import CLIMB_SPEED, docked
+from ..shared.fleet.telemetry import Charge, Leg, resting
+from ..shared.hooks.plain_data import item_data, item_of, point_of
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET, Key
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.fleet_data import FleetData
-    from plutoc_runtime.domain.model import Category, Item, Point
+    from ..app import App
+    from ..shared.domain.fleet_data import FleetData
+    from ..shared.domain.model import Category, Item, Point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,7 +8,8 @@ from functools import partial
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.alone.faults import (
+from ..jobs.job import motors_cut
+from ..shared.alone.faults import (
     CARRYING_HOME,
     OUTAGE,
     Faults,
@@ -16,23 +17,20 @@ from plutoc_runtime.alone.faults import (
     draw,
     failed,
 )
-from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE, Plain
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.text import place
-from plutoc_runtime.fleet.reach import CLIMB_SPEED, grip_problem
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import EventKind, Kernel
-
-from ..jobs.job import motors_cut
+from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.text import place
+from ..shared.fleet.reach import CLIMB_SPEED, grip_problem
+from ..shared.time.future import Future
+from ..shared.time.kernel import EventKind, Kernel
 from .body import Body, SimulatedDrone
 
 if TYPE_CHECKING:
-    from plutoc_runtime.alone.world import World
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Item, Point, Telemetry
-
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
+    from ..shared.alone.world import World
+    from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Item, Point, Telemetry
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 

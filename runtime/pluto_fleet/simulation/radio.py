@@ -6,18 +6,16 @@ from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel
-
 from ..jobs.controls import ForwardingControls
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET, EventKind, Kernel
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.actions import Plain
-    from plutoc_runtime.domain.model import Item, Point
-
     from ..jobs.controls import Controls
     from ..jobs.reports import DroneReport
+    from ..shared.domain.actions import Plain
+    from ..shared.domain.model import Item, Point
 
 T = TypeVar("T")
 

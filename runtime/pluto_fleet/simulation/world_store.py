@@ -17,9 +17,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.hooks.plain_data import item_data, item_of, value_data, value_of
-
+from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.hooks.plain_data import item_data, item_of, value_data, value_of
 from .body import Body
 from .drones import WorldAction
 

@@ -10,10 +10,6 @@ from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import quoted
-
 from ..flight.fly import recovered
 from ..flight.lives import Resumable, fleet_in, how_to_go_on, reopen
 from ..flight.offline import record_loss, record_return, returned
@@ -24,12 +20,14 @@ from ..journal.header import Header, check
 from ..journal.place import gateway_folder
 from ..journal.reader import Reader
 from ..journal.store import Store
+from ..shared import output
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import quoted
 from ..simulation.world_store import DRONES
 from . import rows
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..files.drones import DroneEntry
     from ..files.fleet import FleetFile
     from .config import StationConfig

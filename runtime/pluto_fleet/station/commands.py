@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import quoted
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import quoted
 
 _MISSION, _TRIP = {"mission": (str,)}, {"trip": (str,)}
 _ALL = {"mission": (str, type(None))}

@@ -7,19 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.actions import PICK, RELEASE
-from plutoc_runtime.domain.fields import Entity, FieldType
-from plutoc_runtime.domain.quantities import QUANTITIES, units_of
-
+from ..shared.domain.actions import PICK, RELEASE
+from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.quantities import QUANTITIES, units_of
 from .graph.picture import app_graph, laid_out
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.actions import Action, Parameter
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.fields import Field
-    from plutoc_runtime.domain.model import Category
-
+    from ..app import App
     from ..files.fleet import FleetFile
+    from ..shared.domain.actions import Action, Parameter
+    from ..shared.domain.fields import Field
+    from ..shared.domain.model import Category
     from .graph.picture import Graph
 
 

@@ -7,14 +7,13 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.actions import MEASURE, PICK, RELEASE
-from plutoc_runtime.domain.text import bounded
-
 from ..report.sentences import line_of, sentence_of
+from ..shared.domain.actions import MEASURE, PICK, RELEASE
+from ..shared.domain.text import bounded
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.trace import Event
+    from ..app import App
+    from ..shared.domain.trace import Event
 
 
 class VersionedRows:

@@ -13,9 +13,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import ANY_ERROR, BadInput
-
 from ..flight.config import End, Stops
 from ..flight.lives import FlightObserver, FlightSetup, run_flight
 from ..flight.mission_status import aside, in_order, records_in
@@ -23,6 +20,8 @@ from ..journal.fold import Records
 from ..journal.lock import holder
 from ..journal.place import written
 from ..journal.reader import Reader
+from ..shared import output
+from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
 from .between_flights import IdleDrones
 from .feed import UNITS, Feed, VersionedRows
@@ -30,12 +29,11 @@ from .plan.shape import BROKEN_OFF
 from .wait_reasons import WaitReasons
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.trace import Event
-
     from ..flight.fly import Recovered
     from ..flight.live_flight import LiveFlight
     from ..flight.recorded_flight import RecordedFlight
     from ..journal.store import Store
+    from ..shared.domain.trace import Event
 
 
 class Phase(Enum):
@@ -233,14 +231,13 @@ class FlightSession:
     def _see_missions(self, number: int) -> bool:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.is_set_out:
-            now, app, fleet = self.now, self.flight.app, life.brain.core.fleet
-            self._waiting.look(fleet)
-            why = partial(self._waiting.why, fleet)
+            now, resumes, brain = self.now, self.flight.app.resumes, life.brain
+            self._waiting.look(brain)
+            why, where = partial(self._waiting.why, brain), brain.whereabouts()
             for name, record in in_order(life.records):
-                state = life.brain.states.get(name)
-                flies = state is not None and state.task is not None and not state.ended
-                if state is not None and flies and aside(record) is None:
-                    row = rows.mission_row(app, state.mission, state, now, why)
+                found = where.get(name)
+                if found is not None and found["lives"] and aside(record) is None:
+                    row = rows.living_row(name, record, found, resumes, now, why)
                 else:
                     row = rows.recorded_row(name, record, lives=True)
                 changed |= put(name, row, number)
@@ -257,17 +254,10 @@ class FlightSession:
         return changed
 
     def _drones_now(self, life: RecordedFlight) -> Iterator[rows.Row]:
-        states = life.brain.states.values()
-        work = rows.mission_of_each(state for state in states if not state.ended)
-        fleet = life.brain.core.fleet
-        for drone in fleet.drones:
-            low = self._waiting.why_low(fleet, drone)
-            why, status = low or fleet.unready.get(drone, ""), "LOW" if low else ""
-            yield rows.drone_row(
-                drone,
-                life.link.telemetry(drone.id).silence,
-                work.get(drone.id),
-                drone in fleet.retired,
-                why,
-                status,
-            )
+        where = life.brain.whereabouts()
+        work = {one["drone"]: name for name, one in where.items() if one["drone"] is not None}
+        for id, drone in life.brain.drones().items():
+            low = self._waiting.why_low(id, drone)
+            why, status = low or drone["unready"], "LOW" if low else ""
+            silence = life.link.telemetry(id).silence
+            yield rows.drone_row(id, drone, silence, work.get(id), why, status)

@@ -10,10 +10,6 @@ from collections.abc import Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import counted
-
 from ..flight.commands import perform
 from ..flight.config import End
 from ..flight.lives import FlightSetup, reopen
@@ -26,6 +22,9 @@ from ..journal.fold import Records
 from ..journal.header import header
 from ..journal.store import Store
 from ..process.ipc import NoAnswer, NotRunning
+from ..shared.alone.faults import Faults
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import counted
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
@@ -35,9 +34,8 @@ from .updates import Updates
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
-
+    from ..app import App
+    from ..shared.domain.model import Mission
     from .config import StationConfig
     from .plan.plan import MissionPlan
 

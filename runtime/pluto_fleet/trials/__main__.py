@@ -6,17 +6,15 @@ import subprocess
 import sys
 from importlib import import_module
 
-from pluto_fleet.seam import meet
 
-
-def run(name: str, words: list[str]) -> int:
+def main(name: str, words: list[str]) -> int:
     """Try the app of this package, and return the exit code."""
-    from plutoc_runtime import output
-    from plutoc_runtime.hooks.calls import loaded
-
+    from ..app import described
     from ..process.exit_code import ExitCode
     from ..process.forked import refused
     from ..process.signal_guard import guard_hooks, interrupted_by_a_person
+    from ..shared import output
+    from ..shared.hooks.calls import loaded
     from .command import test
 
     def by_itself(words: list[str]) -> int:
@@ -30,17 +28,10 @@ def run(name: str, words: list[str]) -> int:
     with ending:
         # a hook may raise KeyboardInterrupt or end the process, which is found then
         with interrupted_by_a_person(), refused():
-            app = loaded(lambda: import_module(f"{name}.flow").APP)
-            ending.code = test(app, words, by_itself)
+            given = loaded(lambda: import_module(f"{name}.flow").APP)
+            ending.code = test(described(given), words, by_itself)
         output.flush()
     return ending.code
-
-
-def main(name: str, words: list[str]) -> int:
-    """Bind the app's brain first, so that later imports use it."""
-    brain = f"{name}._runtime"
-    seam = import_module(f"{brain}.command").SEAM
-    return run(name, words) if meet(name, brain, seam) else 2
 
 
 if __name__ == "__main__":

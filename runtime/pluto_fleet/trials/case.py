@@ -9,12 +9,11 @@ from dataclasses import dataclass, fields, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.text import number
+from ..shared.domain.text import number
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Mission
-
     from ..files.fleet import FleetFile
+    from ..shared.domain.model import Mission
 
 
 class StrikeKind(Enum):

@@ -11,28 +11,28 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime import output
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.fields import Entity, FieldType
-from plutoc_runtime.domain.text import counted
-from plutoc_runtime.domain.trace import dumped
-
 from ..files.drones import DroneEntry
 from ..files.fleet import FleetFile, default_fleet, load_fleet
 from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions
+from ..files.missions_text import missions_text
 from ..files.plan_check import idle_actions, problems
 from ..report.progress import trial_progress
+from ..shared import output
+from ..shared.domain.errors import BadInput
+from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.text import counted
+from ..shared.domain.trace import dumped
 from .case import FAIR, Case
 from .explore import Finding, Tally, everywhere, explored, random_case, small_case
 from .lives import tried
 from .options import Options, parse
-from .report import findings_data, missions_text, repeated, report, shown_again
+from .report import findings_data, repeated, report, shown_again
 from .shrink import first_the_same, shows_the_same, shrunk
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
+    from ..app import App
+    from ..shared.domain.model import Mission
 
 FOUND, BAD_INPUT = 1, 2
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from .rules import Say, at, listed
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.trace import Event
+    from ..shared.domain.trace import Event
 
 DelayPlace = tuple[object, object, object, object, int]
 """Mission, block, trip, round, attempt."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from .rules import Hears, Say, at
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.trace import Event
+    from ..shared.domain.trace import Event
 
 UNWELL = ("drone.recovering", "drone.lost", "drone.charging", "drone.offline")
 

@@ -11,20 +11,18 @@ from itertools import product
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.actions import PICK, RELEASE, Plain
-from plutoc_runtime.domain.fields import Entity, Field, FieldType
-from plutoc_runtime.domain.model import Item
-from plutoc_runtime.domain.quantities import Type
-
 from ..files.plan_check import problems
+from ..shared.domain.actions import PICK, RELEASE, Plain
+from ..shared.domain.fields import Entity, Field, FieldType
+from ..shared.domain.model import Item
+from ..shared.domain.quantities import Type
 from .case import DEATHS, FAIR, STOPS, Case, Strike, StrikeKind, Weather
 from .lives import tried
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission, Point, Trip
-
+    from ..app import App
     from ..files.fleet import FleetFile
+    from ..shared.domain.model import Mission, Point, Trip
     from .record import TrialResult
 
 TRIES = 50

@@ -11,8 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.actions import PICK, RELEASE
-
+from ..shared.domain.actions import PICK, RELEASE
 from .delay_rule import DelaysAreWaited
 from .drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
 from .rules import (
@@ -30,9 +29,8 @@ from .rules import (
 )
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Mission
-    from plutoc_runtime.domain.trace import Event
-
+    from ..shared.domain.model import Mission
+    from ..shared.domain.trace import Event
     from .rules import Rule
 
 __all__ = ["ENDS", "RULES", "Invariants", "Items", "items_of", "violations"]

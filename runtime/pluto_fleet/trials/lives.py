@@ -8,12 +8,11 @@ from collections import deque
 from functools import partial
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
-
 from ..flight.mission_status import aside
 from ..flight.recorded_flight import RecordedFlight
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
+from ..shared.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
 from .case import BY_HAND, DEATHS, STOPS, Strike, StrikeKind, fresh
 from .invariants import ENDS
 from .record import MissionMemory, TrialResult, forgotten, memory_of
@@ -23,10 +22,9 @@ from .world import TrialWorld
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.trace import Event
-
+    from ..app import App
     from ..journal.fold import Record, Records
+    from ..shared.domain.trace import Event
     from .case import Case
 
 HEARTBEAT_WITHIN = 3.0

@@ -7,9 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from plutoc_runtime.domain.quantities import typed
-
 from ..arguments import whole_number
+from ..shared.domain.quantities import typed
 from .case import Strike, Weather, strikes_of, weather_of
 
 SEEDS = 100

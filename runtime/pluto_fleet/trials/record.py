@@ -9,9 +9,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.alone.simulate import Bound
-
 from ..journal.fold import Record, Records
+from ..shared.alone.simulate import Bound
 from .invariants import ENDS, Invariants, items_of
 from .rules import at, listed
 from .unreliable import BrokenHook
@@ -20,9 +19,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from random import Random
 
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.trace import Event
-
+    from ..app import App
+    from ..shared.domain.trace import Event
     from .case import Case
 
 

@@ -5,63 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-from plutoc_runtime.domain.fields import Entity, FieldType
-from plutoc_runtime.domain.model import Mission, Trip
-from plutoc_runtime.domain.text import counted, printable
+from typing import TYPE_CHECKING
 
 from ..files.fleet_text import fleet_text
-from ..files.toml import toml_text
+from ..files.missions_text import missions_text
 from ..process.text import in_shell
 from ..report.report import table
 from ..report.sentences import line_of
+from ..shared.domain.text import counted, printable
 from .case import ENDS, WORDS, WRITTEN, strikes_text, weather_text
 from .options import SEEDS
 from .shrink import MistakeKinds
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from .case import Case
     from .explore import Finding, Tally
     from .options import Options
     from .record import TrialResult
-
-
-def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
-    """Return the missions file."""
-    return toml_text({"mission": [_mission(app, mission) for mission in missions]})
-
-
-def _mission(app: App, mission: Mission[Any]) -> dict[str, Any]:
-    trips = [_trip(app, trip) for trip in mission.trips]
-    return {"name": mission.name, **_fields(app, Entity.MISSION, mission), "trip": trips}
-
-
-def _trip(app: App, trip: Trip) -> dict[str, Any]:
-    table: dict[str, Any] = {"name": trip.name, "action": trip.action}
-    if trip.source is not None:
-        table["source"] = [float(along) for along in trip.source]
-    table["target"] = [float(along) for along in trip.target]
-    table.update(_fields(app, Entity.TRIP, trip))
-    if trip.parameters:
-        table["parameters"] = {**trip.parameters}
-    if trip.item is not None:
-        table["item"] = {"name": trip.item.name, "mass": trip.item.mass}
-    return table
-
-
-def _fields(app: App, entity: Entity, of: Mission[Any] | Trip) -> dict[str, Any]:
-    fields: dict[str, Any] = {}
-    for field in app.fields:
-        given = getattr(of, field.name) if field.on is entity else None
-        if given is not None and field.type is FieldType.TIME_OF_DAY:
-            minutes = round(given / 60)
-            fields[field.name] = f"{minutes // 60:02}:{minutes % 60:02}"
-        elif given is not None:
-            fields[field.name] = given
-    return fields
 
 
 _MOST_EVENTS = 200

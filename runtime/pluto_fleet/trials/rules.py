@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.trace import Event
+    from ..shared.domain.trace import Event
 
 Say = Callable[[str], object]
 """Called with the sentence of a violation."""

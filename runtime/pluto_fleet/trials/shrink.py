@@ -8,16 +8,14 @@ from copy import deepcopy
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from plutoc_runtime.domain.actions import PICK, RELEASE
-
 from ..files.plan_check import problems
+from ..shared.domain.actions import PICK, RELEASE
 from .case import FAIR
 from .lives import tried
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
-
+    from ..app import App
+    from ..shared.domain.model import Mission
     from .case import Case, Strike, Weather
     from .explore import Finding
     from .record import TrialResult

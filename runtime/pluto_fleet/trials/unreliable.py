@@ -9,20 +9,18 @@ from inspect import iscoroutine
 from random import Random
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from plutoc_runtime.domain.errors import Cancelled, FlightFailed
-from plutoc_runtime.domain.guard import guarded
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, EventKind, Key, Task, Timer
-from plutoc_runtime.time.virtual import VirtualTime
-
 from ..gateway.gateway import Link
+from ..shared.domain.errors import Cancelled, FlightFailed
+from ..shared.domain.guard import guarded
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET, EventKind, Key, Task, Timer
+from ..shared.time.virtual import VirtualTime
 
 if TYPE_CHECKING:
-    from plutoc_runtime.time.kernel import Kernel
-
     from ..gateway.gateway import Gateway
     from ..jobs.job import Job, Report
     from ..jobs.reports import Down, DroneReport, FleetReport
+    from ..shared.time.kernel import Kernel
     from .case import Weather
 
 T = TypeVar("T")

@@ -5,15 +5,14 @@ from __future__ import annotations
 from random import Random
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.time.kernel import FLEET
-from plutoc_runtime.time.kernel import EventKind as When
-from plutoc_runtime.time.virtual import VirtualTime
-
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import Ledger
 from ..gateway.lossy_line import LOST, LossyLine
+from ..shared.alone.faults import Faults
+from ..shared.alone.world import World
+from ..shared.time.kernel import FLEET
+from ..shared.time.kernel import EventKind as When
+from ..shared.time.virtual import VirtualTime
 from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation, WorldAction
 from ..simulation.radio import Radio
@@ -23,8 +22,7 @@ from .record import TrialRecord
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plutoc_runtime.domain.app import App
-
+    from ..app import App
     from ..jobs.controls import Controls
     from .case import Case
 

@@ -16,11 +16,11 @@ from ..brain import Brain
 from ..domain.airspace import Airspace
 from ..domain.errors import BadInput
 from ..domain.fleet_data import DroneData, FleetData
-from ..domain.model import Drone, Mission
+from ..domain.model import Drone, Mission, Result
 from ..domain.status import DroneStatus, Status
 from ..domain.text import counted, duration, quoted
 from ..domain.trace import Event
-from ..flow.standing import drones_of, fleet_data, mission_data, take_over
+from ..flow.standing import drones_of, fleet_data, mission_data, results_of, take_over
 from ..time.told import Stuck
 from .ideal import IdealDrones
 
@@ -42,6 +42,8 @@ class SimulationResult:
     flown: dict[str, float]
     """Metres, by the drones' ids."""
     events: tuple[Event, ...]
+    results: tuple[Result[Any, Any], ...] = ()
+    """Of every action that was done, in order."""
     given_up: str = ""
     """Why a simulation was ended that would have gone on for ever."""
 
@@ -171,6 +173,7 @@ class Alone:
             drones=drones_of(self._app, self._fleet, standing["drones"], telemetry),
             flown={drone.id: drone.flown for drone in flown.values()},
             events=tuple(events),
+            results=results_of(missions, standing["results"]),
             given_up=given_up,
         )
 

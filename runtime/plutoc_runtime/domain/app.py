@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from .status import Status
@@ -39,3 +39,39 @@ class App:
     """The app's evaluators, by name."""
     resumes: tuple[str, ...] = ()
     """The blocks at which an interrupted mission can resume: `flow` can be entered there."""
+
+
+def app_data(app: App) -> dict[str, Any]:
+    """Return what an app is made of as plain data: all that a library knows of it."""
+    return {
+        "name": app.name,
+        "title": app.title,
+        "fields": [
+            {
+                "name": one.name,
+                "on": one.on.value,
+                "type": one.type.value,
+                "label": one.label,
+                "default": one.default,
+            }
+            for one in app.fields
+        ],
+        "categories": [
+            {**asdict(one), "actions": one.actions and sorted(one.actions)}
+            for one in app.categories
+        ],
+        "actions": [
+            {
+                "name": one.name,
+                "parameters": [
+                    {**asdict(each), "type": each.type.value} for each in one.parameters
+                ],
+                "repeat": one.repeat,
+                "seconds": one.seconds,
+                "own": one.hook is not None,
+            }
+            for one in app.actions.values()
+        ],
+        "evaluators": list(app.evaluators),
+        "resumes": list(app.resumes),
+    }

@@ -21,11 +21,8 @@ class Guard:
     """Calls hooks, and tells their errors from the user's Ctrl-C by the type alone."""
 
     def call(self, code: Callable[[], T]) -> T:
-        """Call a hook, or resume it; its errors end nothing but the hook."""
-        try:
-            return code()
-        except NOT_ITS_OWN as error:
-            raise as_a_fault(error) from error.__cause__
+        """Call a hook, or resume it."""
+        return code()
 
     def by_a_person(self, error: BaseException) -> bool:
         """Return whether this is the user's Ctrl-C, or may be."""
@@ -35,15 +32,18 @@ class Guard:
 _guard = Guard()
 
 
-def put(guard: Guard) -> None:
-    """Install this guard for all hooks."""
+def put_guard(guard: Guard) -> None:
+    """Install this guard for all hooks of this brain's app."""
     global _guard
     _guard = guard
 
 
 def guarded(code: Callable[[], T]) -> T:
-    """Call a hook, or resume it, with the installed guard."""
-    return _guard.call(code)
+    """Call a hook, or resume it, with the installed guard; its errors end nothing but the hook."""
+    try:
+        return _guard.call(code)
+    except NOT_ITS_OWN as error:
+        raise as_a_fault(error) from error.__cause__
 
 
 def by_a_person(error: BaseException) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import FrameType
+from types import CodeType, FrameType
 from typing import Any
 
 from ..hooks.calls import said
@@ -51,3 +51,24 @@ def declaration_above(frame: FrameType, line: int) -> str:
         if text.lstrip().startswith("# "):
             return text.strip().removeprefix("# ")
     return ""
+
+
+_KNOWN: dict[tuple[CodeType, int], str] = {}
+"""A cache of comments, by the line below them."""
+
+
+def waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block at which a mission's coroutine waits, or nothing.
+
+    It is found by the suspended frames, so that observing a flight costs it nothing.
+    """
+    file, found = flow.__code__.co_filename, ""
+    while coroutine is not None:
+        frame: FrameType | None = getattr(coroutine, "cr_frame", None)
+        if frame is not None and frame.f_code.co_filename == file:
+            place = frame.f_code, frame.f_lineno
+            if place not in _KNOWN:
+                _KNOWN[place] = declaration_above(frame, frame.f_lineno)
+            found = _KNOWN[place] or found
+        coroutine = getattr(coroutine, "cr_await", None)
+    return found

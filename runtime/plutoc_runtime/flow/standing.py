@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
-from ..domain.model import Drone
+from ..domain.model import Drone, Result
 from ..domain.status import DroneStatus, Status, TripStatus
 from ..hooks import plain_data
 from ..hooks.plain_data import (
@@ -20,12 +20,15 @@ from ..hooks.plain_data import (
     known_fields,
     trip_data,
     trip_of,
+    value_of,
 )
+from .location import waiting_at
 
 if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
     from ..domain.model import Mission, Telemetry, Trip
+    from ..fleet.fleet import Fleet
     from .mission import MissionState
 
 
@@ -94,10 +97,27 @@ def _trip(app: App, trip: Trip) -> Data:
     return data | {name: value for name, value in facts if value is not None}
 
 
-def drone_standing(drone: Drone, unready: str) -> Data:
-    """Return where a drone stands, and what it has flown; `unready`: why it is not ready to fly."""
+def whereabouts_of(state: MissionState, flow: Callable[..., Any]) -> Data:
+    """Return where a mission is in its graph, which drone it has, and until when it is delayed."""
+    flight, drone = state.in_flight, state.allocated or state.carrier
+    if state.allocated is None and flight is not None:
+        drone = flight.flier
     return {
-        "unready": unready,
+        "lives": state.task is not None,
+        "block": "" if state.task is None else waiting_at(state.task.coroutine, flow),
+        "drone": drone and drone.id,
+        "flies": flight is not None,
+        "allocated": state.allocated is not None,
+        "until": state.delay and max(state.delay[1:]),
+    }
+
+
+def drone_standing(drone: Drone, fleet: Fleet) -> Data:
+    """Return where a drone stands, what it has flown, and why it is not ready to fly, as `unready`."""
+    return {
+        "unready": fleet.unready.get(drone, ""),
+        "retired": drone in fleet.retired,
+        "low": fleet.is_low(drone),
         "status": drone.status.value,
         "at": list(drone.location),
         "battery": drone.battery_level,
@@ -158,6 +178,22 @@ def take_over(
     """Bring missions up to date with where they stand in their brain."""
     for mission in missions:
         update(app, mission, standing[mission.name])
+
+
+def results_of(
+    missions: Sequence[Mission[Any]], stored: Sequence[Sequence[Any]]
+) -> tuple[Result[Any, Any], ...]:
+    """Return the results of these missions, which are up to date."""
+    named = {one.name: one for one in missions}
+    trips = {
+        (one.name, trip.name): trip
+        for one in missions
+        for trip in (*one.trips, *one.completed_trips)
+    }
+    return tuple(
+        Result(named[mission], trips.get((mission, trip)), round_, attempt, value_of(value))
+        for mission, trip, round_, attempt, value in stored
+    )
 
 
 def drones_of(

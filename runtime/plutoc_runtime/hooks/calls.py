@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import PurePath
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..domain.errors import ANY_ERROR, ActionFailed, BadInput, HookFault
 from ..domain.guard import by_a_person, unless_by_a_person
 from ..domain.text import bounded, class_of, text_of
 
 if TYPE_CHECKING:
-    from ..domain.app import App
     from ..domain.model import Mission
+
+T = TypeVar("T")
 
 Hook = Callable[..., object]
 
@@ -93,7 +94,7 @@ LONGEST_REASON, LONGEST_LOG = 2_000, 20_000
 """Characters of what a hook says of a failure, and of a line that it has logged."""
 
 
-def loaded(load: Callable[[], App]) -> App:
+def loaded(load: Callable[[], T]) -> T:
     """Return the app; raise `BadInput` with the place where its hooks cannot be loaded."""
     try:
         return load()

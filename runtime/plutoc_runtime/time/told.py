@@ -124,7 +124,7 @@ class ToldTime(Kernel):
                 del self._hooks[number]
                 if not ended.is_set:
                     runner.cancel(number)
-        return await _finished(runner.result(number))
+        return await _finished(guarded(partial(runner.result, number)))
 
     def hook_ended(self, message: Mapping[str, Any]) -> None:
         """Called when a hook that took its time has ended."""

@@ -8,14 +8,14 @@ from math import dist, inf, sqrt
 
 from pluto_fleet.files.fleet import PACE
 from pluto_fleet.jobs.reports import Down
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.fleet.telemetry import Leg
+from pluto_fleet.shared.time.kernel import Kernel
 from pluto_fleet.simulation.body import Body, SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import Point
-from plutoc_runtime.fleet.telemetry import Leg
-from plutoc_runtime.time.kernel import Kernel
 from tests.gateway.traffic.skies import ENDURING, Sky
 
 SLACK = 0.15

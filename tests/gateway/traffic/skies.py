@@ -8,18 +8,18 @@ from random import Random
 from typing import Any
 
 from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.airspace import Airspace, permitted_way
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Category, Point
+from pluto_fleet.shared.fleet.reach import docked
+from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import FLEET, EventKind
+from pluto_fleet.shared.time.kernel import Task as Coroutine
+from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.domain.airspace import Airspace, permitted_way
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.model import Category, Point
-from plutoc_runtime.fleet.reach import docked
-from plutoc_runtime.time.future import Future
-from plutoc_runtime.time.kernel import FLEET, EventKind
-from plutoc_runtime.time.kernel import Task as Coroutine
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.gateway.flights import Task
 
 ENDURING = Category(name="enduring", speed=0.5, flight_time=1e6, charge_time=1.0)

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.gateway.envelope import Envelope
-from plutoc_runtime.domain.airspace import Airspace, way_from
-from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.time.kernel import FLEET
+from pluto_fleet.shared.domain.airspace import Airspace, way_from
+from pluto_fleet.shared.domain.errors import FlightFailed
+from pluto_fleet.shared.time.kernel import FLEET
 from tests.gateway.traffic.skies import Sky
 
 WALL = Airspace(size=(10, 10), ceiling=2.0, no_fly=(((4, 2), (6, 2), (6, 8), (4, 8)),))

@@ -12,9 +12,9 @@ from pluto_fleet.gateway.traffic.courses import course
 from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
 from pluto_fleet.gateway.traffic.ways import ways_home
 from pluto_fleet.jobs.reports import Down
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.simulation.body import SimulatedDrone
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import Point
 from tests.gateway.traffic.real_skies import FLIES_ON, late
 from tests.gateway.traffic.skies import ENDURING, Sky, is_home
 

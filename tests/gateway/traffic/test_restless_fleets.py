@@ -7,9 +7,9 @@ from random import Random
 import pytest
 
 from pluto_fleet.jobs.reports import Down
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.model import Point
-from plutoc_runtime.time.kernel import FLEET
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.time.kernel import FLEET
 from tests.gateway.traffic.skies import Restless, Sky, is_home
 from traffic import APART, flown, measured
 from traffic import crossings as crossing

@@ -6,10 +6,10 @@ from math import dist, hypot
 
 import pytest
 
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.model import Point
-from plutoc_runtime.time.kernel import FLEET, Task
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.time.kernel import FLEET, Task
 from tests.gateway.traffic.skies import Sky
 
 APART = 0.5

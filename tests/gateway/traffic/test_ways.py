@@ -13,7 +13,7 @@ from pluto_fleet.gateway.traffic.courses import course, near
 from pluto_fleet.gateway.traffic.legs import between
 from pluto_fleet.gateway.traffic.reservations import box_of, meets, nearest
 from pluto_fleet.gateway.traffic.ways import Section, sections
-from plutoc_runtime.domain.airspace import Airspace
+from pluto_fleet.shared.domain.airspace import Airspace
 
 metres = st.one_of(st.floats(-3, 3), st.integers(-2, 2).map(float))
 points = st.tuples(metres, metres, metres)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.app import App
 from pluto_fleet.cli import main
-from plutoc_runtime.domain.app import App
 from tests.runtime.files.an_app import APP
 
 MISSIONS = """

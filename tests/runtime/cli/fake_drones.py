@@ -9,8 +9,8 @@ from pathlib import Path
 
 from pluto_fleet.drones.errors import LinkLost
 from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
-from plutoc_runtime.domain.actions import Plain
-from plutoc_runtime.domain.model import Item, Point
+from pluto_fleet.shared.domain.actions import Plain
+from pluto_fleet.shared.domain.model import Item, Point
 
 RECORD: list[tuple[str, str]] = []
 """(uri, what was asked)."""

@@ -179,5 +179,5 @@ def test_a_full_disk_is_told_once(missions: Path) -> None:
 def test_check_imports_no_engine_and_no_event_loop(missions: Path) -> None:
     """A command brings in only what it needs."""
     code = "c.main(APP, ['check', sys.argv[1]]); "
-    code += "sys.exit('asyncio' in sys.modules or 'plutoc_runtime.flow.engine' in sys.modules)"
+    code += "sys.exit('asyncio' in sys.modules or 'pluto_fleet.shared.flow.engine' in sys.modules)"
     assert in_a_process(code, missions, stdout=subprocess.DEVNULL).returncode == 0

@@ -9,16 +9,16 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.shared.alone import simulate as enough
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.fleet.policies import nearest
+from pluto_fleet.shared.flow.run import Run
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.alone import simulate as enough
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.policies import nearest
-from plutoc_runtime.flow.run import Run
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, FieldMission
 from tests.trials.examples import WAITING, app_of

@@ -14,9 +14,9 @@ import pytest
 
 from pluto_fleet.cli import runs
 from pluto_fleet.cli.runs import percentile, run_of
+from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.trials.invariants import Items
-from plutoc_runtime.alone.simulate import SimulationResult
-from plutoc_runtime.domain.trace import Event
 from tests.runtime.cli.conftest import Command
 
 CRASHES = ("--fail", "crash=30%", "--seed", 10)

@@ -13,9 +13,9 @@ from pluto_fleet.cli.runs import RunFigures, spread, summary
 from pluto_fleet.report.progress import Progress
 from pluto_fleet.report.report import table
 from pluto_fleet.report.sentences import line_of
-from plutoc_runtime.alone.faults import shares
-from plutoc_runtime.domain.text import duration, mass, number, quoted
-from plutoc_runtime.domain.trace import dumped
+from pluto_fleet.shared.alone.faults import shares
+from pluto_fleet.shared.domain.text import duration, mass, number, quoted
+from pluto_fleet.shared.domain.trace import dumped
 
 
 def test_the_summary_counts_successes_and_times_only_those() -> None:

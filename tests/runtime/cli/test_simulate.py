@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from plutoc_runtime.alone.faults import FAULTS, Faults
-from plutoc_runtime.domain.app import App
+from pluto_fleet.app import App
+from pluto_fleet.shared.alone.faults import FAULTS, Faults
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, POLLINATE
 

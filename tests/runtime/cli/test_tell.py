@@ -16,7 +16,7 @@ from pluto_fleet.gateway.process import NOTE
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.lock import Lock
 from pluto_fleet.journal.place import commands_note, gateway_folder
-from plutoc_runtime.domain.errors import BadInput
+from pluto_fleet.shared.domain.errors import BadInput
 from tests.runtime.cli.conftest import Command
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-import plutoc_runtime
+import pluto_fleet
 from tests.runtime.cli.conftest import Command
 
 INSTALL = f"'{'carrier' if 'PLUTO_EMBEDDED' in os.environ else 'pluto-fleet'}[crazyflie]'"
@@ -36,7 +36,7 @@ from pkgutil import walk_packages
 sys.path.insert(0, sys.argv[1])
 sys.modules["cflib"] = None  # as where it is not installed
 import plutoc_runtime
-for module in walk_packages(plutoc_runtime.__path__, "plutoc_runtime."):
+for module in walk_packages(pluto_fleet.__path__, "pluto_fleet.shared."):
     if not module.name.endswith("__main__"):
         import_module(module.name)
 """
@@ -91,7 +91,7 @@ def test_all_else_works(missions: Path, fleet: Path, command: Command) -> None:
 
 def test_every_module_of_the_runtime_is_imported_without_it() -> None:
     """It is imported when a radio is opened, and no sooner."""
-    home = Path(plutoc_runtime.__path__[0]).parent
+    home = Path(pluto_fleet.__path__[0]).parent
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", EVERYTHING, home],
         capture_output=True,

@@ -5,23 +5,24 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from pluto_fleet.app import described
+from pluto_fleet.shared.domain.actions import BUILT_IN, Parameter
+from pluto_fleet.shared.domain.app import App
+from pluto_fleet.shared.domain.errors import ActionFailed
+from pluto_fleet.shared.domain.fields import Entity, Field, FieldType
+from pluto_fleet.shared.domain.model import Category, Drone, Mission, Trip
+from pluto_fleet.shared.domain.quantities import Type
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.fleet.policies import nearest
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.flow.run import Run
+from pluto_fleet.shared.hooks.context import Context
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from plutoc_runtime.domain.actions import BUILT_IN, Parameter
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.errors import ActionFailed
-from plutoc_runtime.domain.fields import Entity, Field, FieldType
-from plutoc_runtime.domain.model import Category, Drone, Mission, Trip
-from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.domain.status import Status
-from plutoc_runtime.fleet.policies import nearest
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.flow.run import Run
-from plutoc_runtime.hooks.context import Context
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -78,41 +79,45 @@ POLLINATE = OwnAction(
     hook=pollinate,
 )
 
-APP = App(
-    name="alfalfa",
-    title="Alfalfa crop monitoring",
-    flow=fly_mission,
-    mission=FieldMission,
-    trip=FieldTrip,
-    fields=(
-        field("safe_time", Entity.MISSION, FieldType.TIME),
-        field("repeat", Entity.MISSION, FieldType.ROUNDS),
-        field("at", Entity.MISSION, FieldType.TIME_OF_DAY),
-        field("evaluator", Entity.MISSION, FieldType.EVALUATOR),
-        field("delay", Entity.TRIP, FieldType.TIME),
-        field("priority", Entity.TRIP, FieldType.INT),
-    ),
-    categories=(
-        Category(name="scout", actions=frozenset({"take_photo", "measure"})),
-        Category(
-            name="carrier",
-            payload=0.005,
-            speed=0.8,
-            actions=frozenset({"pick_item", "release_item", "pollinate"}),
+APP = described(
+    App(
+        name="alfalfa",
+        title="Alfalfa crop monitoring",
+        flow=fly_mission,
+        mission=FieldMission,
+        trip=FieldTrip,
+        fields=(
+            field("safe_time", Entity.MISSION, FieldType.TIME),
+            field("repeat", Entity.MISSION, FieldType.ROUNDS),
+            field("at", Entity.MISSION, FieldType.TIME_OF_DAY),
+            field("evaluator", Entity.MISSION, FieldType.EVALUATOR),
+            field("delay", Entity.TRIP, FieldType.TIME),
+            field("priority", Entity.TRIP, FieldType.INT),
         ),
-    ),
-    actions={**BUILT_IN, "pollinate": POLLINATE},
-    evaluators={"find_blooms": lambda mission, results: None},
+        categories=(
+            Category(name="scout", actions=frozenset({"take_photo", "measure"})),
+            Category(
+                name="carrier",
+                payload=0.005,
+                speed=0.8,
+                actions=frozenset({"pick_item", "release_item", "pollinate"}),
+            ),
+        ),
+        actions={**BUILT_IN, "pollinate": POLLINATE},
+        evaluators={"find_blooms": lambda mission, results: None},
+    )
 )
 
-PLAIN = App(
-    name="plain",
-    title="Plain",
-    flow=fly_mission,
-    mission=FieldMission,
-    trip=FieldTrip,
-    fields=(),
-    categories=(Category(name="drone"),),
-    actions=BUILT_IN,
+PLAIN = described(
+    App(
+        name="plain",
+        title="Plain",
+        flow=fly_mission,
+        mission=FieldMission,
+        trip=FieldTrip,
+        fields=(),
+        categories=(Category(name="drone"),),
+        actions=BUILT_IN,
+    )
 )
 """An app without fields, categories or hooks."""

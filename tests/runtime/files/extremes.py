@@ -7,9 +7,9 @@ from functools import lru_cache
 from math import exp, log
 from random import Random
 
+from pluto_fleet.app import App
 from pluto_fleet.files.fleet import BETWEEN
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.values import HEIGHT, MASS, PLACE, RADIUS, SIDE, TIME, Quantity
+from pluto_fleet.shared.domain.values import HEIGHT, MASS, PLACE, RADIUS, SIDE, TIME, Quantity
 from tests.trials.examples import app_of
 
 LONGEST = 100_000.0

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pluto_fleet.app import App
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import (
     FleetFile,
@@ -21,12 +22,11 @@ from pluto_fleet.files.fleet import (
     options_of,
 )
 from pluto_fleet.files.fleet_text import fleet_text
-from plutoc_runtime.domain import plan_rules
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
-from plutoc_runtime.domain.model import AfterTrip, Point
+from pluto_fleet.shared.domain import plan_rules
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
+from pluto_fleet.shared.domain.model import AfterTrip, Point
 from tests.runtime.files.an_app import APP, PLAIN
 
 FULL = """

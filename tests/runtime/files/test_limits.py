@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from pluto_fleet.files.fleet import BETWEEN, FleetFile, load_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.plan_check import problems
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Mission
+from pluto_fleet.shared.domain.values import RADIUS, SIDE
 from pluto_fleet.trials.case import Case, Strike, StrikeKind, Weather
 from pluto_fleet.trials.lives import TrialRun
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import Mission
-from plutoc_runtime.domain.values import RADIUS, SIDE
 from tests.runtime.files.extremes import CATEGORIES, Extremes, extreme_app
 
 DRONE = '[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n'

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.reading import read
-from plutoc_runtime.alone.toml import LARGEST
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import Item, Mission
-from plutoc_runtime.domain.status import Status
+from pluto_fleet.shared.alone.toml import LARGEST
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Item, Mission
+from pluto_fleet.shared.domain.status import Status
 from tests.runtime.files.an_app import APP, PLAIN, FieldMission, FieldTrip
 
 SIZE = (20.0, 12.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from plutoc_runtime.domain.model import Category, Drone, Point, Trip
+from pluto_fleet.shared.domain.model import Category, Drone, Point, Trip
 
 SCOUT = Category(name="scout")
 

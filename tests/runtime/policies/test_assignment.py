@@ -10,7 +10,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from plutoc_runtime.fleet.assignment import assign
+from pluto_fleet.shared.fleet.assignment import assign
 
 Costs = Sequence[Sequence[float | None]]
 """A row each; None: that pair may not be."""

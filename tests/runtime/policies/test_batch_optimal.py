@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plutoc_runtime.domain.model import Drone, Point
-from plutoc_runtime.fleet.batch_optimal import batch_optimal
-from plutoc_runtime.fleet.policies import Able
+from pluto_fleet.shared.domain.model import Drone, Point
+from pluto_fleet.shared.fleet.batch_optimal import batch_optimal
+from pluto_fleet.shared.fleet.policies import Able
 from tests.runtime.policies.fleets import anyone, fleet, trip
 
 PLACE = st.tuples(st.integers(0, 9).map(float), st.integers(0, 9).map(float), st.just(0.0))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from plutoc_runtime.domain.model import Drone
-from plutoc_runtime.fleet.policies import nearest
+from pluto_fleet.shared.domain.model import Drone
+from pluto_fleet.shared.fleet.policies import nearest
 from tests.runtime.policies.fleets import anyone, fleet, trip
 
 

@@ -6,15 +6,15 @@ from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from pluto_fleet.gateway.executor import Executor
+from pluto_fleet.shared.alone.faults import Faults, Order, draw
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import FlightFailed
+from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.time.kernel import FLEET, Kernel
+from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.alone.faults import Faults, Order, draw
-from plutoc_runtime.alone.world import World
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import FlightFailed
-from plutoc_runtime.domain.model import Category
-from plutoc_runtime.time.kernel import FLEET, Kernel
-from plutoc_runtime.time.virtual import VirtualTime
 
 T = TypeVar("T")
 

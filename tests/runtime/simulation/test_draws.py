@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from plutoc_runtime.alone.faults import Drawn, Faults, draw
+from pluto_fleet.shared.alone.faults import Drawn, Faults, draw
 from tests.runtime.simulation.flights import order
 
 

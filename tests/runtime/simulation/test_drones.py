@@ -8,13 +8,13 @@ from hypothesis import strategies as st
 
 from pluto_fleet.jobs.controls import Controls
 from pluto_fleet.process.realtime import RealTime
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import Failure
-from plutoc_runtime.domain.model import Category, Item, Photo, Point
-from plutoc_runtime.fleet.reach import needed
-from plutoc_runtime.fleet.telemetry import resting
-from plutoc_runtime.time.kernel import FLEET, Kernel
-from plutoc_runtime.time.virtual import VirtualTime
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure
+from pluto_fleet.shared.domain.model import Category, Item, Photo, Point
+from pluto_fleet.shared.fleet.reach import needed
+from pluto_fleet.shared.fleet.telemetry import resting
+from pluto_fleet.shared.time.kernel import FLEET, Kernel
+from pluto_fleet.shared.time.virtual import VirtualTime
 from tests.runtime.simulation.flights import (
     CLIMB,
     HOME,

@@ -9,14 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.alone.faults import Faults, draw
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Item, Point
+from pluto_fleet.shared.fleet.reach import docked
+from pluto_fleet.shared.time.kernel import FLEET
+from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from plutoc_runtime.alone.faults import Faults, draw
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.domain.model import Item, Point
-from plutoc_runtime.fleet.reach import docked
-from plutoc_runtime.time.kernel import FLEET
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.runtime.simulation.flights import (
     CLIMB,
     HOME,

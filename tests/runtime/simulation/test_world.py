@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plutoc_runtime.alone.world import World, invented
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.fleet_data import Feature, Source, WorldData
+from pluto_fleet.shared.alone.world import World, invented
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
 
 MAP = Airspace(size=(20.0, 10.0))
 DUST = Source(quantity="pm10", at=(5.0, 5.0), peak=80.0, radius=2.0)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from pluto_fleet.shared.domain.actions import BUILT_IN, Parameter
+from pluto_fleet.shared.domain.model import Photo
+from pluto_fleet.shared.domain.quantities import Type
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.plain_data import value_data
 from pluto_fleet.station.feed import FACTS, UNITS, Feed
-from plutoc_runtime.domain.actions import BUILT_IN, Parameter
-from plutoc_runtime.domain.model import Photo
-from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.flow.own_action import OwnAction
-from plutoc_runtime.hooks.plain_data import value_data
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, tell

@@ -2,78 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Coroutine, Generator
-from dataclasses import dataclass
-from typing import Any, cast
+from collections.abc import Mapping
+from typing import Any
 
 import pytest
 
-from pluto_fleet.station.rows import mission_row, recorded_row
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.model import Mission, Trip
-from plutoc_runtime.domain.status import COMPLETED, STANDBY, Status
-from plutoc_runtime.flow.engine import Engine
-from plutoc_runtime.flow.mission import Core, MissionState
+from pluto_fleet.station.rows import living_row, recorded_row
 
 
-class Long:
-    """Something for which one waits."""
-
-    def __await__(self) -> Generator[None, None, None]:
-        yield
-
-
-async def flow(_: object) -> Status:
-    # allocate = DroneAllocator
-    await Long()
-    return COMPLETED
+def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, Any]:
+    """Return the journal's record of a mission."""
+    record = {"done": [], "todo": list(trips), "status": status, "reason": "", "ended": False}
+    record |= {"at": None, "index": 0, "attempts": 1, "round": 0, "carrier": None}
+    return record | dict.fromkeys(("question", "held", "paused")) | more
 
 
-@dataclass
-class Resuming:
-    """As much of an app as a row asks for."""
-
-    flow: object = flow
-    resumes: tuple[str, ...] = ("allocate",)
-
-
-@dataclass
-class Waiting:
-    """As much of a task as says where it is."""
-
-    coroutine: Coroutine[Any, Any, Status]
-
-
-def row(mission: Mission[Any], state: MissionState | None) -> dict[str, object]:
-    return mission_row(cast("App", Resuming()), mission, state, 10.0, lambda trip: trip.action)
+def row(record: dict[str, Any], block: str, **more: Any) -> dict[str, object]:
+    where = {"block": block, "drone": None, "flies": False, "allocated": False, "until": None}
+    return living_row("a", record, where | more, ("allocate",), 10.0, lambda name, trip: trip)
 
 
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
-    mission = Mission[Any](name="a", trips=[])
-    mission.status = COMPLETED
-    state = MissionState(cast("Core", None), mission, cast("Engine", None))
-    state.at = "judge"
-    seen = row(mission, state)
+    seen = row(record_of("COMPLETED"), "judge = MissionEvaluator(hook: judge)")
     assert (seen["status"], seen["at"]) == ("STANDBY", ["judge"])
+    assert seen["wait"] == "waits for what judge says"
 
 
 def test_a_mission_that_has_ended_is_at_the_end() -> None:
-    mission = Mission[Any](name="a", trips=[])
-    mission.status = COMPLETED
-    seen = row(mission, None)
+    seen = recorded_row("a", record_of("COMPLETED", ended=True), lives=True)
     assert (seen["status"], seen["at"], seen["wait"]) == ("COMPLETED", ["end"], "")
 
 
+TRIP = {"name": "1", "action": "measure", "target": [1.0, 1.0, 1.0]}
+
+
 def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
-    trip = Trip(name="1", action="measure", target=(1.0, 1.0, 1.0))
-    mission = Mission[Any](name="a", trips=[trip])
-    mission.status = STANDBY
-    state = MissionState(cast("Core", None), mission, cast("Engine", None))
-    coroutine = flow(mission)
-    coroutine.send(None)
-    state.task = cast("Any", Waiting(coroutine))
-    assert row(mission, state)["wait"] == "waits for a drone (measure)"
-    coroutine.close()
+    record, block = record_of("STANDBY", TRIP), "allocate = DroneAllocator"
+    assert row(record, block)["wait"] == "waits for a drone (1)"
+    assert row(record, block, allocated=True, drone="cf1")["wait"] == ""
+    assert row(record, block, flies=True, drone="cf1")["drone"] == "cf1"
+
+
+def test_a_delay_is_shown_as_long_as_it_lasts() -> None:
+    record, block = record_of("UNEXECUTED", TRIP), "wait = Clock"
+    assert row(record, block, until=12.0)["wait"] == "waits until its time has come"
+    assert row(record, block, until=12.0)["until"] == 12.0
+    assert row(record, block, until=10.0)["until"] is None
+
+
+def test_a_trip_is_shown_as_it_flies_only_while_its_brain_knows_that() -> None:
+    record = record_of("RUNNING", {**TRIP, "status": "EXECUTING"})
+    shown = [seen["trips"] for seen in (row(record, ""), recorded_row("a", record))]
+    assert [trips[0][1] for trips in shown if isinstance(trips, list)] == ["EXECUTING", "WAITING"]
 
 
 @pytest.mark.parametrize(

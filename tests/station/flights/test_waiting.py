@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
+from pluto_fleet.shared.domain.model import Category, Item
+from pluto_fleet.shared.domain.status import DroneStatus
+from pluto_fleet.shared.fleet.telemetry import Charge
 from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons, why_no_drone
-from plutoc_runtime.domain.model import Category, Item
-from plutoc_runtime.domain.status import DroneStatus
-from plutoc_runtime.fleet.telemetry import Charge
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 
@@ -30,8 +29,8 @@ def far(name: str, **more: Any) -> apps.Mission:
 
 def said(fleet: Living) -> list[str]:
     """Return what is said of each that waits."""
-    core = fleet.life.brain.core
-    return [why_no_drone(core.fleet, request) for request in core.queue.waiters()]
+    found = fleet.life.brain.waiting(list(fleet.life.records.missions))
+    return [why_no_drone(each) for each in found["missions"].values()]
 
 
 def test_drones_that_are_free_but_too_low_are_not_what_a_mission_waits_for_without_a_word() -> None:
@@ -47,7 +46,7 @@ def test_drones_that_can_never_fly_it_are_counted_apart_with_the_reason() -> Non
     heavy = Item(name="a sack", mass=0.5)
     mission = apps.mission("a", apps.trip("1", 4.0, action="pick_item", item=heavy))
     carrier = Category(name="carrier", payload=1.0)
-    app = replace(enterable(), categories=(apps.SCOUT, carrier))
+    app = apps.changed(enterable(), categories=(apps.SCOUT, carrier))
     kinds = ["scout", "scout", "carrier"]
     fleet = Living(app, mission, on=apps.fleet(*HOMES, categories=kinds))
     fleet.at(0.2, lambda: fleet.life.control.retire("cf3"))
@@ -65,7 +64,7 @@ def test_who_is_busy_lost_or_kept_on_the_ground_by_the_limit_is_said() -> None:
         == ["2 free, but no more may fly at once; 1 flying"] * 2
     )
     fleet = living(*missions, apps.mission("d", apps.trip("1", 9.0)))
-    fleet.life.brain.core.fleet.drones[0].status = DroneStatus.LOST
+    fleet.life.brain._core.fleet.drones[0].status = DroneStatus.LOST
     assert said(fleet) == ["1 lost; 2 flying"]
 
 
@@ -73,9 +72,9 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
     None
 ):
     def why_low(fleet: Living) -> list[str]:
-        waiting, core = WaitReasons(lambda: 0.0), fleet.life.brain.core
-        waiting.look(core.fleet)
-        return [waiting.why_low(core.fleet, drone) for drone in core.fleet.drones]
+        waiting, brain = WaitReasons(lambda: 0.0), fleet.life.brain
+        waiting.look(brain)
+        return [waiting.why_low(id, drone) for id, drone in brain.drones().items()]
 
     too_low = "its battery is too low for every trip that waits"
     assert why_low(living(far("a"), low=0.25)) == [too_low] * 3
@@ -88,10 +87,9 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
 def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
     """None is forgotten, and nothing is found out twice within seconds."""
     fleet = living(*[far(f"m{n}") for n in range(3 * MISSIONS_A_LOOK)], low=0.25)
-    core = fleet.life.brain.core
+    brain, missions = fleet.life.brain, list(fleet.life.records.missions)
     waiting, seen = WaitReasons(lambda: 0.0), []
-    trips = [request.trip for request in core.queue.waiters()]
     for _ in range(4):
-        waiting.look(core.fleet)
-        seen.append(sum(bool(waiting.why(core.fleet, trip)) for trip in trips))
+        waiting.look(brain)
+        seen.append(sum(bool(waiting.why(brain, mission, "1")) for mission in missions))
     assert seen == [MISSIONS_A_LOOK, 2 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK]

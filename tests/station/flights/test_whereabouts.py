@@ -8,12 +8,13 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.app import described
 from pluto_fleet.flight.simulate import Simulation
-from pluto_fleet.station.rows import _named, blocks_of
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.station.rows import blocks_of
 from plutoc.compile import analyse
 from plutoc.source import Source
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.time.virtual import VirtualTime
 from tests.flying import EXAMPLES, built
 
 DECLARATIONS = {
@@ -28,7 +29,7 @@ DECLARATIONS = {
 
 @pytest.mark.parametrize("declaration", DECLARATIONS)
 def test_a_declaration_above_a_call_names_its_blocks(declaration: str) -> None:
-    assert _named(declaration) == DECLARATIONS[declaration]
+    assert blocks_of(declaration) == DECLARATIONS[declaration]
 
 
 def blocks_met(name: str, tmp_path: Any) -> Mapping[str, Sequence[tuple[str, ...]]]:
@@ -37,12 +38,12 @@ def blocks_met(name: str, tmp_path: Any) -> Mapping[str, Sequence[tuple[str, ...
     met: dict[str, list[tuple[str, ...]]] = {m.name: [] for m in example.missions}
 
     def look() -> None:
-        for state in simulation.brain.states.values():
-            at, known = blocks_of(state, app.flow), met[state.mission.name]
+        for mission, where in simulation.brain.whereabouts().items():
+            at, known = blocks_of(where["block"]), met[mission]
             if at and (not known or known[-1] != at):
                 known.append(at)
 
-    app = import_module(f"{name}.flow").APP
+    app = described(import_module(f"{name}.flow").APP)
     kernel = VirtualTime()
     simulation = Simulation(app, example.fleet, kernel, 0, Faults(), lambda event: None)
     kernel.settled = look

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.app import described
 from pluto_fleet.station.graph.picture import app_graph
 from plutoc.compile import compile_source
 from plutoc.source import Source
@@ -37,7 +38,7 @@ def made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Made:
 
 def found(name: str) -> Any:
     """Return the graph that the package finds."""
-    return app_graph(import_module(f"{name}.flow").APP)
+    return app_graph(described(import_module(f"{name}.flow").APP))
 
 
 def installed(made: Made, monkeypatch: pytest.MonkeyPatch) -> Path:

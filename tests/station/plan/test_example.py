@@ -10,18 +10,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.actions import Action, Parameter
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Category, Mission
+from pluto_fleet.shared.domain.quantities import Type
+from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.station.plan.plan import MissionPlan
-from plutoc_runtime.alone.faults import Faults
-from plutoc_runtime.domain.actions import Action, Parameter
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.app import App
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import Category, Mission
-from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.domain.status import Status
 from tests.flying import EXAMPLES
+from tests.runtime import apps
 from tests.runtime.files.an_app import APP, PLAIN
 from tests.station.plan.drawing import FLEET, a_plan, drawn, mission
 from tests.trials.examples import example, fleet_of
@@ -70,7 +71,7 @@ def test_parameters_of_every_type_are_given() -> None:
 def test_who_can_only_carry_carries() -> None:
     """Twice."""
     carrier = Category(name="carrier", actions=frozenset({"pick_item", "release_item"}))
-    app = replace(PLAIN, categories=(carrier,))
+    app = apps.changed(PLAIN, categories=(carrier,))
     missions, _ = shown(app, replace(FLEET, drones=of_category("carrier"))).launchable()
     assert [[trip.action for trip in one.trips] for one in missions] == [
         ["pick_item", "release_item"]
@@ -114,7 +115,7 @@ def test_any_map_has_its_example(
 def test_where_nothing_can_be_done_there_is_none() -> None:
     """And it is said why."""
     idle = Category(name="idle", actions=frozenset())
-    app = replace(PLAIN, categories=(idle,))
+    app = apps.changed(PLAIN, categories=(idle,))
     with pytest.raises(BadInput, match="no example could be made: no drone of the fleet can do"):
         shown(app, replace(FLEET, drones=of_category("idle")))
 

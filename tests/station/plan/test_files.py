@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.station.plan.plan import MissionPlan, Stale
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.model import Mission
 from tests.runtime.files.an_app import APP
 from tests.runtime.files.test_missions import FULL
 from tests.station.plan.drawing import FLEET, SOUND_PLANS, Json, a_plan, drawn, mission, said, trip

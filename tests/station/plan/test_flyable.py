@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import MOST_SHOWN, MissionPlan
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import FLEET, a_plan, drawn, mission, said, trip
 
 WALL = ((8.0, 0.0), (9.0, 0.0), (9.0, 20.0), (8.0, 20.0))

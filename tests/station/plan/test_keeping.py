@@ -17,9 +17,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.fields import Entity
 from pluto_fleet.station.plan.plan import MissionPlan
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.fields import Entity
 from tests.runtime.files.an_app import APP, PLAIN
 from tests.station.plan.drawing import FLEET, PLANS, Json, a_plan, mission, trip
 

@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.plan_check import problems
 from pluto_fleet.files.reading import MOST_SHOWN
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.text import text_of
-from plutoc_runtime.domain.airspace import Airspace
-from plutoc_runtime.domain.errors import BadInput
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, PLANS, Json, drawn, mission, said, trip
 

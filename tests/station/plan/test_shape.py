@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import MissionPlan, Stale
 from pluto_fleet.station.plan.shape import LONGEST_TEXT, MOST_MISSIONS, MOST_TRIPS
-from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import PLANS, Json, a_plan, mission, said, trip
 
 SCALARS = st.one_of(

@@ -9,8 +9,8 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import MissionPlan, Stale
-from plutoc_runtime.domain.errors import BadInput
 from tests.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
 
 KEYS = ["mission-one", "mission-two"]

@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import Stale
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
-from plutoc_runtime.domain.errors import BadInput
 
 HOST = "127.0.0.1:8765"
 OURS = {

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.commands import Malformed
 from pluto_fleet.station.web.api import ADDRESSES
-from plutoc_runtime.domain.errors import BadInput
 
 from .asking import OURS, AStation, asked, request, said, without
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.web.guard import (
     Access,
     Guard,
@@ -14,7 +15,6 @@ from pluto_fleet.station.web.guard import (
     refusal,
 )
 from pluto_fleet.station.web.http import Request
-from plutoc_runtime.domain.errors import BadInput
 
 from .asking import OURS, without
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.web.static import FOLDER, floor_plan, pages
-from plutoc_runtime.domain.errors import BadInput
 
 from .asking import OURS, AStation, asked, without
 

@@ -16,10 +16,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
 from pluto_fleet.cli import serve as command
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.web import server
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.listening import address, listening, port_of
-from plutoc_runtime.domain.errors import BadInput
 
 from .asking import SEEN
 from .serving import Served, served, status

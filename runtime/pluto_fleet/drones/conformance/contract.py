@@ -5,8 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from math import dist, hypot, isfinite, pi
 
-from plutoc_runtime.domain.errors import Failure
-
+from ...shared.domain.errors import Failure
 from ..inspection import problems
 from ..loading import NAVIGATION
 from ..protocol import CRASHED, LOCKED

@@ -18,8 +18,7 @@ from .recording import FlightRecord, Sample, Step, Truth
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator
 
-    from plutoc_runtime.domain.model import Point
-
+    from ...shared.domain.model import Point
     from ..protocol import DroneNavigation
 
 LOOK = 0.02

@@ -10,11 +10,10 @@ from itertools import pairwise
 from math import cos, dist, hypot, isfinite, sin
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure
+from ...shared.domain.errors import Failure
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
-
+    from ...shared.domain.model import Point
     from ..protocol import DroneEvent, DroneTelemetry
 
 

@@ -9,14 +9,13 @@ from itertools import pairwise
 from math import ceil, dist, sqrt
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fleet.reach import CLIMB_SPEED
-
+from ...shared.fleet.reach import CLIMB_SPEED
 from .legs import between
 from .reservations import Box, box_of, part_way
 from .ways import Section
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
+    from ...shared.domain.model import Point
 
 
 PIECE, SHORT = 0.5, 0.2

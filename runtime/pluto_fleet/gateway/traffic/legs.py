@@ -6,7 +6,7 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point
+    from ...shared.domain.model import Point
 
 
 def between(a: Point, b: Point, c: Point, d: Point) -> float:

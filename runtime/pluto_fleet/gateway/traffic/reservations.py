@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from .legs import between
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Point, Telemetry
+    from ...shared.domain.model import Point, Telemetry
 
 DRIFT = 0.3
 """Metres that a hovering drone may drift before it is noticed."""

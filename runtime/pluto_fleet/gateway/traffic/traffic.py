@@ -6,18 +6,16 @@ from collections.abc import Callable, Iterable, Sequence
 from math import dist
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import Failure, FlightFailed
-from plutoc_runtime.time.kernel import FLEET, EventKind, Kernel, Timer
-
+from ...shared.domain.errors import Failure, FlightFailed
+from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
 from .reservations import Reservation, box_of, meets, nearest, part_way
 from .wait_queue import Obstacle, Wait
 from .ways import Ground, Section, sections
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Point
-
     from ...jobs.controls import Controls, FleetDrone
+    from ...shared.domain.airspace import Airspace
+    from ...shared.domain.model import Point
 
 AGAIN = 0.5
 """Seconds after which waiting drones are checked again, even if none has reported to have passed."""

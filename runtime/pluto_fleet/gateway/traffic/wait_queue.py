@@ -8,14 +8,13 @@ from itertools import pairwise
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fleet.reach import CLIMB_SPEED
-from plutoc_runtime.time.future import Future
-
+from ...shared.fleet.reach import CLIMB_SPEED
+from ...shared.time.future import Future
 from .reservations import Reservation, meets, part_way
 from .ways import Section
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.model import Category, Point
+    from ...shared.domain.model import Category, Point
 
 
 _HALVINGS = 4

@@ -8,15 +8,13 @@ from itertools import islice, pairwise
 from math import dist, hypot
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.fleet.reach import docked
-
 from ...jobs.landing_sites import free_spots, is_free
+from ...shared.fleet.reach import docked
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.model import Point, Telemetry
-
     from ...jobs.controls import FleetDrone
+    from ...shared.domain.airspace import Airspace
+    from ...shared.domain.model import Point, Telemetry
 
 
 FURTHEST, SHARE = 1.5, 0.05

@@ -7,19 +7,17 @@ from itertools import combinations, cycle, islice, product
 from math import dist
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.actions import PICK, RELEASE, Action
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.domain.text import mass
-
+from ...shared.domain.actions import PICK, RELEASE, Action
+from ...shared.domain.errors import BadInput
+from ...shared.domain.quantities import Type
+from ...shared.domain.text import mass
 from .problems import read, unflyable_trips
 from .shape import Shape
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.geometry import Corner
-
+    from ...app import App
     from ...files.fleet import FleetFile
+    from ...shared.domain.geometry import Corner
 
 PLAUSIBLE: dict[Type, object] = {
     Type.INT: 1,

@@ -9,16 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.fields import Entity
-from plutoc_runtime.domain.text import printable
-from plutoc_runtime.domain.values import shown
-
 from ...files.errors import listed
+from ...shared.domain.errors import BadInput
+from ...shared.domain.fields import Entity
+from ...shared.domain.text import printable
+from ...shared.domain.values import shown
 from .shape import MISSION_KEYS, TRIP_KEYS, Shape, fields_of, missions_from
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+    from ...app import App
 
 LARGEST = 1 << 25
 """The largest file in bytes; the largest possible plan is smaller."""

@@ -9,10 +9,9 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.errors import BadInput, PlutoError
-from plutoc_runtime.domain.text import counted, printable, quoted
-from plutoc_runtime.domain.values import shown
-
+from ...shared.domain.errors import BadInput, PlutoError
+from ...shared.domain.text import counted, printable, quoted
+from ...shared.domain.values import shown
 from . import kept as on_disk
 from .example import example_missions
 from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, read
@@ -20,10 +19,9 @@ from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
 from .text import NAME, shapes_of, text_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission
-
+    from ...app import App
     from ...files.fleet import FleetFile
+    from ...shared.domain.model import Mission
 
 MOST_SHOWN = 1_000
 """The most problems that pages get."""

@@ -15,12 +15,11 @@ from .shape import Shape, trips_of
 if TYPE_CHECKING:
     from collections.abc import Container
 
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.model import Mission, Trip
-
+    from ...app import App
     from ...files.fleet import FleetFile
     from ...files.toml import TomlPath
+    from ...shared.domain.airspace import Airspace
+    from ...shared.domain.model import Mission, Trip
 
 
 _CALLED = {

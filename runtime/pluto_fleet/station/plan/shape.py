@@ -11,15 +11,14 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.fields import Entity
-from plutoc_runtime.domain.text import quoted
-from plutoc_runtime.domain.values import shown
-
 from ...files.errors import listed
+from ...shared.domain.errors import BadInput
+from ...shared.domain.fields import Entity
+from ...shared.domain.text import quoted
+from ...shared.domain.values import shown
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.app import App
+    from ...app import App
 
 Shape = dict[str, object]
 """A mission or a trip as JSON."""

@@ -6,18 +6,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from datetime import time
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.domain.fields import Entity
-from plutoc_runtime.domain.values import point
-
 from ...files.missions import missions_of
 from ...files.reading import parsed
 from ...files.toml import toml_value
+from ...shared.domain.fields import Entity
+from ...shared.domain.values import point
 from .problems import as_in_a_file
 from .shape import Shape, fields_of, trips_of
 
 if TYPE_CHECKING:
-    from plutoc_runtime.domain.airspace import Airspace
-    from plutoc_runtime.domain.app import App
+    from ...app import App
+    from ...shared.domain.airspace import Airspace
 
 NAME = "missions.toml"
 """The name of a file in messages, if its sender gives none."""

@@ -9,9 +9,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import cut_off, printable
-
+from ...shared.domain.errors import BadInput
+from ...shared.domain.text import cut_off, printable
 from ..commands import NEEDS, Malformed
 from ..plan.plan import Stale
 from . import refusals

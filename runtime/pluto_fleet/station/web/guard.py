@@ -9,9 +9,8 @@ from enum import Enum
 from hmac import compare_digest
 from ipaddress import IPv4Address, IPv6Address, ip_address
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import quoted
-
+from ...shared.domain.errors import BadInput
+from ...shared.domain.text import quoted
 from . import refusals
 from .http import Reply, Request
 from .refusals import Refusal

@@ -7,9 +7,8 @@ from contextlib import closing
 from errno import EACCES, EADDRINUSE, EADDRNOTAVAIL
 from ipaddress import ip_address
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import quoted
-
+from ...shared.domain.errors import BadInput
+from ...shared.domain.text import quoted
 from .guard import Guard
 
 _BACKLOG = 128

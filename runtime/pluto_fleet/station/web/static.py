@@ -14,9 +14,8 @@ from gzip import compress
 from hashlib import sha256
 from pathlib import Path
 
-from plutoc_runtime.domain.errors import BadInput
-from plutoc_runtime.domain.text import shown
-
+from ...shared.domain.errors import BadInput
+from ...shared.domain.text import shown
 from .http import Reply, Request
 
 FOLDER = Path(__file__).parent.parent / "pages"

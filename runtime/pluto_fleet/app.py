@@ -1,0 +1,157 @@
+"""An app as the library knows it: what its brain says of it in plain data, and the brain itself.
+
+Of the package's own `_runtime` the library imports the module `brain` and no other. So each app has its
+classes for itself, and several apps fly in one process.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, make_dataclass
+from dataclasses import field as dataclass_field
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+
+from .process.signal_guard import IN_A_PROCESS
+from .seam import Seam, checked
+from .shared.domain import app as shared
+from .shared.domain.actions import Action, Parameter
+from .shared.domain.errors import BadInput
+from .shared.domain.fields import Entity, Field, FieldType
+from .shared.domain.model import Category, Mission, Trip
+from .shared.domain.quantities import Type
+
+if TYPE_CHECKING:
+    from .shared.brain import Brain
+    from .shared.domain.airspace import Airspace
+    from .shared.time.told import HookRunner
+
+T = TypeVar("T", bound=type)
+
+_WHERE = ".domain.app"
+"""The module of a brain in which its description of an app is."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class App(shared.App):
+    """An app: its fields, actions and categories in the library's own classes, and its brain."""
+
+    package: str
+    """The name of the package."""
+    seam: Seam
+    given: object
+    """The package's own description, for its brain alone."""
+    brain: ModuleType
+    """The package's module `_runtime.brain`."""
+
+    def new_brain(
+        self, fleet: Mapping[str, Any], *, space: Airspace, hooks: HookRunner | None = None
+    ) -> Brain:
+        """Return a brain of this app, for drones that are as fast as these categories say."""
+        speeds = {one.name: [one.speed, one.top_speed] for one in self.categories}
+        made: Brain = self.brain.Brain(
+            self.given, {**fleet, "speeds": speeds}, space=space, hooks=hooks
+        )
+        return made
+
+    def perform(self, brain: Any, request: Mapping[str, Any], now: float) -> str:
+        """Have a brain carry out a command; raise the library's `BadInput` if it cannot be done."""
+        try:
+            said: str = brain.command(request, now)
+        except self.brain.BadInput as error:
+            raise BadInput(str(error)) from None
+        return said
+
+
+def described(given: Any) -> App:
+    """Return the app that a package describes as its `APP`; raise `BadInput` if their seams do not match."""
+    if isinstance(given, App):
+        return given
+    runtime = type(given).__module__.removesuffix(_WHERE)
+    brain = import_module(f"{runtime}.brain")
+    seam = checked(given.name, brain.SEAM)
+    brain.put_guard(IN_A_PROCESS)
+    about: Mapping[str, Any] = brain.about(given)
+    fields = tuple(map(_field, about["fields"]))
+    return App(
+        name=about["name"],
+        title=about["title"],
+        flow=given.flow,
+        mission=_with(Mission, Entity.MISSION, fields, given.mission),
+        trip=_with(Trip, Entity.TRIP, fields, given.trip),
+        fields=fields,
+        categories=tuple(map(_category, about["categories"])),
+        actions={
+            one["name"]: _action(one, given.actions[one["name"]].hook) for one in about["actions"]
+        },
+        evaluators={name: given.evaluators[name] for name in about["evaluators"]},
+        resumes=tuple(about["resumes"]),
+        package=runtime.rpartition(".")[0] or runtime,
+        seam=seam,
+        given=given,
+        brain=brain,
+    )
+
+
+def bare(name: str, package: str, seam: Seam) -> App:
+    """Return an app with nothing but its name, for commands that need no more."""
+
+    def flow(_: object) -> NoReturn:
+        raise RuntimeError("nothing flies here")
+
+    return App(
+        name=name,
+        title=name,
+        flow=flow,
+        mission=Mission,
+        trip=Trip,
+        fields=(),
+        categories=(),
+        actions={},
+        package=package,
+        seam=seam,
+        given=None,
+        brain=ModuleType("no brain"),
+    )
+
+
+def _field(data: Mapping[str, Any]) -> Field:
+    return Field(
+        name=data["name"],
+        on=Entity(data["on"]),
+        type=FieldType(data["type"]),
+        label=data["label"],
+        default=data["default"],
+    )
+
+
+def _category(data: Mapping[str, Any]) -> Category:
+    able = data["actions"]
+    return Category(**{**data, "actions": None if able is None else frozenset(able)})
+
+
+def _action(data: Mapping[str, Any], hook: Callable[..., Any] | None) -> Action:
+    parameters = tuple(
+        Parameter(name=one["name"], type=Type(one["type"]), default=one["default"])
+        for one in data["parameters"]
+    )
+    repeat, seconds = data["repeat"], data["seconds"]
+    return Action(
+        name=data["name"], parameters=parameters, repeat=repeat, seconds=seconds, hook=hook
+    )
+
+
+def _with(base: T, entity: Entity, fields: tuple[Field, ...], given: type) -> T:
+    """Return the class of the app's missions or trips: with the fields that its graph adds."""
+    added = [
+        (one.name, object, dataclass_field(default=one.default))
+        for one in fields
+        if one.on is entity
+    ]
+    made: Any = make_dataclass(
+        base.__name__, added, bases=(base,), kw_only=True, eq=False, slots=True
+    )
+    made.__module__ = given.__module__
+    classes: T = made
+    return classes
