@@ -19,11 +19,9 @@ from hashlib import sha256
 from pathlib import Path
 from random import Random
 
-from pluto_fleet.trials.case import strikes_of
-from pluto_fleet.trials.record import TrialResult
-
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
+import tests  # noqa: F401  # first: all that follows shares one brain
 from pluto_fleet.app import App
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
@@ -31,8 +29,9 @@ from pluto_fleet.journal.event_line import line
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.fleet_data import WorldData
 from pluto_fleet.shared.domain.model import AfterTrip
-from pluto_fleet.trials.case import Case, Weather
+from pluto_fleet.trials.case import Case, Weather, strikes_of
 from pluto_fleet.trials.lives import tried
+from pluto_fleet.trials.record import TrialResult
 from tests.trials.examples import app_of
 
 APP = """pluto 1

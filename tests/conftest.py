@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import os
 import signal
 from collections.abc import Iterator
 
@@ -12,16 +11,12 @@ from hypothesis import HealthCheck, settings
 
 from tests.apart import apart
 from tests.loops import run_async
-from tests.one_brain import share_one_brain
 
 # The same examples in every run, however busy the machine is: a test that fails is a change's fault.
 settings.register_profile(
     "pluto", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("pluto")
-
-if "PLUTO_EMBEDDED" not in os.environ:  # there the runtime is what one app carries
-    share_one_brain()
 
 # A shell that runs this in the background may make it, and all that it starts, deaf to these.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:

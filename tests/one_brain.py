@@ -70,7 +70,14 @@ class OneBrain(Elsewhere):
 
 def _brain(name: str) -> str | None:
     found = _ANOTHER.fullmatch(name)
+    if found is not None and found["app"] and not _is_app(found["app"]):
+        return None
     return None if found is None else f"{ONE}{found['inner'] or ''}"
+
+
+def _is_app(package: str) -> bool:
+    """Return whether a package that is imported carries a brain; others may have a `_runtime.py`."""
+    return any(Path(home, "_runtime").is_dir() for home in sys.modules[package].__path__)
 
 
 def share_one_brain() -> None:

@@ -11,8 +11,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from .domain.app import SEAM
-from .domain.app import app_data as about
+from .domain.app import SEAM, about
 from .domain.errors import BadInput
 from .domain.guard import put_guard
 from .domain.model import AfterTrip, Drone, ResultStore

@@ -22,6 +22,7 @@ from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Point, Trip
 from pluto_fleet.shared.domain.status import DroneStatus, Status
 from pluto_fleet.shared.flow.own_action import OwnAction
+from tests.equivalence.fly import alone as by_itself
 from tests.flying import A_WEEK, Example
 from tests.runtime import apps
 
@@ -34,7 +35,7 @@ SEEDS = range(6)
 NO_FAULTS = Faults()
 
 
-fly = partial(alone.simulate, seed=1, faults=Faults(), until=None, on_event=None)
+fly = partial(by_itself, seed=1, faults=Faults(), until=None, on_event=None)
 
 
 def seen(
@@ -66,7 +67,7 @@ def test_one_drone_flies_as_it_does_with_traffic(
             for seed in SEEDS:
                 runs = [
                     seen(fly, example_app, example, fleet, seed=seed, faults=faults)
-                    for fly in (library.simulate, alone.simulate)
+                    for fly in (library.simulate, by_itself)
                 ]
                 assert runs[0] == runs[1], (category.name, after, seed)
                 alive += not isinstance(runs[0], str)
@@ -104,8 +105,9 @@ def test_drones_pass_through_each_other() -> None:
 
 def track(airspace: Airspace, mission: Any, home: Point, faults: Faults, seed: int) -> list[Point]:
     """Fly a mission and return where its drone was, every tenth of a second."""
-    tested, on = apps.app(apps.flow()), apps.fleet(home, airspace=airspace)
-    flown = alone.Alone(tested, on, faults, seed, lambda event: None)
+    given: Any = apps.app(apps.flow()).given
+    on = apps.fleet(home, airspace=airspace)
+    flown = alone.Alone(given, on, faults, seed, lambda event: None)
     flown.begin([mission])
     brain, places, now = flown.brain, [], 0.0
     while not flown.run(now):

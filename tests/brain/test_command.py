@@ -46,7 +46,8 @@ def run(capsys: pytest.CaptureFixture[str]) -> Run:
     """Runs a command line without the library."""
 
     def run(*argv: object, app: App = APP) -> tuple[int, str, str]:
-        code = command.alone(app.name, lambda: app, [str(word) for word in argv])
+        given: Any = app.given
+        code = command.alone(app.name, lambda: given, [str(word) for word in argv])
         out, err = capsys.readouterr()
         return code, out, err
 

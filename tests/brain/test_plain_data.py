@@ -12,15 +12,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.flight import simulate as library
-from pluto_fleet.shared.alone import simulate as alone
+from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.shared import brain
+from pluto_fleet.shared.alone import simulate as by_itself
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.domain.trace import Event
 from tests.brain.hand import charged, settled, trip
 from tests.equivalence.campaign import OURS, drawn
 from tests.equivalence.flows import packaged
-from tests.equivalence.fly import Record, record
+from tests.equivalence.fly import Record, alone, record
 from tests.equivalence.worlds import random_world
 from tests.flying import MISHAPS, Example, Flown
 from tests.runtime import apps
@@ -60,10 +61,11 @@ class Wired(Brain):
         return standing
 
 
-def through(brain: type[Brain], module: Any, fly: Callable[[], Any]) -> Any:
+def through(wired: type[Brain], fly: Callable[[], Any]) -> Any:
     """Fly with another brain in its place."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "Brain", brain)
+        for module in (brain, by_itself):
+            patch.setattr(module, "Brain", wired)
         return fly()
 
 
@@ -80,21 +82,21 @@ def test_an_example_flies_over_a_wire_as_without(
     for seed in range(2):
         fly = partial(example.fly, seed, mishaps)
         here: Flown = fly()
-        there: Flown = through(Wired, library, fly)
+        there: Flown = through(Wired, fly)
         assert lines(there.trace) == lines(here.trace)
         assert there.ends == here.ends
 
 
-@pytest.mark.parametrize("module", [library, alone], ids=["with traffic", "alone"])
-def test_random_graphs_fly_over_a_wire_as_without(module: Any) -> None:
+@pytest.mark.parametrize("how", [simulate, alone], ids=["with traffic", "alone"])
+def test_random_graphs_fly_over_a_wire_as_without(how: Any) -> None:
     """Also where drones fail, hooks change trips and everything is late."""
     for number in range(GRAPHS):
         text, checked, rng, _ = drawn(f"wired/{number}")
         package = packaged(OURS.planner(checked))
         world = random_world(Random(rng.random()), package.graph)
-        fly = partial(record, package, world, patient=False, fly=module.simulate)
+        fly = partial(record, package, world, patient=False, fly=how)
         here: Record = fly()
-        there: Record = through(Wired, module, fly)
+        there: Record = through(Wired, fly)
         if not here.spins:
             assert lines(there.events) == lines(here.events), f"{text}\n{world}"
             assert (there.ends, there.diary) == (here.ends, here.diary), f"{text}\n{world}"
@@ -163,7 +165,7 @@ def a_flight() -> list[str]:
         apps.mission("c", apps.trip("1", 9.0), index=2, safe_time=8.0, repeat=1),
     ]
     on = apps.fleet((1.0, 0.5, 0.0), (2.0, 0.5, 0.0))
-    outcome = alone.simulate(
+    outcome = alone(
         apps.app(flow), missions, on, seed=3, faults=ROUGH, until=2_000.0, on_event=None
     )
     assert {"trip.failed", "trip.completed"} <= {event["event"] for event in outcome.events}
@@ -174,7 +176,7 @@ def a_flight() -> list[str]:
 @given(noises)
 def test_what_is_unknown_is_ignored(noise: Data) -> None:
     """Keys anywhere, messages, orders' ids, hooks, drones."""
-    assert through(noisy(noise), alone, a_flight) == a_flight()
+    assert through(noisy(noise), a_flight) == a_flight()
 
 
 MISSION = {"name": "1", "index": 0, "fields": {}}

@@ -7,11 +7,10 @@ from random import Random
 
 import pytest
 
-from pluto_fleet.shared.alone.simulate import simulate as alone
 from tests.equivalence.campaign import OURS, drawn
 from tests.equivalence.drivers import in_real_time, seen
 from tests.equivalence.flows import packaged
-from tests.equivalence.fly import difference, record
+from tests.equivalence.fly import alone, difference, record
 from tests.equivalence.worlds import random_world
 
 WORLDS = 3

@@ -70,7 +70,7 @@ def test_a_step_that_gives_what_it_does_not_declare_fails_its_mission(
 ) -> None:
     """All that was checked of the graph rests on the declaration: the mission goes no further."""
     step = (
-        f"from pluto_fleet.shared.domain.status import Status\n{SIMPLE.format(f'return {gives}')}"
+        f"from plutoc_runtime.domain.status import Status\n{SIMPLE.format(f'return {gives}')}"
     )
     declare(installed, step)
     app.write_text(FIELD_APP)
@@ -82,7 +82,7 @@ def test_a_step_that_gives_what_it_does_not_declare_fails_its_mission(
 def test_a_step_is_asked_by_the_status_that_came(plutoc: Call, app: Path, installed: Path) -> None:
     """STANDBY and FAILED may both come and both be given; but not the one for the other."""
     step = """
-from pluto_fleet.shared.domain.status import Status
+from plutoc_runtime.domain.status import Status
 
 async def chime(run, status):
     if status is Status.FAILED:

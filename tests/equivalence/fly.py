@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from pluto_fleet.app import described
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.shared.alone.simulate import simulate as by_itself
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Drone, Mission
 from pluto_fleet.shared.domain.status import Status
@@ -63,6 +64,12 @@ class Fly(Protocol):
         until: float | None,
         on_event: Callable[[Event], None] | None,
     ) -> SimulationResult: ...
+
+
+def alone(app: App, *missions_and_fleet: Any, **how: Any) -> SimulationResult:
+    """Fly without the library."""
+    given: Any = app.given
+    return by_itself(given, *missions_and_fleet, **how)
 
 
 def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool = True) -> Record:

@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING, Any
 from ..gateway.gateway import Gateway
 from ..shared.alone.simulate import Bound, SimulationResult, see_through
 from ..shared.alone.world import World
-from ..shared.flow.standing import drones_of, fleet_data, mission_data, results_of, take_over
+from ..shared.flow.standing import (
+    drones_of,
+    fleet_data,
+    mission_data,
+    results_of,
+    take_over,
+)
 from ..shared.time.virtual import VirtualTime
 from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation

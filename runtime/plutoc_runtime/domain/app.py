@@ -41,7 +41,7 @@ class App:
     """The blocks at which an interrupted mission can resume: `flow` can be entered there."""
 
 
-def app_data(app: App) -> dict[str, Any]:
+def about(app: App) -> dict[str, Any]:
     """Return what an app is made of as plain data: all that a library knows of it."""
     return {
         "name": app.name,
