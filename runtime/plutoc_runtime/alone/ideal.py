@@ -42,10 +42,9 @@ class IdealDrone:
         self.carries: Item | None = None
         self.settings: dict[str, float] = {}
         self.drawn = Drawn()
-        self.order = 0
-        """The order that it carries out, how far it is with that, and until when it waits."""
-        self.work: Work | None = None
-        self.wakes = inf
+        self.work: Work
+        self.order, self.wakes = 0, inf
+        """The order that it carries out, by its `work`, and until when it waits."""
         self.changed = True
         """Whether its motion has changed since it was told."""
         self._began = self._flown = 0.0
@@ -55,47 +54,37 @@ class IdealDrone:
     @property
     def location(self) -> Point:
         """Where it is."""
-        return self._leg.at(self.settle())
-
-    @property
-    def landed(self) -> bool:
-        """Whether it is on the ground."""
-        self.settle()
-        return self._landed
+        return self._leg.at(self._clock.now)
 
     @property
     def flown(self) -> float:
         """How many metres it has flown, up and down included."""
-        return self._flown + self._leg.length(self.settle())
-
-    @property
-    def failure(self) -> Failure | None:
-        """The failure for which it takes no commands, if any."""
-        self.settle()
-        return None if self.down is None else self.down.failure
+        return self._flown + self._leg.length(self._clock.now)
 
     @property
     def motion(self) -> dict[str, object]:
         """Its telemetry: exact until its state changes other than by time."""
-        self.settle()
         leg, charge = self._leg, self._charge
         return {
             "leg": (leg.start, leg.end, leg.leaves, leg.arrives),
             "battery": (charge.level, charge.since, charge.rate),
-            "landed": self._landed,
+            "landed": self.landed,
         }
 
-    def settle(self) -> float:
-        """Apply everything that was due by now, and return the time."""
-        now = self._clock.now
-        while (due := self.next_due)[0] <= now:
+    def settle(self) -> None:
+        """Apply everything that was due by now."""
+        while (due := self.next_due)[0] <= self._clock.now:
             self._happen(*due)
-        return now
+
+    def failure(self) -> Failure | None:
+        """Return the failure for which it takes no commands now, if any."""
+        self.settle()
+        return None if self.down is None else self.down.failure
 
     def check(self) -> None:
         """Raise its failure, if it takes no commands."""
-        if self.failure is not None:
-            raise FlightFailed(self.failure, str(self.down))
+        if failure := self.failure():
+            raise FlightFailed(failure, str(self.down))
 
     def begin(self, drawn: Drawn) -> None:
         """Begin a flight, with its faults."""
@@ -105,7 +94,7 @@ class IdealDrone:
     def lift_off(self) -> None:
         """Leave the ground: the battery drains from now on, and faults are due."""
         self._charge = self._charge.changing(self._clock.now, -1.0 / self.category.flight_time)
-        self._landed = False
+        self.landed = False
 
     def turn(self, leg: Leg, now: float) -> None:
         """Fly another leg from now on."""
@@ -114,15 +103,14 @@ class IdealDrone:
 
     def halt(self) -> None:
         """Do nothing more, and hover where it is, if it still takes commands."""
-        self.work, self.wakes = None, inf
-        now = self.settle()
-        if self.down is None and not self._landed:
+        self.wakes, now = inf, self._clock.now
+        if self.failure() is None and not self.landed:
             self.turn(resting(self._leg.at(now), now), now)
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below; in its dock it is charged."""
         self.turn(resting((*self._leg.at(now)[:2], 0.0), now), now)
-        self._landed = True
+        self.landed = True
         charges = docked(self._leg.end, self.home)
         self._charge = self._charge.changing(now, charges / self.category.charge_time)
 
@@ -135,7 +123,7 @@ class IdealDrone:
     @property
     def next_due(self) -> tuple[float, Failure | None]:
         """The next thing that happens by itself, of simultaneous ones the worst; None: it touches down."""
-        if self._landed:
+        if self.landed:
             return inf, None
         comes = self.drawn.moments(self._began)
         if self.down is not None:  # it has lost its link, and lands
@@ -177,7 +165,9 @@ class IdealDrones:
     def advance(self) -> dict[str, Any]:
         """Let the next thing happen that is due, and return what there is to tell of it."""
         if not self._told:
-            self._go_on(min(self.drones.values(), key=lambda drone: drone.wakes))
+            drone = min(self.drones.values(), key=lambda drone: drone.wakes)
+            drone.settle()
+            drone.wakes = self._go_on(drone.order, drone.work)
         return self._told.pop(0) if self._told else {}
 
     def news(self) -> dict[str, Any]:
@@ -196,31 +186,22 @@ class IdealDrones:
         if do == "break_off" or (do == "cancel" and drone.order == order["order"]):
             drone.halt()
         elif do in ("read", "write"):  # while it hovers
-            self._answer(order)
+            self._go_on(order["id"], self._asked(drone, order))
         elif do != "cancel":
             drone.order, drone.work = order["id"], _WORK[do](self, drone, order)
-            drone.wakes = (
-                self._clock.now
-            )  # after all that is ordered with it, such as to break it off
+            # after all that is ordered with it, such as to break it off
+            drone.wakes = self._clock.now
 
-    def _go_on(self, drone: IdealDrone) -> None:
-        assert drone.work is not None
+    def _go_on(self, order: int, work: Work) -> float:
+        """Go on with an order until it waits, and return until when; tell its end."""
         try:
-            drone.wakes = next(drone.work)
+            return next(work)
         except StopIteration as end:
-            drone.work, drone.wakes = None, inf
-            self._told.append({"done": drone.order, "value": end.value})
+            self._told.append({"done": order, "value": end.value})
         except FlightFailed as error:
-            drone.work, drone.wakes = None, inf
-            self._told.append(_failure(drone.order, error))
-
-    def _answer(self, order: Mapping[str, Any]) -> None:
-        try:
-            value = self._asked(self.drones[order["drone"]], order)
-        except FlightFailed as error:
-            self._told.append(_failure(order["id"], error))
-        else:
-            self._told.append({"done": order["id"], "value": value})
+            failure = {"failure": error.failure.name, "reason": str(error)}
+            self._told.append({"failed": order, **failure})
+        return inf
 
     def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
         airspace, start, stops = self._airspace, drone.location, [*map(point_of, order["stops"])]
@@ -253,8 +234,9 @@ class IdealDrones:
             raise failed("the action failed", f"{drone.id} could not do it", drone.location)
         yield from self._pass(drone, inf)
 
-    def _asked(self, drone: IdealDrone, order: Mapping[str, Any]) -> object:
+    def _asked(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
         """Return the value that was written under a name, or else what is measured here."""
+        yield from ()  # it answers at once
         drone.check()
         name = order["name"]
         if order["do"] == "write":
@@ -281,11 +263,11 @@ class IdealDrones:
 
     def _recover(self, drone: IdealDrone, _: object) -> Work:
         """Bring a drone home after a failed flight, landed; False: it has crashed, and is lost."""
-        if drone.failure is Failure.LINK:
+        if drone.failure() is Failure.LINK:
             yield from self._wait(drone.reachable_at)
-        if drone.failure is Failure.CRASH:
+        if drone.failure() is Failure.CRASH:
             return False
-        if drone.failure is Failure.LINK:
+        if drone.failure() is Failure.LINK:
             drone.down = None  # the link is back
         try:
             yield from self._fly_home(drone)
@@ -329,10 +311,6 @@ class IdealDrones:
     def _wait(self, until: float) -> Steps:
         if until > self._clock.now:
             yield until
-
-
-def _failure(order: int, error: FlightFailed) -> dict[str, Any]:
-    return {"failed": order, "failure": error.failure.name, "reason": str(error)}
 
 
 _WORK = {
