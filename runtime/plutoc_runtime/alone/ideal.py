@@ -58,7 +58,7 @@ class IdealDrone:
 
     @property
     def flown(self) -> float:
-        """How many metres it has flown, up and down included."""
+        """How many metres it has flown."""
         return self._flown + self._leg.length(self._clock.now)
 
     @property
@@ -169,6 +169,10 @@ class IdealDrones:
             drone.settle()
             drone.wakes = self._go_on(drone.order, drone.work)
         return self._told.pop(0) if self._told else {}
+
+    def flown(self) -> dict[str, float]:
+        """Return how many metres each drone has flown, up and down included."""
+        return {drone.id: drone.flown for drone in self.drones.values()}
 
     def news(self) -> dict[str, Any]:
         """Return the telemetry of the drones whose motion has changed since the last call."""
