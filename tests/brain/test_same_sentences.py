@@ -21,7 +21,7 @@ from pluto_fleet.files import fleet as full_fleet
 from pluto_fleet.files import missions as full_missions
 from pluto_fleet.files.toml import toml_text
 from plutoc_runtime.alone import files
-from plutoc_runtime.alone.toml import LARGEST
+from plutoc_runtime.alone.files import LARGEST
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput
 from tests.runtime.files.an_app import APP, PLAIN

@@ -9,8 +9,7 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from plutoc_runtime.domain.airspace import MARGIN, Airspace
-from plutoc_runtime.domain.geometry import enters, inside, tidy
+from plutoc_runtime.domain.airspace import MARGIN, Airspace, enters, inside, tidy
 from plutoc_runtime.domain.model import Point
 from plutoc_runtime.fleet.reach import length
 

@@ -19,8 +19,8 @@ from ..files.toml import toml_value
 from .drone_status import heard
 
 if TYPE_CHECKING:
+    from plutoc_runtime.domain.airspace import Corner
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.geometry import Corner
 
     from .drone_status import DroneAnswer
 

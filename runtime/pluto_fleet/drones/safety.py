@@ -12,8 +12,8 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING
 
+from plutoc_runtime.domain.airspace import Polygon, distance, inside, tidy
 from plutoc_runtime.domain.errors import ANY_ERROR, Failure, FlightFailed
-from plutoc_runtime.domain.geometry import Polygon, distance, inside, tidy
 from plutoc_runtime.domain.text import duration, number, percent, place
 
 from ..jobs.landing_sites import free_spot

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from plutoc_runtime.domain import values
 from plutoc_runtime.domain.fleet_data import DroneData
-from plutoc_runtime.domain.plan_rules import Cells, crowded
 from plutoc_runtime.domain.text import quoted
+from plutoc_runtime.domain.values import Cells, crowded
 
 from . import errors
 from .options import Options, options_under

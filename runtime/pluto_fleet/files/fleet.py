@@ -20,8 +20,8 @@ from .options import Options, navigation_options, options_under
 from .reading import Document, Table, read
 
 if TYPE_CHECKING:
+    from plutoc_runtime.domain.airspace import Corner
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.geometry import Corner
     from plutoc_runtime.domain.model import Point
 
     from .options import Options

@@ -10,8 +10,8 @@ from plutoc_runtime.domain import values
 from plutoc_runtime.domain.actions import PICK, RELEASE, Action, Plain
 from plutoc_runtime.domain.fields import Entity, FieldType
 from plutoc_runtime.domain.model import Item, Point, Trip
-from plutoc_runtime.domain.plan_rules import wrongly_carried
 from plutoc_runtime.domain.text import quoted
+from plutoc_runtime.domain.values import wrongly_carried
 
 from . import errors
 from .reading import Document, Table, read

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.domain.errors import Failure, FlightFailed
 from plutoc_runtime.domain.text import number
 
+from .traffic.legs import leg_problem
+
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
     from plutoc_runtime.domain.model import Point
@@ -47,7 +49,7 @@ class Envelope:
         if airspace.problem(start) is not None:
             start = airspace.way_back(start)
             back = (start,)
-        problem = airspace.problem(target) or airspace.leg_problem(start, target)
+        problem = airspace.problem(target) or leg_problem(airspace, start, target)
         if problem is not None:
             raise FlightFailed(Failure.REFUSED, problem)
         return (*back, target)

@@ -21,7 +21,7 @@ from pluto_fleet.files.fleet import (
     options_of,
 )
 from pluto_fleet.files.fleet_text import fleet_text
-from plutoc_runtime.domain import plan_rules
+from plutoc_runtime.domain import values
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.errors import BadInput
@@ -341,7 +341,7 @@ def test_a_great_fleet_is_read_in_proportion(
         asked += 1
         return dist(a, b)
 
-    monkeypatch.setattr(plan_rules, "dist", counted)
+    monkeypatch.setattr(values, "dist", counted)
     many = [
         f'[[drone]]\nid = "d{i}"\ncategory = "scout"\nhome = [{i % 30 / 5}, {i // 30 / 5}]\n'
         for i in range(900)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.reading import read
-from plutoc_runtime.alone.toml import LARGEST
+from plutoc_runtime.alone.files import LARGEST
 from plutoc_runtime.domain.airspace import Airspace
 from plutoc_runtime.domain.errors import BadInput
 from plutoc_runtime.domain.model import Item, Mission

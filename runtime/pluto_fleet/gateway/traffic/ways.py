@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from plutoc_runtime.fleet.reach import docked
 
 from ...jobs.landing_sites import free_spots, is_free
+from .legs import leg_problem
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.airspace import Airspace
@@ -130,8 +131,8 @@ def _around(airspace: Airspace, start: Point, end: Point) -> Iterator[tuple[Poin
             )
             if (
                 airspace.problem(turn) is None
-                and airspace.leg_problem(start, turn) is None
-                and airspace.leg_problem(turn, end) is None
+                and leg_problem(airspace, start, turn) is None
+                and leg_problem(airspace, turn, end) is None
             ):
                 yield start, turn, end
 
@@ -225,7 +226,7 @@ class Ground:
         for spot in islice(free_spots(airspace, (x, y, z), self._taken(drone), step), _SPOTS):
             if spot[:2] == here[:2]:
                 continue
-            if z > LOWEST and airspace.leg_problem((x, y, z), spot) is None:
+            if z > LOWEST and leg_problem(airspace, (x, y, z), spot) is None:
                 slope = (spot[0], spot[1], LOWEST)
                 yield Section(drone, (here, *back, slope, spot), False, True, aside=True)
             for level in _LEVELS_ASIDE:

@@ -16,8 +16,8 @@ from .problems import read, unflyable_trips
 from .shape import Shape
 
 if TYPE_CHECKING:
+    from plutoc_runtime.domain.airspace import Corner
     from plutoc_runtime.domain.app import App
-    from plutoc_runtime.domain.geometry import Corner
 
     from ...files.fleet import FleetFile
 
