@@ -212,10 +212,9 @@ def _item(data: Any, who: str, action: str) -> Item | None:
 
 def _fields(app: App, on: Entity) -> tuple[str, dict[str, Read]]:
     """Return the schema of the fields that the app's graph needs, and how they are read."""
-    kinds = {one.name: values.FIELD[one.type] for one in app.fields if one.on is on}
-    names = {one.name for one in app.fields if one.type is FieldType.EVALUATOR}
     evaluator = _one_of("evaluator", app.evaluators, values.name)
-    kinds |= dict.fromkeys(names & kinds.keys(), evaluator)
+    readers = {**values.FIELD, FieldType.EVALUATOR: evaluator}
+    kinds = {one.name: readers[one.type] for one in app.fields if one.on is on}
     return " ".join(f"{name}:{name}?" for name in kinds), kinds
 
 
@@ -269,11 +268,8 @@ def text_of(path: Path, opener: Callable[[str, int], int] | None = None) -> str:
         with open(path, "rb", opener=opener) as file:
             content = file.read(LARGEST + 1)
     except (OSError, ValueError) as error:
-        why = (
-            _UNREADABLE.get(type(error))
-            or f"cannot be read: {getattr(error, 'strerror', None) or error}"
-        )
-        raise BadInput(f"{path}: {why}") from None
+        said = f"cannot be read: {getattr(error, 'strerror', None) or error}"
+        raise BadInput(f"{path}: {_UNREADABLE.get(type(error), said)}") from None
     if len(content) > LARGEST:
         raise BadInput(f"{path}: is larger than {LARGEST // 1024} KiB: this is not a plan file")
     try:
@@ -298,5 +294,5 @@ def parsed(path: object, text: str) -> dict[str, Any]:
             path = f"{path}:{place[1] or len(text.splitlines())}"
             end = f", column {place[2]}" if place[2] else ", at the end of the file"
             said = said[: place.start()]
-        said = f"is not valid TOML: {said[:1].lower()}{said[1:]}{end}"
-        raise BadInput(f"{path}: {said}") from None
+        said = f"{said[:1].lower()}{said[1:]}{end}"
+        raise BadInput(f"{path}: is not valid TOML: {said}") from None

@@ -1,12 +1,12 @@
 """Ideal drones: each has the air to itself, so several may pass through each other.
 
-There is no tick: what was due is applied, at its own time, the next time a drone is looked at. What a drone
-does is a generator, which yields until when it waits.
+There is no tick: what was due is applied, at its own time, the next time a drone is looked at.
 """
 
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
+from dataclasses import astuple
 from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
@@ -25,10 +25,8 @@ if TYPE_CHECKING:
     from ..domain.model import Category, Item, Point
     from ..domain.trace import Clock
 
-Work = Generator[float, None, object]
+Work = Generator[float, None, Any]
 """What a drone does: until when it waits, again and again; in the end it returns the result."""
-Steps = Generator[float, None, None]
-"""A part of it, without a result."""
 
 
 class IdealDrone:
@@ -45,8 +43,7 @@ class IdealDrone:
         self.work: Work
         self.order, self.wakes = 0, inf
         """The order that it carries out, by its `work`, and until when it waits."""
-        self.changed = True
-        """Whether its motion has changed since it was told."""
+        self.landed = self._changed = True
         self._began = self._flown = 0.0
         self._charge, self._leg = Charge(1.0, clock.now), resting(entry.home, clock.now)
         self.touch_down(clock.now)
@@ -58,18 +55,17 @@ class IdealDrone:
 
     @property
     def flown(self) -> float:
-        """How many metres it has flown."""
+        """How many metres it has flown, up and down included."""
         return self._flown + self._leg.length(self._clock.now)
 
-    @property
-    def motion(self) -> dict[str, object]:
-        """Its telemetry: exact until its state changes other than by time."""
-        leg, charge = self._leg, self._charge
-        return {
-            "leg": (leg.start, leg.end, leg.leaves, leg.arrives),
-            "battery": (charge.level, charge.since, charge.rate),
-            "landed": self.landed,
-        }
+    def news(self) -> dict[str, object] | None:
+        """Return its telemetry, if its motion is another than when it was told last."""
+        self.settle()  # it may have touched down by itself
+        if not self._changed:
+            return None
+        self._changed = False
+        leg, battery = astuple(self._leg), astuple(self._charge)
+        return {"leg": leg, "battery": battery, "landed": self.landed}
 
     def settle(self) -> None:
         """Apply everything that was due by now."""
@@ -96,29 +92,23 @@ class IdealDrone:
         self._charge = self._charge.changing(self._clock.now, -1.0 / self.category.flight_time)
         self.landed = False
 
-    def turn(self, leg: Leg, now: float) -> None:
-        """Fly another leg from now on."""
-        self._flown += self._leg.length(now)
-        self._leg, self.changed = leg, True
+    def turn(self, leg: Leg) -> None:
+        """Fly another leg from its start on."""
+        self._flown += self._leg.length(leg.leaves)
+        self._leg, self._changed = leg, True
 
     def halt(self) -> None:
         """Do nothing more, and hover where it is, if it still takes commands."""
-        self.wakes, now = inf, self._clock.now
+        self.wakes = inf
         if self.failure() is None and not self.landed:
-            self.turn(resting(self._leg.at(now), now), now)
+            self.turn(resting(self.location, self._clock.now))
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below; in its dock it is charged."""
-        self.turn(resting((*self._leg.at(now)[:2], 0.0), now), now)
+        self.turn(resting((*self._leg.at(now)[:2], 0.0), now))
         self.landed = True
         charges = docked(self._leg.end, self.home)
         self._charge = self._charge.changing(now, charges / self.category.charge_time)
-
-    def dock(self) -> None:
-        """Put it into its dock, restarted, so that it takes commands again."""
-        self.down, self.settings, now = None, {}, self._clock.now
-        self.turn(resting(self.home, now), now)
-        self.touch_down(now)
 
     @property
     def next_due(self) -> tuple[float, Failure | None]:
@@ -131,11 +121,11 @@ class IdealDrone:
         return min([*comes, (self._charge.empty_at, Failure.BATTERY)], key=lambda due: due[0])
 
     def _happen(self, when: float, what: Failure | None) -> None:
-        x, y, z = self._leg.at(when)
+        x, y, z = here = self._leg.at(when)
         if what is not None:
-            self.down = befell(self.id, what, (x, y, z))
+            self.down = befell(self.id, what, here)
         if what is Failure.LINK:
-            self.turn(Leg((x, y, z), (x, y, 0.0), when, when + z / CLIMB_SPEED), when)
+            self.turn(Leg(here, (x, y, 0.0), when, when + z / CLIMB_SPEED))
             self.reachable_at = max(when + OUTAGE, self._leg.arrives)
             return
         self.touch_down(when)
@@ -153,9 +143,8 @@ class IdealDrones:
         self._world = World(seed, fleet.airspace, fleet.world)
         self._told: list[dict[str, Any]] = []
         categories = {category.name: category for category in app.categories}
-        self.drones = {
-            one.id: IdealDrone(one, categories[one.category], clock) for one in fleet.drones
-        }
+        drones = [IdealDrone(one, categories[one.category], clock) for one in fleet.drones]
+        self.drones = {drone.id: drone for drone in drones}
 
     @property
     def due(self) -> float:
@@ -170,19 +159,10 @@ class IdealDrones:
             drone.wakes = self._go_on(drone.order, drone.work)
         return self._told.pop(0) if self._told else {}
 
-    def flown(self) -> dict[str, float]:
-        """Return how many metres each drone has flown, up and down included."""
-        return {drone.id: drone.flown for drone in self.drones.values()}
-
     def news(self) -> dict[str, Any]:
         """Return the telemetry of the drones whose motion has changed since the last call."""
-        motions = {}
-        for drone in self.drones.values():
-            drone.settle()  # it may have touched down by itself
-            if drone.changed:
-                motions[drone.id] = drone.motion
-                drone.changed = False
-        return motions
+        news = {drone.id: drone.news() for drone in self.drones.values()}
+        return {drone: motion for drone, motion in news.items() if motion}
 
     def obey(self, order: Mapping[str, Any]) -> None:
         """Begin what is ordered."""
@@ -192,7 +172,8 @@ class IdealDrones:
         elif do in ("read", "write"):  # while it hovers
             self._go_on(order["id"], self._asked(drone, order))
         elif do != "cancel":
-            drone.order, drone.work = order["id"], _WORK[do](self, drone, order)
+            begin = getattr(self, f"_{do}")  # _fly, _hold, _home, _land or _recover
+            drone.order, drone.work = order["id"], begin(drone, order)
             # after all that is ordered with it, such as to break it off
             drone.wakes = self._clock.now
 
@@ -203,8 +184,8 @@ class IdealDrones:
         except StopIteration as end:
             self._told.append({"done": order, "value": end.value})
         except FlightFailed as error:
-            failure = {"failure": error.failure.name, "reason": str(error)}
-            self._told.append({"failed": order, **failure})
+            what, why = error.failure.name, str(error)
+            self._told.append({"failed": order, "failure": what, "reason": why})
         return inf
 
     def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
@@ -231,7 +212,7 @@ class IdealDrones:
         now = self._clock.now
         return value_data(self._world.gives(action, order["parameters"], drone.location, now))
 
-    def _hold(self, drone: IdealDrone, _: object) -> Steps:
+    def _hold(self, drone: IdealDrone, _: object) -> Work:
         """Hover until a fault occurs or it is cancelled."""
         drone.check()
         if drone.drawn.action:
@@ -249,16 +230,16 @@ class IdealDrones:
         measured = self._world.measure(name, drone.location, self._clock.now)
         return drone.settings.get(name, measured)
 
-    def _home(self, drone: IdealDrone, _: object) -> Steps:
+    def _home(self, drone: IdealDrone, _: object) -> Work:
         """Take off, if it stands, and fly to its dock."""
         drone.begin(Drawn())
         yield from self._follow(drone, [(*drone.location[:2], self._airspace.cruise_height)])
-        here, (x, y, _z) = drone.location, drone.home
-        for point in permitted_way(self._airspace, drone.id, here, (x, y, here[2])):
+        here = drone.location
+        for point in permitted_way(self._airspace, drone.id, here, (*drone.home[:2], here[2])):
             yield from self._move(drone, point, drone.category.speed)
         yield from self._land(drone)
 
-    def _land(self, drone: IdealDrone, _: object = None) -> Steps:
+    def _land(self, drone: IdealDrone, _: object = None) -> Work:
         """Land here; does nothing for a drone that stands on the ground."""
         drone.check()
         if not drone.landed:
@@ -275,13 +256,15 @@ class IdealDrones:
             drone.down = None  # the link is back
         try:
             yield from self._fly_home(drone)
-        except FlightFailed:  # someone carries it home
+        except FlightFailed:  # someone carries it into its dock, and restarts it
             yield from self._wait(self._clock.now + CARRYING_HOME)
-            drone.dock()
+            drone.down, drone.settings = None, {}
+            drone.turn(resting(drone.home, self._clock.now))
+            drone.touch_down(self._clock.now)
         drone.carries = None
         return True
 
-    def _fly_home(self, drone: IdealDrone) -> Steps:
+    def _fly_home(self, drone: IdealDrone) -> Work:
         drone.begin(Drawn())
         if not (drone.landed and docked(drone.location, drone.home)):
             start = self._above(drone)
@@ -293,7 +276,7 @@ class IdealDrones:
         x, y, z = drone.location
         return x, y, self._airspace.cruise_height if drone.landed else z
 
-    def _follow(self, drone: IdealDrone, way: Sequence[Point]) -> Steps:
+    def _follow(self, drone: IdealDrone, way: Sequence[Point]) -> Work:
         """Fly a route whose first point is above the drone's place on the ground, or where it hovers."""
         if drone.landed:
             drone.lift_off()
@@ -301,26 +284,17 @@ class IdealDrones:
         for point in way[1:]:
             yield from self._move(drone, point, drone.category.speed)
 
-    def _move(self, drone: IdealDrone, target: Point, speed: float) -> Steps:
+    def _move(self, drone: IdealDrone, target: Point, speed: float) -> Work:
         drone.check()  # a fault at take-off leaves it on the ground
         now, start = self._clock.now, drone.location
         seconds = dist(start, target) / speed
-        drone.turn(Leg(start, target, now, now + seconds), now)
+        drone.turn(Leg(start, target, now, now + seconds))
         yield from self._pass(drone, seconds)
 
-    def _pass(self, drone: IdealDrone, seconds: float) -> Steps:
+    def _pass(self, drone: IdealDrone, seconds: float) -> Work:
         yield from self._wait(min(self._clock.now + seconds, drone.next_due[0]))
         drone.check()
 
-    def _wait(self, until: float) -> Steps:
+    def _wait(self, until: float) -> Work:
         if until > self._clock.now:
             yield until
-
-
-_WORK = {
-    "fly": IdealDrones._fly,
-    "hold": IdealDrones._hold,
-    "home": IdealDrones._home,
-    "land": IdealDrones._land,
-    "recover": IdealDrones._recover,
-}

@@ -107,7 +107,7 @@ def simulate(
             duration=ended,
             missions=tuple(missions),
             drones=drones_of(app, fleet, standing["drones"], flown.brain.telemetry),
-            flown=flown.drones.flown(),
+            flown={drone.id: drone.flown for drone in flown.drones.drones.values()},
             events=tuple(events),
             given_up=given_up,
         )
