@@ -108,21 +108,29 @@ def trip_of(
     index = data.get("index", index)
     name, target = data.get("name", f"{index + 1}"), point_of(data["target"])
     trip = app.trip(name=name, action=data["action"], target=target, index=index)
-    source = data.get("source")
-    trip.source = None if source is None else point_of(source)
-    trip.parameters = data.get("parameters") or trip.parameters
-    trip.item = item_of(data.get("item"))
-    for field, value in known_fields(app, Entity.TRIP, data).items():
-        setattr(trip, field, value)
-    trip.added, trip.attempt = bool(data.get("added")), data.get("attempt", 1)
-    trip.status, trip.reason = TripStatus(data.get("status", status)), data.get("reason", "")
-    trip.start_time, trip.end_time = data.get("start_time"), data.get("end_time")
+    trip.status = status
+    if not _LEAST.issuperset(data):  # most new trips have no more
+        source = data.get("source")
+        trip.source = None if source is None else point_of(source)
+        trip.parameters = data.get("parameters") or trip.parameters
+        trip.item = item_of(data.get("item"))
+        for field, value in known_fields(app, Entity.TRIP, data).items():
+            setattr(trip, field, value)
+        trip.added, trip.attempt = bool(data.get("added")), data.get("attempt", 1)
+        trip.status = TripStatus(data["status"]) if "status" in data else status
+        trip.reason = data.get("reason", "")
+        trip.start_time, trip.end_time = data.get("start_time"), data.get("end_time")
     return trip
+
+
+_LEAST = frozenset({"name", "action", "target", "index"})
 
 
 def known_fields(app: App, entity: Entity, data: Mapping[str, Any]) -> Data:
     """Return the fields that the app has."""
-    given = data.get("fields") or {}
+    given = data.get("fields")
+    if not given:
+        return {}
     names = [field.name for field in app.fields if field.on is entity]
     return {name: given[name] for name in names if name in given}
 
