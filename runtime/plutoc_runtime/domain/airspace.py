@@ -87,11 +87,10 @@ class Airspace:
 
         It is straight wherever it can be. Around corners its height changes evenly along the way.
         """
-        if start > end:  # one way for both directions
-            back = self._ways(end, start)
-            return None if back is None else back[-2::-1]
-        way = self._ways(start, end)
-        return None if way is None else way[1:]
+        way = self._ways(min(start, end), max(start, end))  # one way for both directions
+        if way is None:
+            return None
+        return way[1:] if start <= end else way[-2::-1]
 
     @cached_property
     def areas(self) -> tuple[Polygon, ...]:
