@@ -176,7 +176,7 @@ class LiveDrone:
 
         def begin() -> None:
             asking.append(kernel.spawn(ask(drone), self._key, f"{drone} is asked for {name}"))
-            asking[0].over = lambda _: None  # its error is the hook's, which is about to wait for it
+            asking[0].over = lambda _: None  # an error is told to the hook, not to the kernel
 
         kernel.post(begin)
         try:
