@@ -48,10 +48,6 @@ _UNREADABLE: dict[type[Exception], str] = {
 }
 
 
-class _Whole(ValueError):
-    """A message that does not continue after the key and its value."""
-
-
 def load_fleet(path: Path, app: App) -> FleetData:
     """Return a fleet file's data, without what only real flights need."""
     top, who = parsed(path, text_of(path)), f"{path}"
@@ -108,7 +104,7 @@ def _table(
 def _read(table: dict[str, Any], who: str, key: str, read: Read) -> Any:
     try:
         return read(table[key])
-    except _Whole as error:
+    except BadInput as error:  # it says itself what it is about
         raise BadInput(f"{who}: {error}") from None
     except ValueError as error:
         raise BadInput(f"{who}: {key} {values.shown(table[key])} {error}") from None
@@ -223,7 +219,7 @@ def _point(key: str, airspace: Airspace, height: float) -> Read:
         x, y, *z = values.point(value)
         point = x, y, z[0] if z else height
         if problem := airspace.problem(point):
-            raise _Whole(f"{key} {problem}")
+            raise BadInput(f"{key} {problem}")
         return point
 
     return read
@@ -233,7 +229,7 @@ def _one_of(what: str, names: Collection[str], read: Read = values.text) -> Read
     def read_one(value: object) -> object:
         if (name := read(value)) not in names:
             there_is = ", ".join(names) or "none"
-            raise _Whole(f"unknown {what} {quoted(name)}; this app has: {there_is}")
+            raise BadInput(f"unknown {what} {quoted(name)}; this app has: {there_is}")
         return name
 
     return read_one
@@ -246,7 +242,7 @@ def _new(what: str) -> Read:
     def read(value: object) -> str:
         name: str = values.name(value)
         if name in names:
-            raise _Whole(f"there is another {what} {quoted(name)}: names must differ")
+            raise BadInput(f"there is another {what} {quoted(name)}: names must differ")
         names.add(name)
         return name
 
