@@ -141,7 +141,7 @@ class Alone:
                 raise Stuck("nothing will ever happen again")
             if until is not None and when > until:
                 self.now = until
-                brain.tell({"telemetry": drones.news()}, until)
+                self._tell({})
                 return False
             self.now = when
             if drones.due <= when:
@@ -157,10 +157,7 @@ class Alone:
         self.brain.close()
 
     def _tell(self, message: dict[str, Any]) -> None:
-        if news := self.drones.news():
-            message["telemetry"] = news
-        if message:
-            self.brain.tell(message, self.now)
+        self.brain.tell({**message, "telemetry": self.drones.news()}, self.now)
 
     def _listen(self) -> None:
         for event in self.brain.events():
