@@ -17,7 +17,7 @@ from plutoc.emit.markup import header, toml_text
 from plutoc.emit.merge_conflicts import sides
 from plutoc.graph.model import Graph
 from plutoc.registry import GROUP, STD
-from plutoc_runtime.alone.toml import line_of_long_key
+from plutoc_runtime.alone.files import line_of_long_key
 
 NAME = "pluto.lock"
 HOOKS, FORMER = "hooks", "former_hooks"

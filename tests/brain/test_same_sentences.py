@@ -21,7 +21,7 @@ from pluto_fleet.files import fleet as full_fleet
 from pluto_fleet.files import missions as full_missions
 from pluto_fleet.files.toml import toml_text
 from pluto_fleet.shared.alone import files
-from pluto_fleet.shared.alone.toml import LARGEST
+from pluto_fleet.shared.alone.files import LARGEST
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.runtime.files.an_app import APP, PLAIN

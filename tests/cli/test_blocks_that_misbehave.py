@@ -69,9 +69,7 @@ def test_a_step_that_gives_what_it_does_not_declare_fails_its_mission(
     plutoc: Call, app: Path, installed: Path, gives: str, what: str
 ) -> None:
     """All that was checked of the graph rests on the declaration: the mission goes no further."""
-    step = (
-        f"from plutoc_runtime.domain.status import Status\n{SIMPLE.format(f'return {gives}')}"
-    )
+    step = f"from plutoc_runtime.domain.status import Status\n{SIMPLE.format(f'return {gives}')}"
     declare(installed, step)
     app.write_text(FIELD_APP)
     said = plutoc("run", app)

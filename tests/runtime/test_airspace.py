@@ -9,8 +9,7 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from pluto_fleet.shared.domain.airspace import MARGIN, Airspace
-from pluto_fleet.shared.domain.geometry import enters, inside, tidy
+from pluto_fleet.shared.domain.airspace import MARGIN, Airspace, enters, inside, tidy
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.fleet.reach import length
 

@@ -46,11 +46,12 @@ def start(name: str, load: Callable[[], object], package: str, seam: Seam) -> in
 
             app = bare(name, package, seam)
         else:
-            with interrupted_by_a_person(), refused():
-                from ..app import described
+            from ..app import described
 
-                app = described(loaded(load))
-        end_if_forked(parent)  # as its hooks were loaded
+            with interrupted_by_a_person(), refused():
+                given = loaded(load)
+            end_if_forked(parent)  # as its hooks were loaded
+            app = described(given)
     code = _heard(app) if app is not None else ending.code
     if code == BAD_INPUT and "--supervised" in sys.argv:
         from .supervise import refuse

@@ -19,7 +19,7 @@ from .drone_status import heard
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..shared.domain.geometry import Corner
+    from ..shared.domain.airspace import Corner
     from .drone_status import DroneAnswer
 
 

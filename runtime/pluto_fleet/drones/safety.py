@@ -13,8 +13,8 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from ..jobs.landing_sites import free_spot
+from ..shared.domain.airspace import Polygon, distance, inside, tidy
 from ..shared.domain.errors import ANY_ERROR, Failure, FlightFailed
-from ..shared.domain.geometry import Polygon, distance, inside, tidy
 from ..shared.domain.text import duration, number, percent, place
 from .commands import descend, fly
 from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from ..shared.domain import values
 from ..shared.domain.fleet_data import DroneData
-from ..shared.domain.plan_rules import Cells, crowded
 from ..shared.domain.text import quoted
+from ..shared.domain.values import Cells, crowded
 from . import errors
 from .options import Options, options_under
 

@@ -20,7 +20,7 @@ from .reading import Document, Table, read
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..shared.domain.geometry import Corner
+    from ..shared.domain.airspace import Corner
     from ..shared.domain.model import Point
     from .options import Options
 

@@ -10,8 +10,8 @@ from ..shared.domain import values
 from ..shared.domain.actions import PICK, RELEASE, Action, Plain
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.model import Item, Point, Trip
-from ..shared.domain.plan_rules import wrongly_carried
 from ..shared.domain.text import quoted
+from ..shared.domain.values import wrongly_carried
 from . import errors
 from .reading import Document, Table, read
 

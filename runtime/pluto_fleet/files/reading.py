@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from ..shared.alone import toml
+from ..shared.alone import files
 from ..shared.domain.errors import BadInput
 from ..shared.domain.values import name, point, shown
 from . import errors
@@ -104,12 +104,12 @@ def read(path: Path) -> Document:
 
 def parsed(path: str, text: str) -> Document:
     """Parse a plan file's text; raise `BadInput` if it is not TOML."""
-    return Document(path, toml.parsed(path, text), places(text))
+    return Document(path, files.parsed(path, text), places(text))
 
 
 def text_of(path: Path) -> str:
     """Return the text of a plan file; raise `BadInput` if it cannot be one."""
-    return toml.text_of(path, _opened)
+    return files.text_of(path, _opened)
 
 
 def _opened(path: str, flags: int) -> int:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.text import number
+from .traffic.legs import leg_problem
 
 if TYPE_CHECKING:
     from ..shared.domain.airspace import Airspace
@@ -47,7 +48,7 @@ class Envelope:
         if airspace.problem(start) is not None:
             start = airspace.way_back(start)
             back = (start,)
-        problem = airspace.problem(target) or airspace.leg_problem(start, target)
+        problem = airspace.problem(target) or leg_problem(airspace, start, target)
         if problem is not None:
             raise FlightFailed(Failure.REFUSED, problem)
         return (*back, target)

@@ -5,7 +5,9 @@ The first mistake is told, as the library tells it, which tells all of them, eac
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+import re
+import tomllib
+from collections.abc import Callable, Collection, Iterator
 from typing import TYPE_CHECKING, Any
 
 from ..domain import values
@@ -15,9 +17,8 @@ from ..domain.errors import BadInput
 from ..domain.fields import Entity, FieldType
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from ..domain.model import Item
-from ..domain.plan_rules import Cells, crowded, wrongly_carried
 from ..domain.text import number, quoted
-from .toml import parsed, text_of
+from ..domain.values import Cells, crowded, wrongly_carried
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -28,8 +29,23 @@ if TYPE_CHECKING:
     from ..domain.values import Read
 
 
-class _Whole(ValueError):
-    """A message that does not continue after the key and its value."""
+LARGEST = 1 << 20
+"""Bytes. A plan is written by people: anything larger is another file."""
+
+MOST = 100
+"""Parts of one key: `tomllib` copies for each part all before it. A plan's longest key has two."""
+
+_PART = r"""(?:[A-Za-z0-9_-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
+_NEXT = rf"(?:[ \t]*\.[ \t]*{_PART})"
+_KEY = re.compile(rf"{_PART}({_NEXT}{{{MOST}}})?{_NEXT}*+")
+_PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
+
+_UNREADABLE: dict[type[Exception], str] = {
+    FileNotFoundError: "there is no such file",
+    IsADirectoryError: "is a folder, not a file",
+    PermissionError: "may not be read: its permissions forbid it",
+    ValueError: "is not a file name",  # a NUL in it
+}
 
 
 def load_fleet(path: Path, app: App) -> FleetData:
@@ -88,7 +104,7 @@ def _table(
 def _read(table: dict[str, Any], who: str, key: str, read: Read) -> Any:
     try:
         return read(table[key])
-    except _Whole as error:
+    except BadInput as error:  # it says itself what it is about
         raise BadInput(f"{who}: {error}") from None
     except ValueError as error:
         raise BadInput(f"{who}: {key} {values.shown(table[key])} {error}") from None
@@ -192,10 +208,9 @@ def _item(data: Any, who: str, action: str) -> Item | None:
 
 def _fields(app: App, on: Entity) -> tuple[str, dict[str, Read]]:
     """Return the schema of the fields that the app's graph needs, and how they are read."""
-    kinds = {one.name: values.FIELD[one.type] for one in app.fields if one.on is on}
-    names = {one.name for one in app.fields if one.type is FieldType.EVALUATOR}
     evaluator = _one_of("evaluator", app.evaluators, values.name)
-    kinds |= dict.fromkeys(names & kinds.keys(), evaluator)
+    readers = {**values.FIELD, FieldType.EVALUATOR: evaluator}
+    kinds = {one.name: readers[one.type] for one in app.fields if one.on is on}
     return " ".join(f"{name}:{name}?" for name in kinds), kinds
 
 
@@ -204,7 +219,7 @@ def _point(key: str, airspace: Airspace, height: float) -> Read:
         x, y, *z = values.point(value)
         point = x, y, z[0] if z else height
         if problem := airspace.problem(point):
-            raise _Whole(f"{key} {problem}")
+            raise BadInput(f"{key} {problem}")
         return point
 
     return read
@@ -214,7 +229,7 @@ def _one_of(what: str, names: Collection[str], read: Read = values.text) -> Read
     def read_one(value: object) -> object:
         if (name := read(value)) not in names:
             there_is = ", ".join(names) or "none"
-            raise _Whole(f"unknown {what} {quoted(name)}; this app has: {there_is}")
+            raise BadInput(f"unknown {what} {quoted(name)}; this app has: {there_is}")
         return name
 
     return read_one
@@ -227,8 +242,53 @@ def _new(what: str) -> Read:
     def read(value: object) -> str:
         name: str = values.name(value)
         if name in names:
-            raise _Whole(f"there is another {what} {quoted(name)}: names must differ")
+            raise BadInput(f"there is another {what} {quoted(name)}: names must differ")
         names.add(name)
         return name
 
     return read
+
+
+# The text of a file, and the TOML in it
+
+
+def line_of_long_key(text: str) -> int | None:
+    """Return the line, from 1, of a key with too many parts; None where there is none."""
+    long = next((key.start() for key in _KEY.finditer(text) if key[1]), None)
+    return None if long is None else text.count("\n", 0, long) + 1
+
+
+def text_of(path: Path, opener: Callable[[str, int], int] | None = None) -> str:
+    """Return the text of a plan file; raise `BadInput` if it cannot be one."""
+    try:
+        with open(path, "rb", opener=opener) as file:
+            content = file.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        said = f"cannot be read: {getattr(error, 'strerror', None) or error}"
+        raise BadInput(f"{path}: {_UNREADABLE.get(type(error), said)}") from None
+    if len(content) > LARGEST:
+        raise BadInput(f"{path}: is larger than {LARGEST // 1024} KiB: this is not a plan file")
+    try:
+        return content.decode("utf-8-sig")  # some editors put a byte-order mark before the text
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise BadInput(f"{path}:{line}: is not UTF-8 text") from None
+
+
+def parsed(path: object, text: str) -> dict[str, Any]:
+    """Return the data of a plan file's text; raise `BadInput` if it is not TOML."""
+    try:
+        if line := line_of_long_key(text):
+            path = f"{path}:{line}"
+            raise RecursionError
+        return tomllib.loads(text)
+    except RecursionError:
+        raise BadInput(f"{path}: is nested too deep") from None
+    except ValueError as error:  # TOMLDecodeError, and a number with thousands of digits
+        said, end = f"{error}", ""
+        if place := _PLACE.search(said):
+            path = f"{path}:{place[1] or len(text.splitlines())}"
+            end = f", column {place[2]}" if place[2] else ", at the end of the file"
+            said = said[: place.start()]
+        said = f"{said[:1].lower()}{said[1:]}{end}"
+        raise BadInput(f"{path}: is not valid TOML: {said}") from None

@@ -1,12 +1,12 @@
 """Ideal drones: each has the air to itself, so several may pass through each other.
 
-There is no tick: what was due is applied, at its own time, the next time a drone is looked at. What a drone
-does is a generator, which yields until when it waits.
+There is no tick: what was due is applied, at its own time, the next time a drone is looked at.
 """
 
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
+from dataclasses import astuple
 from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
@@ -25,10 +25,8 @@ if TYPE_CHECKING:
     from ..domain.model import Category, Item, Point
     from ..domain.trace import Clock
 
-Work = Generator[float, None, object]
+Work = Generator[float, None, Any]
 """What a drone does: until when it waits, again and again; in the end it returns the result."""
-Steps = Generator[float, None, None]
-"""A part of it, without a result."""
 
 
 class IdealDrone:
@@ -42,12 +40,10 @@ class IdealDrone:
         self.carries: Item | None = None
         self.settings: dict[str, float] = {}
         self.drawn = Drawn()
-        self.order = 0
-        """The order that it carries out, how far it is with that, and until when it waits."""
-        self.work: Work | None = None
-        self.wakes = inf
-        self.changed = True
-        """Whether its motion has changed since it was told."""
+        self.work: Work
+        self.order, self.wakes = 0, inf
+        """The order that it carries out, by its `work`, and until when it waits."""
+        self.landed = self._changed = True
         self._began = self._flown = 0.0
         self._charge, self._leg = Charge(1.0, clock.now), resting(entry.home, clock.now)
         self.touch_down(clock.now)
@@ -55,47 +51,36 @@ class IdealDrone:
     @property
     def location(self) -> Point:
         """Where it is."""
-        return self._leg.at(self.settle())
-
-    @property
-    def landed(self) -> bool:
-        """Whether it is on the ground."""
-        self.settle()
-        return self._landed
+        return self._leg.at(self._clock.now)
 
     @property
     def flown(self) -> float:
         """How many metres it has flown, up and down included."""
-        return self._flown + self._leg.length(self.settle())
+        return self._flown + self._leg.length(self._clock.now)
 
-    @property
+    def news(self) -> dict[str, object] | None:
+        """Return its telemetry, if its motion is another than when it was told last."""
+        self.settle()  # it may have touched down by itself
+        if not self._changed:
+            return None
+        self._changed = False
+        leg, battery = astuple(self._leg), astuple(self._charge)
+        return {"leg": leg, "battery": battery, "landed": self.landed}
+
+    def settle(self) -> None:
+        """Apply everything that was due by now."""
+        while (due := self.next_due)[0] <= self._clock.now:
+            self._happen(*due)
+
     def failure(self) -> Failure | None:
-        """The failure for which it takes no commands, if any."""
+        """Return the failure for which it takes no commands now, if any."""
         self.settle()
         return None if self.down is None else self.down.failure
 
-    @property
-    def motion(self) -> dict[str, object]:
-        """Its telemetry: exact until its state changes other than by time."""
-        self.settle()
-        leg, charge = self._leg, self._charge
-        return {
-            "leg": (leg.start, leg.end, leg.leaves, leg.arrives),
-            "battery": (charge.level, charge.since, charge.rate),
-            "landed": self._landed,
-        }
-
-    def settle(self) -> float:
-        """Apply everything that was due by now, and return the time."""
-        now = self._clock.now
-        while (due := self.next_due)[0] <= now:
-            self._happen(*due)
-        return now
-
     def check(self) -> None:
         """Raise its failure, if it takes no commands."""
-        if self.failure is not None:
-            raise FlightFailed(self.failure, str(self.down))
+        if failure := self.failure():
+            raise FlightFailed(failure, str(self.down))
 
     def begin(self, drawn: Drawn) -> None:
         """Begin a flight, with its faults."""
@@ -105,37 +90,30 @@ class IdealDrone:
     def lift_off(self) -> None:
         """Leave the ground: the battery drains from now on, and faults are due."""
         self._charge = self._charge.changing(self._clock.now, -1.0 / self.category.flight_time)
-        self._landed = False
+        self.landed = False
 
-    def turn(self, leg: Leg, now: float) -> None:
-        """Fly another leg from now on."""
-        self._flown += self._leg.length(now)
-        self._leg, self.changed = leg, True
+    def turn(self, leg: Leg) -> None:
+        """Fly another leg from its start on."""
+        self._flown += self._leg.length(leg.leaves)
+        self._leg, self._changed = leg, True
 
     def halt(self) -> None:
         """Do nothing more, and hover where it is, if it still takes commands."""
-        self.work, self.wakes = None, inf
-        now = self.settle()
-        if self.down is None and not self._landed:
-            self.turn(resting(self._leg.at(now), now), now)
+        self.wakes = inf
+        if self.failure() is None and not self.landed:
+            self.turn(resting(self.location, self._clock.now))
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below; in its dock it is charged."""
-        self.turn(resting((*self._leg.at(now)[:2], 0.0), now), now)
-        self._landed = True
+        self.turn(resting((*self._leg.at(now)[:2], 0.0), now))
+        self.landed = True
         charges = docked(self._leg.end, self.home)
         self._charge = self._charge.changing(now, charges / self.category.charge_time)
-
-    def dock(self) -> None:
-        """Put it into its dock, restarted, so that it takes commands again."""
-        self.down, self.settings, now = None, {}, self._clock.now
-        self.turn(resting(self.home, now), now)
-        self.touch_down(now)
 
     @property
     def next_due(self) -> tuple[float, Failure | None]:
         """The next thing that happens by itself, of simultaneous ones the worst; None: it touches down."""
-        if self._landed:
+        if self.landed:
             return inf, None
         comes = self.drawn.moments(self._began)
         if self.down is not None:  # it has lost its link, and lands
@@ -143,11 +121,11 @@ class IdealDrone:
         return min([*comes, (self._charge.empty_at, Failure.BATTERY)], key=lambda due: due[0])
 
     def _happen(self, when: float, what: Failure | None) -> None:
-        x, y, z = self._leg.at(when)
+        x, y, z = here = self._leg.at(when)
         if what is not None:
-            self.down = befell(self.id, what, (x, y, z))
+            self.down = befell(self.id, what, here)
         if what is Failure.LINK:
-            self.turn(Leg((x, y, z), (x, y, 0.0), when, when + z / CLIMB_SPEED), when)
+            self.turn(Leg(here, (x, y, 0.0), when, when + z / CLIMB_SPEED))
             self.reachable_at = max(when + OUTAGE, self._leg.arrives)
             return
         self.touch_down(when)
@@ -165,9 +143,8 @@ class IdealDrones:
         self._world = World(seed, fleet.airspace, fleet.world)
         self._told: list[dict[str, Any]] = []
         categories = {category.name: category for category in app.categories}
-        self.drones = {
-            one.id: IdealDrone(one, categories[one.category], clock) for one in fleet.drones
-        }
+        drones = [IdealDrone(one, categories[one.category], clock) for one in fleet.drones]
+        self.drones = {drone.id: drone for drone in drones}
 
     @property
     def due(self) -> float:
@@ -177,18 +154,15 @@ class IdealDrones:
     def advance(self) -> dict[str, Any]:
         """Let the next thing happen that is due, and return what there is to tell of it."""
         if not self._told:
-            self._go_on(min(self.drones.values(), key=lambda drone: drone.wakes))
+            drone = min(self.drones.values(), key=lambda drone: drone.wakes)
+            drone.settle()
+            drone.wakes = self._go_on(drone.order, drone.work)
         return self._told.pop(0) if self._told else {}
 
     def news(self) -> dict[str, Any]:
         """Return the telemetry of the drones whose motion has changed since the last call."""
-        motions = {}
-        for drone in self.drones.values():
-            drone.settle()  # it may have touched down by itself
-            if drone.changed:
-                motions[drone.id] = drone.motion
-                drone.changed = False
-        return motions
+        news = {drone.id: drone.news() for drone in self.drones.values()}
+        return {drone: motion for drone, motion in news.items() if motion}
 
     def obey(self, order: Mapping[str, Any]) -> None:
         """Begin what is ordered."""
@@ -196,31 +170,23 @@ class IdealDrones:
         if do == "break_off" or (do == "cancel" and drone.order == order["order"]):
             drone.halt()
         elif do in ("read", "write"):  # while it hovers
-            self._answer(order)
+            self._go_on(order["id"], self._asked(drone, order))
         elif do != "cancel":
-            drone.order, drone.work = order["id"], _WORK[do](self, drone, order)
-            drone.wakes = (
-                self._clock.now
-            )  # after all that is ordered with it, such as to break it off
+            begin = getattr(self, f"_{do}")  # _fly, _hold, _home, _land or _recover
+            drone.order, drone.work = order["id"], begin(drone, order)
+            # after all that is ordered with it, such as to break it off
+            drone.wakes = self._clock.now
 
-    def _go_on(self, drone: IdealDrone) -> None:
-        assert drone.work is not None
+    def _go_on(self, order: int, work: Work) -> float:
+        """Go on with an order until it waits, and return until when; tell its end."""
         try:
-            drone.wakes = next(drone.work)
+            return next(work)
         except StopIteration as end:
-            drone.work, drone.wakes = None, inf
-            self._told.append({"done": drone.order, "value": end.value})
+            self._told.append({"done": order, "value": end.value})
         except FlightFailed as error:
-            drone.work, drone.wakes = None, inf
-            self._told.append(_failure(drone.order, error))
-
-    def _answer(self, order: Mapping[str, Any]) -> None:
-        try:
-            value = self._asked(self.drones[order["drone"]], order)
-        except FlightFailed as error:
-            self._told.append(_failure(order["id"], error))
-        else:
-            self._told.append({"done": order["id"], "value": value})
+            what, why = error.failure.name, str(error)
+            self._told.append({"failed": order, "failure": what, "reason": why})
+        return inf
 
     def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
         airspace, start, stops = self._airspace, drone.location, [*map(point_of, order["stops"])]
@@ -246,15 +212,16 @@ class IdealDrones:
         now = self._clock.now
         return value_data(self._world.gives(action, order["parameters"], drone.location, now))
 
-    def _hold(self, drone: IdealDrone, _: object) -> Steps:
+    def _hold(self, drone: IdealDrone, _: object) -> Work:
         """Hover until a fault occurs or it is cancelled."""
         drone.check()
         if drone.drawn.action:
             raise failed("the action failed", f"{drone.id} could not do it", drone.location)
         yield from self._pass(drone, inf)
 
-    def _asked(self, drone: IdealDrone, order: Mapping[str, Any]) -> object:
+    def _asked(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
         """Return the value that was written under a name, or else what is measured here."""
+        yield from ()  # it answers at once
         drone.check()
         name = order["name"]
         if order["do"] == "write":
@@ -263,16 +230,16 @@ class IdealDrones:
         measured = self._world.measure(name, drone.location, self._clock.now)
         return drone.settings.get(name, measured)
 
-    def _home(self, drone: IdealDrone, _: object) -> Steps:
+    def _home(self, drone: IdealDrone, _: object) -> Work:
         """Take off, if it stands, and fly to its dock."""
         drone.begin(Drawn())
         yield from self._follow(drone, [(*drone.location[:2], self._airspace.cruise_height)])
-        here, (x, y, _z) = drone.location, drone.home
-        for point in permitted_way(self._airspace, drone.id, here, (x, y, here[2])):
+        here = drone.location
+        for point in permitted_way(self._airspace, drone.id, here, (*drone.home[:2], here[2])):
             yield from self._move(drone, point, drone.category.speed)
         yield from self._land(drone)
 
-    def _land(self, drone: IdealDrone, _: object = None) -> Steps:
+    def _land(self, drone: IdealDrone, _: object = None) -> Work:
         """Land here; does nothing for a drone that stands on the ground."""
         drone.check()
         if not drone.landed:
@@ -281,21 +248,23 @@ class IdealDrones:
 
     def _recover(self, drone: IdealDrone, _: object) -> Work:
         """Bring a drone home after a failed flight, landed; False: it has crashed, and is lost."""
-        if drone.failure is Failure.LINK:
+        if drone.failure() is Failure.LINK:
             yield from self._wait(drone.reachable_at)
-        if drone.failure is Failure.CRASH:
+        if drone.failure() is Failure.CRASH:
             return False
-        if drone.failure is Failure.LINK:
+        if drone.failure() is Failure.LINK:
             drone.down = None  # the link is back
         try:
             yield from self._fly_home(drone)
-        except FlightFailed:  # someone carries it home
+        except FlightFailed:  # someone carries it into its dock, and restarts it
             yield from self._wait(self._clock.now + CARRYING_HOME)
-            drone.dock()
+            drone.down, drone.settings = None, {}
+            drone.turn(resting(drone.home, self._clock.now))
+            drone.touch_down(self._clock.now)
         drone.carries = None
         return True
 
-    def _fly_home(self, drone: IdealDrone) -> Steps:
+    def _fly_home(self, drone: IdealDrone) -> Work:
         drone.begin(Drawn())
         if not (drone.landed and docked(drone.location, drone.home)):
             start = self._above(drone)
@@ -307,7 +276,7 @@ class IdealDrones:
         x, y, z = drone.location
         return x, y, self._airspace.cruise_height if drone.landed else z
 
-    def _follow(self, drone: IdealDrone, way: Sequence[Point]) -> Steps:
+    def _follow(self, drone: IdealDrone, way: Sequence[Point]) -> Work:
         """Fly a route whose first point is above the drone's place on the ground, or where it hovers."""
         if drone.landed:
             drone.lift_off()
@@ -315,30 +284,17 @@ class IdealDrones:
         for point in way[1:]:
             yield from self._move(drone, point, drone.category.speed)
 
-    def _move(self, drone: IdealDrone, target: Point, speed: float) -> Steps:
+    def _move(self, drone: IdealDrone, target: Point, speed: float) -> Work:
         drone.check()  # a fault at take-off leaves it on the ground
         now, start = self._clock.now, drone.location
         seconds = dist(start, target) / speed
-        drone.turn(Leg(start, target, now, now + seconds), now)
+        drone.turn(Leg(start, target, now, now + seconds))
         yield from self._pass(drone, seconds)
 
-    def _pass(self, drone: IdealDrone, seconds: float) -> Steps:
+    def _pass(self, drone: IdealDrone, seconds: float) -> Work:
         yield from self._wait(min(self._clock.now + seconds, drone.next_due[0]))
         drone.check()
 
-    def _wait(self, until: float) -> Steps:
+    def _wait(self, until: float) -> Work:
         if until > self._clock.now:
             yield until
-
-
-def _failure(order: int, error: FlightFailed) -> dict[str, Any]:
-    return {"failed": order, "failure": error.failure.name, "reason": str(error)}
-
-
-_WORK = {
-    "fly": IdealDrones._fly,
-    "hold": IdealDrones._hold,
-    "home": IdealDrones._home,
-    "land": IdealDrones._land,
-    "recover": IdealDrones._recover,
-}

@@ -6,7 +6,7 @@ hours, as a plan may last for months.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from math import inf
@@ -103,7 +103,17 @@ def simulate(
     with closing(Alone(app, fleet, faults, seed, listen)) as flown:
         flown.begin(missions)
         ended, given_up = see_through(flown, flown.run, app.name, bound, until)
-        return flown.outcome(missions, events, ended, given_up)
+        standing = flown.brain.standing()
+        take_over(app, missions, standing["missions"])
+        return SimulationResult(
+            duration=ended,
+            missions=tuple(missions),
+            drones=drones_of(app, fleet, standing["drones"], flown.brain.telemetry),
+            flown={drone.id: drone.flown for drone in flown.drones.drones.values()},
+            events=tuple(events),
+            results=results_of(missions, standing["results"]),
+            given_up=given_up,
+        )
 
 
 class Alone:
@@ -113,8 +123,8 @@ class Alone:
         self, app: App, fleet: FleetData, faults: Faults, seed: int, listener: Listener
     ) -> None:
         self.now = 0.0
-        self._app, self._fleet, self._listener = app, fleet, listener
-        self._drones = IdealDrones(app, fleet, faults, seed, self)
+        self._app, self._listener = app, listener
+        self.drones = IdealDrones(app, fleet, faults, seed, self)
         self.brain = Brain(app, fleet_data(fleet), space=fleet.airspace)
 
     def begin(self, missions: Sequence[Mission[Any]]) -> None:
@@ -125,17 +135,16 @@ class Alone:
 
     def run(self, until: float | None) -> bool:
         """Fly until everything has ended, or until a time; return whether it has ended."""
-        brain, drones = self.brain, self._drones
+        brain, drones = self.brain, self.drones
         while brain.over is None:
             for order in brain.orders():
                 drones.obey(order)
-            due = brain.due
-            when = min(drones.due, inf if due is None else due)
+            when = min(drones.due, inf if brain.due is None else brain.due)
             if when == inf:
                 raise Stuck("nothing will ever happen again")
             if until is not None and when > until:
                 self.now = until
-                brain.tell({"telemetry": drones.news()}, until)
+                self._tell({})
                 return False
             self.now = when
             if drones.due <= when:
@@ -151,31 +160,11 @@ class Alone:
         self.brain.close()
 
     def _tell(self, message: dict[str, Any]) -> None:
-        if news := self._drones.news():
-            message["telemetry"] = news
-        if message:
-            self.brain.tell(message, self.now)
+        self.brain.tell({**message, "telemetry": self.drones.news()}, self.now)
 
     def _listen(self) -> None:
         for event in self.brain.events():
             self._listener(event)
-
-    def outcome(
-        self, missions: Sequence[Mission[Any]], events: Sequence[Event], ended: float, given_up: str
-    ) -> SimulationResult:
-        """Return the outcome of the missions, which are brought up to date."""
-        telemetry, flown = self.brain.telemetry, self._drones.drones
-        standing = self.brain.standing()
-        take_over(self._app, missions, standing["missions"])
-        return SimulationResult(
-            duration=ended,
-            missions=tuple(missions),
-            drones=drones_of(self._app, self._fleet, standing["drones"], telemetry),
-            flown={drone.id: drone.flown for drone in flown.values()},
-            events=tuple(events),
-            results=results_of(missions, standing["results"]),
-            given_up=given_up,
-        )
 
 
 FLIGHTS = 1_000
@@ -200,30 +189,21 @@ class Bound:
         self.last = 0.0
         """When the last flight was launched, or will be after a delay."""
 
-    def look(self, event: Event) -> Enough | None:
+    def look(self, event: Mapping[str, Any]) -> Enough | None:
         """Count an event; return why the simulation would not end, if it would not."""
-        what = event["event"]
-        if what == "trip.launched":
-            name = str(event["mission"])
-            self.last = max(self.last, float(str(event["t"])))
+        what, name = event["event"], event.get("mission", "")
+        if what == "trip.delayed":
+            self.last = max(self.last, event["until"])
+        elif what == "mission.repeated" and event["round"] <= self._rounds[name]:
+            self._flights[name] = 0
+        elif what == "trip.launched":
+            self.last = max(self.last, event["t"])
             self._flights[name] = flights = self._flights[name] + 1
             if flights >= self._most[name]:
                 trips = counted(self._most[name] // FLIGHTS, "trip")
-                return Enough(
-                    f"mission {quoted(name)} has set out {flights} times for {trips}, and nothing"
-                    f" ends that; {MORE}"
-                )
-        elif what == "trip.delayed":
-            self.last = max(self.last, float(str(event["until"])))
-        elif what == "mission.repeated":
-            name = str(event["mission"])
-            if int(str(event["round"])) <= self._rounds[name]:
-                self._flights[name] = 0
+                said = f"mission {quoted(name)} has set out {flights} times for {trips}"
+                return Enough(f"{said}, and nothing ends that; {MORE}")
         return None
-
-    def idle(self) -> str:
-        """Return the reason given when nothing has been launched for too long."""
-        return f"nothing has set out for {IDLE / 86_400:.0f} days, and missions are not at their end; {MORE}"
 
 
 class Simulated(Protocol):
@@ -252,7 +232,8 @@ def see_through(
     try:
         while not run(last) and until is None:
             if bound.last + IDLE <= last:
-                raise Enough(bound.idle())
+                days = f"nothing has set out for {IDLE / 86_400:.0f} days"
+                raise Enough(f"{days}, and missions are not at their end; {MORE}")
             last = bound.last + IDLE
         return (flown.now if flown.brain.over is None else flown.brain.over), ""
     except Enough as enough:

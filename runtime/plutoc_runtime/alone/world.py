@@ -12,8 +12,7 @@ from ..domain.model import Photo
 
 if TYPE_CHECKING:
     from ..domain.actions import Plain
-    from ..domain.airspace import Airspace
-    from ..domain.geometry import Corner
+    from ..domain.airspace import Airspace, Corner
     from ..domain.model import Point
 
 BACKGROUND: Mapping[str, float] = {"temperature": 21.0, "pm10": 20.0}

@@ -1,8 +1,11 @@
-"""The map: its bounds, its no-fly areas, and the way around them."""
+"""The map: its bounds, its no-fly areas, and the way around them.
+
+Lengths below `EPSILON` do not count: touching an area's edge is not entering it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from heapq import heappop, heappush
@@ -11,16 +14,23 @@ from math import dist, inf
 from typing import TYPE_CHECKING
 
 from .errors import Failure, FlightFailed
-from .geometry import EPSILON, Corner, edge_points, enters, inside, pushed_out, tidy
 from .text import number, place
 
 if TYPE_CHECKING:
     from .model import Point
 
+Corner = tuple[float, float]
+Polygon = tuple[Corner, ...]
 Way = tuple["Point", ...]
 
 MARGIN = 0.1
 """How far from the corner of a no-fly area a route turns, in metres."""
+
+EPSILON = 1e-6
+"""Metres. A thousandth of what a drone's position is known to, and far above rounding."""
+
+_SHARP = 0.5
+"""The sine of half an angle below which a corner is walked around in two points, not one."""
 
 _REMEMBERED = 10_000
 """Routes and places kept: plans repeat theirs, but a drone may be asked from anywhere."""
@@ -33,7 +43,7 @@ class Airspace:
     size: tuple[float, float] = (20.0, 20.0)
     cruise_height: float = 1.2
     ceiling: float = 10.0
-    no_fly: tuple[tuple[Corner, ...], ...] = ()
+    no_fly: tuple[Polygon, ...] = ()
 
     @cached_property
     def problem(self) -> Callable[[Point], str | None]:
@@ -52,17 +62,9 @@ class Airspace:
             if z < 0:
                 return f"{where} is below the ground"
             return f"{where} is above the ceiling of {number(self.ceiling)} m"
-        for count, area in enumerate(self._areas, 1):
+        for count, area in enumerate(self.areas, 1):
             if inside((x, y), area):
                 return f"{place(point)} is inside no-fly area {count}"
-        return None
-
-    def leg_problem(self, start: Point, end: Point) -> str | None:
-        """Return why no drone may fly straight from one permitted point to another, or None."""
-        for count, area in enumerate(self._areas, 1):
-            if enters(start[:2], end[:2], area):
-                way = f"the straight way from {place(start)} to {place(end)}"
-                return f"{way} leads through no-fly area {count}"
         return None
 
     def way_back(self, point: Point) -> Point:
@@ -71,8 +73,8 @@ class Airspace:
         x, y, z = point
         x, y = min(max(x, 0.0), width), min(max(y, 0.0), depth)
         z = min(max(z, 0.0), self.ceiling)
-        for _ in range(1 + len(self._areas)):
-            around = next((area for area in self._areas if inside((x, y), area)), ())
+        for _ in range(1 + len(self.areas)):
+            around = next((area for area in self.areas if inside((x, y), area)), ())
             out = edge_points((x, y), around, EPSILON)
             permitted = [(ex, ey) for ex, ey in out if not self.problem((ex, ey, z))]
             if not permitted:
@@ -85,20 +87,20 @@ class Airspace:
 
         It is straight wherever it can be. Around corners its height changes evenly along the way.
         """
-        if start > end:  # one way for both directions
-            back = self._ways(end, start)
-            return None if back is None else back[-2::-1]
-        way = self._ways(start, end)
-        return None if way is None else way[1:]
+        way = self._ways(min(start, end), max(start, end))  # one way for both directions
+        if way is None:
+            return None
+        return way[1:] if start <= end else way[-2::-1]
 
     @cached_property
-    def _areas(self) -> tuple[tuple[Corner, ...], ...]:
+    def areas(self) -> tuple[Polygon, ...]:
+        """The no-fly areas, without corners that repeat."""
         return tuple(map(tidy, self.no_fly))
 
     @cached_property
     def _turns(self) -> list[Corner]:
         """The points at which a way around the areas may turn."""
-        turns = [turn for area in self._areas if len(area) > 2 for turn in pushed_out(area, MARGIN)]
+        turns = [turn for area in self.areas if len(area) > 2 for turn in pushed_out(area, MARGIN)]
         return [(x, y) for x, y in turns if not self.problem((x, y, 0.0))]
 
     @cached_property
@@ -115,7 +117,7 @@ class Airspace:
         return None if corners is None else _climbing(start, corners, end)
 
     def _free(self, a: Corner, b: Corner) -> bool:
-        return not any(enters(a, b, area) for area in self._areas)
+        return not any(enters(a, b, area) for area in self.areas)
 
     def _shortest(self, start: Corner, end: Corner) -> tuple[Corner, ...] | None:
         """Search with A* over the turns; of equally short routes the first found."""
@@ -165,3 +167,112 @@ def way_from(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[
         return permitted_way(airspace, drone, start, end)
     back = airspace.way_back(start)
     return (back, *permitted_way(airspace, drone, back, end))
+
+
+# Polygons in the plan
+
+
+def covers_ground(corners: Sequence[Corner]) -> bool:
+    """Return whether these corners enclose an area, and are not all on one line."""
+    return abs(_turning(corners)) >= 1e-9
+
+
+def _turning(corners: Sequence[Corner]) -> float:
+    """Return twice the area that corners enclose; negative if they go around clockwise."""
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in _edges(corners))
+
+
+def _edges(corners: Sequence[Corner]) -> Iterable[tuple[Corner, Corner]]:
+    return pairwise([*corners, *corners[:1]])
+
+
+def tidy(corners: Sequence[Corner]) -> Polygon:
+    """Drop corners that repeat the one before, the last that repeats the first included."""
+    kept: list[Corner] = []
+    for corner in corners:
+        if not kept or dist(corner, kept[-1]) > EPSILON:
+            kept.append(corner)
+    while len(kept) > 1 and dist(kept[0], kept[-1]) <= EPSILON:
+        kept.pop()
+    return tuple(kept)
+
+
+def inside(point: Corner, polygon: Polygon) -> bool:
+    """Return whether a point is inside a polygon, and not merely on its edge."""
+    x, y = point
+    within = False
+    for (ax, ay), (bx, by) in _edges(polygon):
+        if distance(point, (ax, ay), (bx, by)) <= EPSILON:
+            return False
+        if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
+            within = not within
+    return within
+
+
+def edge_points(point: Corner, polygon: Polygon, margin: float) -> list[Corner]:
+    """Return the points of all edges that are nearest to a point inside, moved out by a margin."""
+    found: list[Corner] = []
+    for a, b in _edges(polygon):
+        x, y = _nearest(point, a, b)
+        far = dist((x, y), point)
+        scale = margin / far if far else 0.0
+        found.append((x + (x - point[0]) * scale, y + (y - point[1]) * scale))
+    return found
+
+
+def distance(point: Corner, a: Corner, b: Corner) -> float:
+    """Return the distance of a point from a straight leg."""
+    return dist(point, _nearest(point, a, b))
+
+
+def _nearest(point: Corner, a: Corner, b: Corner) -> Corner:
+    """Return the point of a straight leg that is nearest to another point."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    square = dx * dx + dy * dy
+    along = ((point[0] - a[0]) * dx + (point[1] - a[1]) * dy) / square if square else 0.0
+    along = min(1.0, max(0.0, along))
+    return a[0] + along * dx, a[1] + along * dy
+
+
+def enters(start: Corner, end: Corner, polygon: Polygon) -> bool:
+    """Return whether a straight leg crosses the inside of a polygon, concave ones included."""
+    (x, y), dx, dy = start, end[0] - start[0], end[1] - start[1]
+    square = dx * dx + dy * dy
+    if len(polygon) < 3 or not square:
+        return inside(start, polygon)
+    beside = [dx * (cy - y) - dy * (cx - x) for cx, cy in polygon]
+    along = [(dx * (cx - x) + dy * (cy - y)) / square for cx, cy in polygon]
+    if min(beside) >= 0 or max(beside) <= 0 or min(along) >= 1 or max(along) <= 0:
+        return False  # as most legs: all corners are on one side of it, or beyond an end
+    # Wherever the leg meets the outline it may change sides: look once between any two such places.
+    places = [0.0, 1.0, *along]  # a corner on the way counts, for edges that the leg runs along
+    for (ax, ay), (bx, by) in _edges(polygon):
+        cross = dx * (by - ay) - dy * (bx - ax)
+        if cross:
+            places.append(((ax - x) * (by - ay) - (ay - y) * (bx - ax)) / cross)
+    places = sorted(place for place in places if 0.0 <= place <= 1.0)
+    middles = [(a + b) / 2 for a, b in pairwise(places)]
+    return any(inside((x + m * dx, y + m * dy), polygon) for m in middles)
+
+
+def pushed_out(polygon: Polygon, margin: float) -> list[Corner]:
+    """Return where to turn around each corner that sticks out, so far from both its edges.
+
+    A shortest way turns nowhere else. A sharp corner is cut off square, in two points: one point
+    that far from both edges would be far from the corner.
+    """
+    around = polygon if _turning(polygon) > 0 else polygon[::-1]  # the inside is to the left
+    corners = [complex(x, y) for x, y in around]
+    turns: list[complex] = []
+    for i, corner in enumerate(corners):
+        before, after = corner - corners[i - 1], corners[(i + 1) % len(corners)] - corner
+        u, v = before / abs(before), after / abs(after)
+        turn = u.conjugate() * v
+        if turn.imag <= EPSILON and turn.real > -1 + EPSILON:
+            continue  # it goes straight on, or turns in
+        sine = abs(u + v) / 2  # of half the angle
+        if sine < _SHARP:
+            turns += [corner + margin * (u - 1j * u), corner - margin * (v + 1j * v)]
+        else:
+            turns.append(corner - 1j * (u + v) * margin / (2 * sine * sine))
+    return [(turn.real, turn.imag) for turn in turns]

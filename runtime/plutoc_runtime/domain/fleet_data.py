@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import exp, inf
 
-from .airspace import Airspace
-from .geometry import Corner
+from .airspace import Airspace, Corner
 from .model import AfterTrip, Point
 
 

@@ -247,9 +247,6 @@ class ResultStore:
         self.before: list[int] = []
         """For each result, the number of the previous one of its mission."""
 
-    def __len__(self) -> int:
-        return len(self.results)
-
     def add(
         self, mission: Mission[Any], trip: Trip | None, round_: int, attempt: int, value: object
     ) -> int:

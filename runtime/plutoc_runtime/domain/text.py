@@ -53,9 +53,9 @@ def percent(share: float) -> str:
     return f"{share * 100:.0f} %"
 
 
-def counted(count: int, one: str, many: str | None = None) -> str:
+def counted(count: int, one: str) -> str:
     """Format a count: 1 trip, 2 trips."""
-    return f"{count} {one if count == 1 else many or one + 's'}"
+    return f"{count} {one if count == 1 else one + 's'}"
 
 
 def printable(text: str) -> str:

@@ -25,15 +25,10 @@ class Trace:
         self.live = bool(listeners)
         """Whether there is a listener: check it before composing an event."""
         self._clock, self._listeners = clock, tuple(listeners)
-        self._now = self._t = 0.0
-        """The instant of the last event, and that instant rounded: several events share one."""
 
     def note(self, event: str, **facts: object) -> None:
         """Send an event, with the current time."""
-        now = self._clock.now
-        if now is not self._now:
-            self._now, self._t = now, round(now, 6)
-        noted = {"t": self._t, "event": event, **facts}
+        noted = {"t": round(self._clock.now, 6), "event": event, **facts}
         for listener in self._listeners:
             listener(noted)
 

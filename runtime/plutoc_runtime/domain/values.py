@@ -1,24 +1,28 @@
-"""Converting values of a plan, with messages such as `delay "3 m" is a length, not a time`.
+"""What a plan may hold: its values, with messages such as `delay "3 m" is a length, not a time`.
+
+And what no value breaks alone: homes apart, and items picked and released in turn.
 
 Numbers have limits, so that nothing that is computed from them divides by zero or overflows.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import date, time
-from math import isfinite
+from math import dist, isfinite
 from typing import TYPE_CHECKING, Any
 
+from .actions import PICK, RELEASE
+from .airspace import covers_ground
 from .fields import FieldType, time_of_day
-from .geometry import covers_ground
 from .model import AfterTrip
 from .quantities import QUANTITIES, UNITS, Type, parse_quantity, units_of
 from .text import number, quoted
 
 if TYPE_CHECKING:
-    from .geometry import Corner
+    from .airspace import Corner
+    from .model import Item, Point, Trip
 
 Read = Callable[[Any], Any]
 """Converts a value; raises a `ValueError` whose message continues after the key and the value."""
@@ -171,3 +175,48 @@ FIELD: dict[FieldType, Read] = {
     FieldType.EVALUATOR: name,
 }
 """How a field of a mission or a trip is read."""
+
+HOME_SIZE = 0.1
+"""The diameter of a drone on the ground, in metres."""
+
+Cells = dict[tuple[int, int], list[tuple["Point", str]]]
+"""Homes and their drones, by squares of the map with sides of that length."""
+
+
+def crowded(home: Point, drone: str, homes: Cells) -> str | None:
+    """Add a home to the others; return what is wrong if it is too near to one of them."""
+    x, y = int(home[0] // HOME_SIZE), int(home[1] // HOME_SIZE)
+    around = [homes.get((x + i, y + j), []) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    near = [other for cell in around for at, other in cell if dist(home, at) < HOME_SIZE]
+    homes.setdefault((x, y), []).append((home, drone))
+    if not near:
+        return None
+    return f"home is where drone {quoted(near[0])} has its own: each needs a place to stand"
+
+
+def wrongly_carried(trips: Sequence[Trip]) -> Iterator[tuple[int, str]]:
+    """Yield each pick without a release, release without a pick, and second item aboard.
+
+    With the index of its trip.
+    """
+    aboard: tuple[int, Trip, Item] | None = None
+    for index, trip in enumerate(trips):
+        if trip.action not in (PICK, RELEASE):
+            continue
+        if trip.item is None:
+            return  # it is invalid: errors after it would be guesses
+        item = quoted(trip.item.name)
+        _, since, carried = aboard or (index, trip, None)
+        if trip.action == PICK and carried is not None:
+            name = quoted(carried.name)
+            yield index, f"picks {item}, but {name} is still aboard since trip {since.name}"
+        elif trip.action == RELEASE and carried is None:
+            yield index, f"releases {item}, which no trip before it has picked"
+        elif trip.action == RELEASE and carried is not None and carried != trip.item:
+            other = f"releases {item}, but trip {since.name} picked {quoted(carried.name)}"
+            same = f"{item} has another mass here than in trip {since.name}"
+            yield index, same if carried.name == trip.item.name else other
+        aboard = (index, trip, trip.item) if trip.action == PICK else None
+    if aboard is not None:
+        index, _, carried = aboard
+        yield index, f"picks {quoted(carried.name)}, which no trip after it releases"

@@ -172,21 +172,19 @@ class LiveDrone:
     async def _asked(self, ask: Callable[[str], Coroutine[Any, Any, T]], name: str) -> T:
         """Make the request within the kernel, and wait for the answer in a hook."""
         kernel, drone = self._kernel, self._now.id
-        answer: Future[T] = Future()
         asking: list[Task[T]] = []
 
         def begin() -> None:
-            task = kernel.spawn(ask(drone), self._key, f"{drone} is asked for {name}")
-            task.over = lambda task: _hand_on(task, answer)
-            asking.append(task)
+            asking.append(kernel.spawn(ask(drone), self._key, f"{drone} is asked for {name}"))
+            asking[0].over = lambda _: None  # an error is told to the hook, not to the kernel
 
         kernel.post(begin)
         try:
-            return await kernel.offer(answer)
+            return await kernel.offer(asking[0])
         except FlightFailed as error:
             raise ActionFailed(str(error)) from error
         finally:
-            if not answer.is_set:
+            if not asking[0].is_set:
                 kernel.post(asking[0].cancel)
 
 
@@ -194,13 +192,6 @@ def can_wait(hook: Callable[..., object]) -> bool:
     """Return whether this is an `async def`, decorated or not."""
     inner = unwrap(getattr(hook, "func", hook))  # a partial carries its function
     return iscoroutinefunction(inner)
-
-
-def _hand_on(task: Task[T], answer: Future[T]) -> None:
-    if task.error is None:
-        answer.set(task.result())
-    else:
-        answer.fail(task.error)
 
 
 _LONGEST = 100

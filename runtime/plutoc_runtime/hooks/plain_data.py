@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import islice
+from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite, log10
 from typing import TYPE_CHECKING, Any, cast
 
@@ -51,12 +50,10 @@ def trip_data(app: App, trip: Trip) -> Data:
         data["fields"] = fields
     if trip.source is not None:
         data["source"] = _place(trip.source)
-    if trip.parameters:
-        data["parameters"] = {
-            _plain(name): _plain(value) for name, value in trip.parameters.items()
-        }
+    if given := trip.parameters:
+        data["parameters"] = {_plain(name): _plain(value) for name, value in given.items()}
     if trip.item is not None:
-        data["item"] = {"name": _plain(trip.item.name), "mass": _plain(trip.item.mass)}
+        data["item"] = item_data(trip.item)
     if trip.added:
         data["added"] = True
     if trip.attempt != 1:
@@ -69,19 +66,18 @@ def trip_data(app: App, trip: Trip) -> Data:
 def _plain(value: object) -> object:
     """Return a field's value, as text if a hook set it to something that is not plain data."""
     kind = type(value)
-    if kind in _SIMPLE:
+    if value is None or kind is bool or kind is float or kind is str:
         return value
     if issubclass(kind, int):
         number = int.__pos__(cast("int", value))
-        return number if number.bit_length() <= MOST_BITS else shown(value)
+        return number if number.bit_length() <= _MOST_BITS else shown(value)
     if issubclass(kind, float):
         real = float.__pos__(cast("float", value))
         return real if isfinite(real) else shown(value)
     return str.__str__(cast("str", value)) if issubclass(kind, str) else shown(value)
 
 
-_SIMPLE = (type(None), bool, float, str)
-MOST_BITS = int(MOST_DIGITS / log10(2))
+_MOST_BITS = int(MOST_DIGITS / log10(2))
 """Bits of a number; a longer one is kept as text."""
 
 
@@ -152,7 +148,7 @@ def item_of(data: Mapping[str, Any] | None) -> Item | None:
 
 def item_data(item: Item | None) -> Data | None:
     """Return an item as plain data."""
-    return None if item is None else {"name": item.name, "mass": item.mass}
+    return None if item is None else {"name": _plain(item.name), "mass": _plain(item.mass)}
 
 
 # Results of hooks
@@ -164,44 +160,78 @@ def value_data(value: object) -> object:
     A photo, and what is not plain, becomes an object with one reserved key. What is too large, too
     deep or circular becomes text as a whole.
     """
-    kept = keepable(value)
-    return _data(value) if kept is value else {"$text": kept}
+    try:
+        return _Writer().write(value)
+    except ANY_ERROR as error:  # its own: a value may be an object of any kind
+        unless_by_a_person(error)
+        return {"$text": shown(value)}
 
 
-def _data(value: Any) -> object:
-    """Return a value as plain data, without calling its methods."""
-    kind = type(value)
-    if value is None or kind is bool:
-        return value
-    if issubclass(kind, int):
-        number = int.__pos__(value)
-        return {"$text": shown(number)} if number.bit_length() > MOST_BITS else number
-    if issubclass(kind, float):
-        real = float.__pos__(value)
-        return real if isfinite(real) else {"$number": repr(real)}
-    if issubclass(kind, str):
+def keepable(value: object) -> object:
+    """Return a hook's result, or its text if it is too large, too deep or circular."""
+    try:
+        _Writer().write(value)
+    except ANY_ERROR as error:  # its own, as above
+        unless_by_a_person(error)
+        return shown(value)
+    return value
+
+
+_DEEPEST, _MOST, _LONGEST = 50, 300_000, 10_000_000
+"""Limits of one value: its depth, its number of parts, its characters."""
+
+
+class _Writer:
+    """Writes one value as plain data, without calling its methods; raises if it is too large."""
+
+    def __init__(self) -> None:
+        self._parts = self._characters = 0
+
+    def write(self, value: Any, depth: int = 0) -> object:
+        """Return a part of the value as plain data."""
+        kind, deeper = type(value), depth + 1
+        self._parts += 1
+        if depth > _DEEPEST or self._parts > _MOST:
+            raise ValueError("too deep, or too many parts")
+        if issubclass(kind, list):
+            return [self.write(part, deeper) for part in list.__iter__(value)]
+        if issubclass(kind, tuple):
+            return {"$tuple": [self.write(part, deeper) for part in tuple.__iter__(value)]}
+        if issubclass(kind, dict) and _are_named(items := tuple(dict.items(value))):
+            return {self._text(name): self.write(part, deeper) for name, part in items}
+        if kind is Photo:
+            return {"$photo": self._photo(value)}
+        if issubclass(kind, float) and not isfinite(real := float.__pos__(value)):
+            return {"$number": repr(real)}
+        plain = _plain(value)
+        if type(plain) is not str:
+            return plain
+        text = self._text(plain)
+        return text if issubclass(kind, str) else {"$text": text}
+
+    def _text(self, value: str) -> str:
+        self._characters += str.__len__(value)
+        if self._characters > _LONGEST:
+            raise ValueError("too many characters")
         return str.__str__(value)
-    if issubclass(kind, list):
-        return [_data(part) for part in list.__iter__(value)]
-    if issubclass(kind, tuple):
-        return {"$tuple": [_data(part) for part in tuple.__iter__(value)]}
-    if issubclass(kind, dict) and are_named(items := tuple(dict.items(value))):
-        return {str.__str__(name): _data(part) for name, part in items}
-    return _photo_data(value) if kind is Photo else {"$text": shown(value)}
+
+    def _photo(self, photo: Photo) -> Data:
+        x, y, z = (float(number) for number in photo.position)
+        data: Data = {
+            "position": [x, y, z],
+            "width": float(photo.width),
+            "height": float(photo.height),
+            "sees": [self._text(str(what)) for what in photo.sees],
+            "sharpness": float(photo.sharpness),
+        }
+        if photo.file is not None:  # older journals have no such key
+            data["file"] = self._text(str(photo.file))
+        return data
 
 
-def _photo_data(photo: Photo) -> object:
-    x, y, z = (float(number) for number in photo.position)
-    data: Data = {
-        "position": [x, y, z],
-        "width": float(photo.width),
-        "height": float(photo.height),
-        "sees": [str(what) for what in photo.sees],
-        "sharpness": float(photo.sharpness),
-    }
-    if photo.file is not None:  # older journals have no such key
-        data["file"] = str(photo.file)
-    return {"$photo": data}
+def _are_named(items: Iterable[tuple[Any, Any]]) -> bool:
+    """Return whether these are values by name, with no name reserved by the journal."""
+    return all(issubclass(type(name), str) and not str.startswith(name, "$") for name, _ in items)
 
 
 def value_of(data: object) -> object:
@@ -232,50 +262,3 @@ def _photo_of(photo: Mapping[str, Any]) -> Photo:
         sharpness=photo["sharpness"],
         file=photo.get("file"),
     )
-
-
-_HARMLESS = (type(None), bool, float)
-
-_DEEPEST, _MOST, _LONGEST = 50, 300_000, 10_000_000
-"""Limits of one value: its depth, its number of parts, its characters."""
-
-
-def keepable(value: object) -> object:
-    """Return a hook's result, or its text if it is too large, too deep or circular."""
-    try:
-        return value if type(value) in _HARMLESS or _fits(value) else shown(value)
-    except ANY_ERROR as error:  # its own: a value may be an object of any kind
-        unless_by_a_person(error)
-        return shown(value)
-
-
-def are_named(items: Iterable[tuple[Any, Any]]) -> bool:
-    """Return whether these are values by name, with no name reserved by the journal."""
-    return all(issubclass(type(name), str) and not str.startswith(name, "$") for name, _ in items)
-
-
-def _fits(value: Any) -> bool:
-    """Return whether all parts of a value are within the limits; its methods are not called."""
-    left, parts, characters = [(value, 0)], 0, 0
-    while left:
-        part, depth = left.pop()
-        kind, texts = type(part), list[str]()
-        inner: Iterator[Any] = iter(())
-        if issubclass(kind, list):
-            inner = list.__iter__(part)
-        elif issubclass(kind, tuple):
-            inner = tuple.__iter__(part)
-        elif issubclass(kind, dict) and are_named(items := tuple(dict.items(part))):
-            texts, inner = [name for name, _ in items], (one for _, one in items)
-        elif kind is Photo:
-            x, y, z = part.position
-            _ = [float(one) for one in (x, y, z, part.width, part.height, part.sharpness)]
-            texts = [*map(str, part.sees), str(part.file)]
-        elif part is not None and not issubclass(kind, (int, float)):
-            texts = [part if issubclass(kind, str) else shown(part)]
-        left += [(one, depth + 1) for one in islice(inner, _MOST)]
-        parts += 1
-        characters += sum(map(str.__len__, texts))
-        if depth > _DEEPEST or parts > _MOST or characters > _LONGEST:
-            return False
-    return True

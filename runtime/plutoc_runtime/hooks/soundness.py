@@ -47,24 +47,12 @@ def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
 @_of_any_class
 def unsound_mission(app: App, mission: Mission[Any]) -> str | None:
     """Return what is wrong with the mission's own attributes, or None."""
-    wrong = None if _is_usual(mission) else _wrong_facts(mission, _MISSION)
+    wrong = _wrong_facts(mission, _MISSION)
     kind = app.trip
     for trip in () if wrong else mission.completed_trips:
         if type(trip) is not kind:
             return f"completed_trips holds {class_of(trip)}"
     return wrong
-
-
-def _is_usual(mission: Mission[Any]) -> bool:
-    """Return whether a mission is obviously sound: a shortcut, as each evaluation asks."""
-    return (
-        type(mission.name) is type(mission.reason) is str
-        and type(mission.completed_trips) is list
-        and type(mission.status) is Status
-        and type(mission.round) is type(mission.attempts) is int
-        and type(mission.index) is type(mission.last_result) is int
-        and 0 <= mission.round < _MOST > mission.attempts >= 0
-    )
 
 
 _TRIP: Mapping[str, tuple[type, ...]] = {

@@ -22,7 +22,7 @@ from pluto_fleet.files.fleet import (
     options_of,
 )
 from pluto_fleet.files.fleet_text import fleet_text
-from pluto_fleet.shared.domain import plan_rules
+from pluto_fleet.shared.domain import values
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
@@ -341,7 +341,7 @@ def test_a_great_fleet_is_read_in_proportion(
         asked += 1
         return dist(a, b)
 
-    monkeypatch.setattr(plan_rules, "dist", counted)
+    monkeypatch.setattr(values, "dist", counted)
     many = [
         f'[[drone]]\nid = "d{i}"\ncategory = "scout"\nhome = [{i % 30 / 5}, {i // 30 / 5}]\n'
         for i in range(900)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.reading import read
-from pluto_fleet.shared.alone.toml import LARGEST
+from pluto_fleet.shared.alone.files import LARGEST
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Item, Mission

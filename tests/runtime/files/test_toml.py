@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.shared.alone.toml import MOST, line_of_long_key
+from pluto_fleet.shared.alone.files import MOST, line_of_long_key
 
 LONG = ".".join("k" * (MOST + 1))
 

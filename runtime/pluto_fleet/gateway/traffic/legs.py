@@ -1,11 +1,15 @@
-"""How near two straight legs come to each other."""
+"""Straight legs: how near two come to each other, and what one leads through."""
 
 from __future__ import annotations
 
 from math import sqrt
 from typing import TYPE_CHECKING
 
+from ...shared.domain.airspace import enters
+from ...shared.domain.text import place
+
 if TYPE_CHECKING:
+    from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Point
 
 
@@ -43,3 +47,12 @@ def between(a: Point, b: Point, c: Point, d: Point) -> float:
 
 _POINT = 1e-18
 """Square metres: a leg shorter than this has no direction."""
+
+
+def leg_problem(airspace: Airspace, start: Point, end: Point) -> str | None:
+    """Return why no drone may fly straight from one permitted point to another, or None."""
+    for count, area in enumerate(airspace.areas, 1):
+        if enters(start[:2], end[:2], area):
+            way = f"the straight way from {place(start)} to {place(end)}"
+            return f"{way} leads through no-fly area {count}"
+    return None

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ...jobs.landing_sites import free_spots, is_free
 from ...shared.fleet.reach import docked
+from .legs import leg_problem
 
 if TYPE_CHECKING:
     from ...jobs.controls import FleetDrone
@@ -128,8 +129,8 @@ def _around(airspace: Airspace, start: Point, end: Point) -> Iterator[tuple[Poin
             )
             if (
                 airspace.problem(turn) is None
-                and airspace.leg_problem(start, turn) is None
-                and airspace.leg_problem(turn, end) is None
+                and leg_problem(airspace, start, turn) is None
+                and leg_problem(airspace, turn, end) is None
             ):
                 yield start, turn, end
 
@@ -223,7 +224,7 @@ class Ground:
         for spot in islice(free_spots(airspace, (x, y, z), self._taken(drone), step), _SPOTS):
             if spot[:2] == here[:2]:
                 continue
-            if z > LOWEST and airspace.leg_problem((x, y, z), spot) is None:
+            if z > LOWEST and leg_problem(airspace, (x, y, z), spot) is None:
                 slope = (spot[0], spot[1], LOWEST)
                 yield Section(drone, (here, *back, slope, spot), False, True, aside=True)
             for level in _LEVELS_ASIDE:

@@ -17,7 +17,7 @@ from .shape import Shape
 if TYPE_CHECKING:
     from ...app import App
     from ...files.fleet import FleetFile
-    from ...shared.domain.geometry import Corner
+    from ...shared.domain.airspace import Corner
 
 PLAUSIBLE: dict[Type, object] = {
     Type.INT: 1,
