@@ -31,8 +31,7 @@ from plutoc_runtime.time.future import Future
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
     from plutoc_runtime.flow.run import Branch, Run
-    from plutoc_runtime.trips.deadlines import Limit
-    from plutoc_runtime.trips.flight import Flight
+    from plutoc_runtime.trips.flight import Flight, Limit
 
 
 def swap_arms(step: Step, _: Step) -> Body:
