@@ -64,10 +64,8 @@ class Engine:
         self.living += 1
 
     def _doomed(self, state: MissionState) -> None:
-        mission = state.mission
-        self.core.kernel.spawn(
-            self._call_off(state), mission_key(mission.index), f"{mission.name} is doomed"
-        )
+        key, name = mission_key(state.mission.index), f"{state.mission.name} is doomed"
+        self.core.kernel.spawn(self._call_off(state), key, name)
 
     async def _call_off(self, state: MissionState) -> None:
         """Cancel a mission once the coroutine that found out that it must end has had its turn.

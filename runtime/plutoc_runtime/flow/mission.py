@@ -153,11 +153,12 @@ class MissionState:
         elif flight.action.hook is None:
             self.complete(flight, result)
         elif flight.called_off is None and flight.own_action is None:
-            flight.own_action = self.core.kernel.spawn(
+            act, name = (
                 flight.action.act(self, flight),
-                mission_key(self.mission.index),
                 f"{self.mission.name}: {flight.trip.action}",
             )
+            key = mission_key(self.mission.index)
+            flight.own_action = self.core.kernel.spawn(act, key, name)
 
     def break_off(self, flight: Flight) -> None:
         """Stop a flight where it is; a report of what it has done still counts, and nothing more begins."""

@@ -115,8 +115,8 @@ class Task(Future[T]):
         try:
             waits_for = coroutine.send(None) if error is None else coroutine.throw(error)
             while not isinstance(waits_for, Future):
-                awaited = type(waits_for).__name__
-                waits_for = coroutine.throw(ForeignAwait(f"it awaited {awaited}"))
+                foreign = ForeignAwait(f"it awaited {type(waits_for).__name__}")
+                waits_for = coroutine.throw(foreign)
         except StopIteration as end:
             returned: T = end.value
         except KeyboardInterrupt:

@@ -129,8 +129,9 @@ class Limits:
         A branch waits for one flight at a time; `number` counts its limits on that.
         """
         limit.flight, self._set[branch, number] = flight, limit
-        if limit.since + limit.span < self._due_at:
-            self._wait(limit.since + limit.span)
+        until = limit.since + limit.span
+        if not until >= self._due_at:  # what is not a number means now
+            self._wait(until)
 
     def _wait(self, until: float) -> None:
         if self._due is not None:
@@ -143,7 +144,7 @@ class Limits:
         now, self._due_at = self._kernel.now, inf
         for (branch, number), limit in tuple(self._set.items()):
             until = limit.since + limit.span
-            if limit.is_void(branch) or until <= now:
+            if limit.is_void(branch) or not until > now:
                 del self._set[branch, number]
                 # after a hook of the mission at that instant, as if it were in a branch of its own
                 key, expire = branch.key + number, partial(limit.expire, branch)
