@@ -134,11 +134,10 @@ class Engine:
         """Return the invalid value that a hook left in the mission; None: the block itself is wrong."""
         fields, names = self.core.app.fields, self.core.app.evaluators
         for trip in mission.trips:
-            wrong = wrong_field(fields, Entity.TRIP, trip, names)
-            if wrong is not None:
+            if wrong := wrong_field(fields, Entity.TRIP, trip, names):
                 return f"trip {trip.name}: its {wrong}"
         wrong = wrong_field(fields, Entity.MISSION, mission, names)
-        return None if wrong is None else f"its {wrong}"
+        return wrong and f"its {wrong}"
 
     def _tell(self, fault: HookFault, mission: Mission[Any]) -> None:
         """Log where a hook failed, and which block called it."""

@@ -169,22 +169,22 @@ class MissionState:
 
     def complete(self, flight: Flight, value: object) -> None:
         """Complete a flight's trip; its drone is free, unless it carries an item."""
-        if flight.trip not in self.mission.trips:
+        core, mission, trip = self.core, self.mission, flight.trip
+        if trip not in mission.trips:
             self.fail(flight, "a hook took it from the mission's trips", mends=False)
             return
-        trip = flight.trip
         if trip.item is not None:
             if trip.action == PICK:
                 self.carries, self.carrier = trip.item, flight.flier
             elif trip.action == RELEASE:
                 self.carries = self.carrier = None
-        self.last_action_end = self.core.kernel.now
-        self.core.transitions.complete(self.mission, trip, value)
+        self.last_action_end = core.kernel.now
+        core.transitions.complete(mission, trip, value)
         if self.carrier is None:
-            self.core.fleet.dismiss(flight.flier)
+            core.fleet.dismiss(flight.flier)
         else:
             self.keep_carrier(flight.flier)
-        flight.set(self.mission.status)
+        flight.set(mission.status)
 
     def keep_carrier(self, drone: Drone) -> None:
         """Reserve the drone that has the item aboard; if it is lost, so is the item."""
