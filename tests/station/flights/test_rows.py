@@ -12,7 +12,6 @@ from pluto_fleet.station.rows import mission_row, recorded_row
 from plutoc_runtime.domain.app import App
 from plutoc_runtime.domain.model import Mission, Trip
 from plutoc_runtime.domain.status import COMPLETED, STANDBY, Status
-from plutoc_runtime.flow.engine import Engine
 from plutoc_runtime.flow.mission import Core, MissionState
 
 
@@ -51,7 +50,7 @@ def row(mission: Mission[Any], state: MissionState | None) -> dict[str, object]:
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
     mission = Mission[Any](name="a", trips=[])
     mission.status = COMPLETED
-    state = MissionState(cast("Core", None), mission, cast("Engine", None))
+    state = MissionState(cast("Core", None), mission, lambda _: None)
     state.at = "judge"
     seen = row(mission, state)
     assert (seen["status"], seen["at"]) == ("STANDBY", ["judge"])
@@ -68,7 +67,7 @@ def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
     trip = Trip(name="1", action="measure", target=(1.0, 1.0, 1.0))
     mission = Mission[Any](name="a", trips=[trip])
     mission.status = STANDBY
-    state = MissionState(cast("Core", None), mission, cast("Engine", None))
+    state = MissionState(cast("Core", None), mission, lambda _: None)
     coroutine = flow(mission)
     coroutine.send(None)
     state.task = cast("Any", Waiting(coroutine))
