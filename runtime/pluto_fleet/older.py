@@ -27,6 +27,7 @@ _MOVED = {
     "fleet.policies.own": "fleet.own_policy",
     "flow.verdict": "hooks.context",
     "hooks.live_drone": "hooks.context",
+    "trips.deadlines": "trips.flight",
 }
 """The former modules, and where their names are today."""
 

@@ -25,12 +25,12 @@ from .fleet.waiting import hindrances
 from .flow.control import Control
 from .flow.engine import Engine
 from .flow.mission import Core
-from .flow.recording import Recording
-from .flow.restore import Restorer
+from .flow.restore import Recording, Restorer
 from .flow.standing import drone_standing, mission_of, standing_of, whereabouts_of
 from .hooks.plain_data import value_data
 from .time.kernel import FLEET
 from .time.told import AT_ONCE, HookRunner, ToldTime
+from .trips.flight import Limits
 from .trips.transitions import Transitions
 
 if TYPE_CHECKING:
@@ -86,11 +86,12 @@ class Brain:
             transitions=Transitions(kernel, trace, results),
             queue=queue,
             fleet=Fleet(kernel, trace, orders, drones, queue, after_trip),
+            limits=Limits(kernel),
             on_record=self._recording.on_record if recorded else None,
         )
-        self._engine = engine = Engine(core)
-        self._restorer = Restorer(core, engine, self._states)
-        self._control = Control(core, engine, self._states, self._restorer)
+        self._engine = engine = Engine(core, self._states)
+        self._restorer = Restorer(engine)
+        self._control = Control(engine, self._restorer)
         self._whole: Task[float] | None = None
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
@@ -99,8 +100,9 @@ class Brain:
 
     def _begin(self, missions: Sequence[Mapping[str, Any]]) -> None:
         first = len(self._states)
-        begun = [mission_of(self._app, one, first + i) for i, one in enumerate(missions)]
-        self._states.update((state.mission.name, state) for state in self._engine.start(begun))
+        self._engine.start(
+            [mission_of(self._app, one, first + i) for i, one in enumerate(missions)]
+        )
         self._see_through()
 
     def _see_through(self) -> None:
@@ -117,8 +119,7 @@ class Brain:
         self._kernel.call(now, AT_ONCE, self._go_on, (standing, drones))
 
     def _go_on(self, told: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
-        standing, drones = told
-        fleet = self._core.fleet
+        (standing, drones), fleet = told, self._core.fleet
         for drone in fleet.drones:
             if drone.id in standing.get("retired", ()):
                 fleet.retired.add(drone)
@@ -134,9 +135,7 @@ class Brain:
         never; `skip` a trip that is not the next one; `prioritise` one; `retire` or `bring-back` a drone;
         `probe` whether a flight's action was done: the answer is an order to note what was `probed`.
         """
-        said: list[str] = []
-        self._kernel.call(now, AT_ONCE, lambda _: said.append(self._control.perform(request)))
-        return said[0]
+        return self._kernel.call(now, AT_ONCE, self._control.perform, request)
 
     def tell(self, message: Mapping[str, Any], now: float) -> None:
         """Take over what has happened outside; what is unknown is ignored.
@@ -150,10 +149,8 @@ class Brain:
             for drone, told in message["telemetry"].items():
                 if drone in self._orders.drones:
                     self._orders.drones[drone].take(told)
-        if "done" in message:
-            self._kernel.call(now, AT_ONCE, self._orders.done, message)
-        elif "failed" in message:
-            self._kernel.call(now, AT_ONCE, self._orders.failed, message)
+        if "done" in message or "failed" in message:
+            self._kernel.call(now, AT_ONCE, self._orders.answered, message)
         elif "hook" in message:
             self._kernel.call(now, AT_ONCE, self._kernel.hook_ended, message)
         elif "durable" in message:

@@ -31,8 +31,7 @@ from plutoc_blocks.timer_monitor.step import timer_limit
 if TYPE_CHECKING:
     from pluto_fleet.shared.domain.status import Status
     from pluto_fleet.shared.flow.run import Branch, Run
-    from pluto_fleet.shared.trips.deadlines import Limit
-    from pluto_fleet.shared.trips.flight import Flight
+    from pluto_fleet.shared.trips.flight import Flight, Limit
 
 
 def swap_arms(step: Step, _: Step) -> Body:

@@ -11,7 +11,7 @@ from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow.run import watch
 from plutoc_runtime.time.kernel import EventKind
-from plutoc_runtime.trips.deadlines import Limit
+from plutoc_runtime.trips.flight import Limit
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Trip

@@ -111,7 +111,7 @@ def no_drone_is_asked(patch: pytest.MonkeyPatch) -> None:
 
     def take_up(self: Fleet, drone: Any, _: object) -> None:
         drone.status = DroneStatus.FREE
-        self.queue.moved(drone, DroneStatus.OFFLINE)
+        self.queue.moved(drone)
 
     patch.setattr(Fleet, "take_up", take_up)
 

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from .orders import Orders
     from .queue import Queue
 
+Errand = Callable[["Drone"], Coroutine[Any, Any, None]]
+"""What a drone does by itself: it returns, lands or recovers."""
+
 
 class Fleet:
     """The drones of one app."""
@@ -98,8 +101,7 @@ class Fleet:
 
     def recover(self, drone: Drone, reason: str = "") -> None:
         """Recover a drone whose flight has failed: it is not allocated again before it is home."""
-        back = partial(self._bring_back, reason=reason)
-        self._send(drone, DroneStatus.RECOVERING, back, "recovers")
+        self._send(drone, _RECOVERING, partial(self._bring_back, reason=reason), "recovers")
 
     def never_flew(self, drone: Drone) -> None:
         """Take a drone back that was allocated and not launched."""
@@ -110,46 +112,32 @@ class Fleet:
         while under_way := [task for task in self.errands.values() if not task.is_set]:
             await under_way[0].ended()
 
-    def _send(
-        self,
-        drone: Drone,
-        status: DroneStatus,
-        errand: Callable[[Drone], Coroutine[Any, Any, None]],
-        what: str,
-    ) -> None:
+    def _send(self, drone: Drone, status: DroneStatus, errand: Errand, what: str) -> None:
         self.engage(drone)
         self._become(drone, status)
-        self.errands[drone] = self._kernel.spawn(
-            self._run(errand, drone), self._key(drone), f"{drone.id} {what}"
-        )
+        run, key = self._run(errand, drone), self._key(drone)
+        self.errands[drone] = self._kernel.spawn(run, key, f"{drone.id} {what}")
 
-    async def _run(
-        self, errand: Callable[[Drone], Coroutine[Any, Any, None]], drone: Drone
-    ) -> None:
+    async def _run(self, errand: Errand, drone: Drone) -> None:
         await errand(drone)
         del self.errands[drone]
 
     def _become(self, drone: Drone, status: DroneStatus) -> None:
-        before = drone.status
-        if before is not status:
+        if drone.status is not status:
             drone.status = status
             if self._trace.live:
                 self._note(drone)
-        self.queue.moved(drone, before)
+        self.queue.moved(drone)
         if self._change is not None:
             change, self._change = self._change, None
             change.set(None)
 
     def _note(self, drone: Drone) -> None:
-        x, y, z = drone.location
-        lost = drone.status is DroneStatus.LOST
-        self._trace.note(
-            _EVENT[drone.status],
-            drone=drone.id,
-            battery=round(drone.battery_level, 4),
-            at=[round(x, 3), round(y, 3), round(z, 3)],
-            **({"reason": self.unready.get(drone, "")} if lost else {}),
-        )
+        at = [round(metres, 3) for metres in drone.location]
+        facts: dict[str, object] = {"battery": round(drone.battery_level, 4), "at": at}
+        if drone.status is DroneStatus.LOST:
+            facts["reason"] = self.unready.get(drone, "")
+        self._trace.note(f"drone.{drone.status.value.lower()}", drone=drone.id, **facts)
 
     async def _stay(self, drone: Drone) -> None:
         try:
@@ -177,15 +165,19 @@ class Fleet:
         else:
             await self._settle(drone)
 
-    async def _bring_back(self, drone: Drone, reason: str) -> None:
-        """Bring a drone home after a failed flight, or give it up as lost."""
-        self._become(drone, DroneStatus.RECOVERING)
+    async def _bring_back(self, drone: Drone, reason: str, repaired: bool = False) -> None:
+        """Bring a drone home, or give it up as lost; a repaired one may say that it is not ready."""
+        self._become(drone, _RECOVERING)
         why = await self._orders.recover(drone.id)
-        if why is None:
+        if drone in self.lost:
+            self._lose(drone, self.lost[drone])
+        elif why is not None:
+            why = self._not_ready(drone, why) if repaired else why
+            reason = cut_off(printable(reason), LONGEST) or "it could not be brought home"
+            self._lose(drone, why or reason)
+        else:
             self.unready.pop(drone, None)
             await self._settle(drone)
-        else:
-            self._lose(drone, why or cut_off(printable(reason), LONGEST) or _NOT_HOME)
 
     def _lose(self, drone: Drone, reason: str) -> None:
         self.unready[drone] = reason
@@ -201,8 +193,8 @@ class Fleet:
         """
         reached, landed = report.get("reached", True), report.get("landed", True)
         if drone in self.lost:
-            if reached and not landed:  # it comes home, and stays lost
-                self._send(drone, DroneStatus.RECOVERING, self._bring_down, "comes down")
+            if reached and not landed:
+                self.recover(drone)  # it comes home, and stays lost
             else:
                 self._lose(drone, self.lost[drone])
             return
@@ -212,10 +204,6 @@ class Fleet:
             self.recover(drone, why or f"{drone.id} does not answer")
             if why and landed:
                 self.unready[drone] = why
-
-    async def _bring_down(self, drone: Drone) -> None:
-        await self._orders.recover(drone.id)
-        self._lose(drone, self.lost[drone])
 
     def _not_ready(self, drone: Drone, why: str) -> str:
         """Note why a drone may not fly, if it says why, and return that."""
@@ -241,20 +229,11 @@ class Fleet:
         if drone.status is DroneStatus.LOST or drone in self.unready:
             self._orders.mended(drone.id)  # its errand may be waiting for this
         if drone.status is DroneStatus.LOST:
-            self._send(drone, DroneStatus.RECOVERING, self._come_back, "comes back")
+            unknown = "it was brought back, and could not be reached"
+            back = partial(self._bring_back, reason=unknown, repaired=True)
+            self._send(drone, _RECOVERING, back, "comes back")
         elif drone.status is DroneStatus.OFFLINE and not self._rests(drone):
             self.send_home(drone)
-
-    async def _come_back(self, drone: Drone) -> None:
-        """Bring a repaired drone home, or say why that failed."""
-        self._become(drone, DroneStatus.RECOVERING)
-        why = await self._orders.recover(drone.id)
-        if why is None:
-            await self._settle(drone)
-        else:
-            self._lose(drone, self._not_ready(drone, why) or _NOT_REACHED)
-
-    # On the ground
 
     async def _settle(self, drone: Drone) -> None:
         """Free a healthy drone on the ground if its battery allows it, or charge it."""
@@ -265,22 +244,22 @@ class Fleet:
     def _rests(self, drone: Drone) -> bool:
         """Free it, or charge it first; return False if it must go home for that, as if it is retired."""
         if drone in self.retired:
-            docked_ = self._is_docked(drone)
-            if docked_:
-                self._become(drone, DroneStatus.OFFLINE)
-            return docked_
+            if not self._is_docked(drone):
+                return False
+            self._become(drone, DroneStatus.OFFLINE)
+            return True
         missing = drone.category.reserve - drone.battery_level
         if missing < 0:
             self._become(drone, _FREE)
-        elif self._is_docked(drone):
-            self._become(drone, DroneStatus.CHARGING)
-            charged = self._kernel.now + missing * drone.category.charge_time + 0.001
-            self._kernel.at(
-                charged, EventKind.CLOCK, self._key(drone), partial(self._charged, drone)
-            )
-        else:
+            return True
+        if not self._is_docked(drone):
             return False
+        self._become(drone, DroneStatus.CHARGING)
+        self._look_at(drone, self._kernel.now + missing * drone.category.charge_time + 0.001)
         return True
+
+    def _look_at(self, drone: Drone, when: float) -> None:
+        self._kernel.at(when, EventKind.CLOCK, self._key(drone), partial(self._charged, drone))
 
     def _charged(self, drone: Drone) -> None:
         """Free a drone whose charging time is over; check again later if its battery is still low."""
@@ -289,8 +268,7 @@ class Fleet:
         if drone.battery_level > drone.category.reserve:
             self._become(drone, _FREE)
         else:
-            later = self._kernel.now + _LOOK_AGAIN
-            self._kernel.at(later, EventKind.CLOCK, self._key(drone), partial(self._charged, drone))
+            self._look_at(drone, self._kernel.now + _LOOK_AGAIN)
 
     def _fetch_what_is_low(self) -> None:
         """Send home to charge the drones that missions wait for."""
@@ -312,17 +290,10 @@ class Fleet:
         return FLEET + 1 + drone.index
 
 
-_FREE = DroneStatus.FREE
+_FREE, _RECOVERING = DroneStatus.FREE, DroneStatus.RECOVERING
 
 _LOOK_AGAIN = 10.0
 """Seconds between two checks of a battery that should be charged by now."""
 
-_NOT_HOME = "it could not be brought home"
-_NOT_REACHED = "it was brought back, and could not be reached"
-"""Why a drone is lost, if it gives no reason."""
-
 LONGEST = 500
 """Characters of the reason why a drone is lost."""
-
-_EVENT = {status: f"drone.{status.value.lower()}" for status in DroneStatus}
-"""The name of the event for each new status of a drone."""

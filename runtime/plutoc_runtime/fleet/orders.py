@@ -47,20 +47,17 @@ class Orders:
 
     # What is told
 
-    def done(self, message: Mapping[str, Any]) -> None:
-        """Called when an order was carried out; one that is not known, or was answered, is ignored."""
-        answer = self._answer(message["done"])
-        if answer is not None:
-            answer(value_of(message["value"]) if "value" in message else None)
-
-    def failed(self, message: Mapping[str, Any]) -> None:
-        """Called when an order failed, with the `failure` and the `reason`."""
-        answer = self._answer(message["failed"])
-        if answer is not None:
+    def answered(self, message: Mapping[str, Any]) -> None:
+        """Called when an order was `done` or has `failed`; an unknown or earlier one is ignored."""
+        failed = "failed" in message
+        order = message["failed"] if failed else message["done"]
+        answer = self._answers.pop(order, None) if type(order) is int else None
+        if answer is None:
+            return
+        if failed:
             answer(failure_of(message))
-
-    def _answer(self, order: object) -> Answer | None:
-        return self._answers.pop(order, None) if type(order) is int else None
+        else:
+            answer(value_of(message["value"]) if "value" in message else None)
 
     # Flights
 

@@ -81,8 +81,8 @@ class Queue:
         self._fresh: list[Request] = []
         """The requests that have not been looked at yet."""
         self._arrivals = 0
-        self._ready = [drone for drone in drones if drone.status is _FREE]
-        """The free drones that may be chosen, in the fleet's order."""
+        self._ready: list[Drone] = []
+        """While it is served: the free drones that may be chosen, in the fleet's order."""
         self._low: dict[Drone, float] = {}
         """The other free drones: too low for every request so far, and until when."""
         self._one_is_lost = False
@@ -99,7 +99,7 @@ class Queue:
         self._arrivals += 1
         insort(self._entries, (rank, -self._arrivals, request))
         self._fresh.append(request)
-        self.changed()
+        self._kernel.last = self._serve
         return request
 
     def leave(self, request: Request) -> None:
@@ -107,14 +107,10 @@ class Queue:
         self._drop(request)
         request.is_set = True
 
-    def moved(self, drone: Drone, before: DroneStatus) -> None:
+    def moved(self, drone: Drone) -> None:
         """Called when a drone's status was set: serve the queue at the end of this instant."""
-        after = drone.status
-        if before is _FREE and self._low.pop(drone, None) is None:
-            self._ready.remove(drone)
-        if after is _FREE:
-            insort(self._ready, drone, key=_in_the_file)
-        if after is _LOST:
+        self._low.pop(drone, None)
+        if drone.status is _LOST:
             self._one_is_lost = True
         self.changed()
 
@@ -168,6 +164,8 @@ class Queue:
     def _serve(self) -> None:
         if self._low:
             self._put_back_the_charged()
+        low = self._low
+        self._ready = [one for one in self._drones if one.status is _FREE and one not in low]
         self._share_out()
         if self._entries:
             self._refuse_what_cannot_be()
@@ -234,22 +232,22 @@ class Queue:
         asked = tuple(self.waiters()) if self._one_is_lost else self._fresh
         self._one_is_lost = False
         for request in asked:
-            if not request.is_set and not self._any_able(request):
-                self._refuse(request, self._unable(request))
+            if not request.is_set and (why := self._never(request)) is not None:
+                lacking = f"no drone of the fleet can fly trip {request.trip.name}: {why}"
+                self._refuse(request, MissionFailed(lacking))
 
-    def _any_able(self, request: Request) -> bool:
+    def _never(self, request: Request) -> str | None:
+        """Return why none of the drones that are left can ever fly a trip; None: one can."""
+        reasons: list[str] = []
         for drone in self._drones:
-            if drone.status is not _LOST and request.never(drone) is None:
-                return True
-        return False
-
-    def _unable(self, request: Request) -> MissionFailed:
-        left = [drone for drone in self._drones if drone.status is not _LOST]
-        because = [request.never(drone) or "" for drone in left]
-        if lost := len(self._drones) - len(left):
-            because.insert(0, f"{lost} of {len(self._drones)} drones are lost")
-        why = "; ".join(dict.fromkeys(because))
-        return MissionFailed(f"no drone of the fleet can fly trip {request.trip.name}: {why}")
+            if drone.status is not _LOST:
+                why = request.never(drone)
+                if why is None:
+                    return None
+                reasons.append(why)
+        if lost := len(self._drones) - len(reasons):
+            reasons.insert(0, f"{lost} of {len(self._drones)} drones are lost")
+        return "; ".join(dict.fromkeys(reasons))
 
     # Drones that are too low
 
@@ -259,7 +257,6 @@ class Queue:
         for drone, until in list(self._low.items()):
             if until <= self._kernel.now or any(request.able(drone) for request in fresh):
                 del self._low[drone]
-                insort(self._ready, drone, key=_in_the_file)
             else:
                 self._low[drone] = min(until, self._charged(drone, fresh))
 
@@ -268,9 +265,8 @@ class Queue:
 
         A drone that suffices and was not chosen (by a policy, or as no more may fly) stays ready.
         """
-        for drone in tuple(self._ready):
+        for drone in self._ready:
             if not any(request.able(drone) for request in self.waiters()):
-                self._ready.remove(drone)
                 self._low[drone] = self._charged(drone, self.waiters())
 
     def _charged(self, drone: Drone, requests: Iterable[Request]) -> float:
@@ -283,9 +279,10 @@ class Queue:
 
     def _look_again_when_charged(self) -> None:
         soonest = min(self._low.values())
-        if soonest != self._recheck_at:
-            if self._recheck is not None:
-                self._recheck.cancel()
-            self._recheck_at, self._recheck = soonest, None
-            if soonest < inf:
-                self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
+        if soonest == self._recheck_at:
+            return
+        if self._recheck is not None:
+            self._recheck.cancel()
+        self._recheck_at, self._recheck = soonest, None
+        if soonest < inf:
+            self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)

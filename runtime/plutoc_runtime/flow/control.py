@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.model import Drone, Trip
     from .engine import Engine
-    from .mission import Core, MissionState
+    from .mission import MissionState
     from .restore import Restorer
 
 PRIORITY = "priority"
@@ -29,11 +29,8 @@ Request = Mapping[str, Any]
 class Control:
     """Carries out commands; each returns what it did, or raises `BadInput`."""
 
-    def __init__(
-        self, core: Core, engine: Engine, states: Mapping[str, MissionState], restorer: Restorer
-    ) -> None:
-        self._core, self._engine, self._states = core, engine, states
-        self._restorer = restorer
+    def __init__(self, engine: Engine, restorer: Restorer) -> None:
+        self._core, self._engine, self._restorer = engine.core, engine, restorer
 
     def perform(self, request: Request) -> str:
         """Carry out a command."""
@@ -111,7 +108,7 @@ class Control:
     # Which mission, trip or drone
 
     def _state(self, request: Request) -> MissionState:
-        state = self._states.get(request["mission"])
+        state = self._engine.states.get(request["mission"])
         if state is None or state.ended:
             raise BadInput(f"mission {request['mission']} is not under way")
         return state

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from gc import freeze
 from typing import Any
 
@@ -20,68 +21,65 @@ from .run import Run
 class Engine:
     """All missions of one running app."""
 
-    def __init__(self, core: Core) -> None:
-        self._core = core
+    def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
+        self.core, self.states = core, states
         self.living = 0
-        """How many missions have not ended."""
+        """How many missions are on their way through their graphs."""
         self.done: Future[None] = Future()
         """Set when the last mission has ended, or was suspended."""
-        self.suspended: dict[str, MissionState] = {}
-        """The missions that were taken out of their graphs, by name."""
 
-    def start(self, missions: Sequence[Mission[Any]]) -> list[MissionState]:
+    def start(self, missions: Sequence[Mission[Any]]) -> None:
         """Start the missions, all at the same instant."""
         # All this lives until the end: the garbage collector need not traverse it each time, neither
         # while the missions start nor afterwards.
         freeze()
         states = [self.new_state(mission) for mission in missions]
         for state in states:
+            self.states[state.mission.name] = state
             self.enter(state, UNEXECUTED)
         freeze()
-        return states
 
     async def see_through(self) -> float:
         """Wait until every mission has ended and every drone has landed; return when the last one ended."""
         while True:
             await self.done
-            ended = self._core.kernel.now
-            await self._core.fleet.all_down()
+            ended = self.core.kernel.now
+            await self.core.fleet.all_down()
             if self.done.is_set:  # no mission has been resumed meanwhile
                 return ended
 
     def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the initial state of a mission."""
-        return MissionState(self._core, mission, self)
+        return MissionState(self.core, mission, self._doomed)
 
     def enter(self, state: MissionState, status: Status) -> None:
         """Start a mission's flow, at its beginning or at the block where it resumes."""
         if self.done.is_set:
             self.done = Future()
-        core, mission, key = self._core, state.mission, mission_key(state.mission.index)
+        core, mission, key = self.core, state.mission, mission_key(state.mission.index)
         run = Run(mission, state, key)
         run.at, run.status = state.at, status
         run.task = state.task = task = core.kernel.spawn(core.app.flow(run), key, mission.name)
-        task.over = state
+        task.over = partial(self._ended, state)
         self.living += 1
 
-    def doomed(self, state: MissionState) -> None:
-        """Cancel a mission that must end, once the coroutine that found out has finished its turn."""
-        mission = state.mission
-        self._core.kernel.spawn(
-            self._call_off(state), mission_key(mission.index), f"{mission.name} is doomed"
-        )
+    def _doomed(self, state: MissionState) -> None:
+        key, name = mission_key(state.mission.index), f"{state.mission.name} is doomed"
+        self.core.kernel.spawn(self._call_off(state), key, name)
 
     async def _call_off(self, state: MissionState) -> None:
-        """Cancel it in a task of its own, before coroutines that are woken later at this instant."""
+        """Cancel a mission once the coroutine that found out that it must end has had its turn.
+
+        So this is a task of its own; it comes before coroutines that are woken later at this instant.
+        """
         if state.task is not None:
             state.task.cancel()
-        elif self.suspended.pop(state.mission.name, None) is state:
+        elif state.suspended and self.states[state.mission.name] is state:
             self._end(state, FAILED, state.doom or "it was called off")
 
     def suspend(self, state: MissionState) -> None:
         """Take a mission out of its graph; its flight is broken off, and what has its item waits there."""
         self._leave(state)
-        self.suspended[state.mission.name] = state
         flight = state.in_flight
         if flight is not None:
             state.break_off(flight)
@@ -89,17 +87,16 @@ class Engine:
             if flight.trip.item is not None:
                 state.carrier = flight.flier
             if state.carrier is None:
-                self._core.fleet.recover(flight.flier)
+                self.core.fleet.recover(flight.flier)
             else:
                 state.keep_carrier(state.carrier)
         if state.allocated is not None and state.allocated is not state.carrier:
-            self._core.fleet.never_flew(state.allocated)
+            self.core.fleet.never_flew(state.allocated)
         state.allocated = None
         self.look_for_the_end()
 
     def cancel(self, state: MissionState, status: Status, reason: str) -> None:
         """End a mission, wherever it is."""
-        self.suspended.pop(state.mission.name, None)
         self._leave(state)
         self._end(state, status, reason)
 
@@ -110,7 +107,7 @@ class Engine:
             task.over = None
             task.cancel()
 
-    def ended(self, state: MissionState, task: Task[Status]) -> None:
+    def _ended(self, state: MissionState, task: Task[Status]) -> None:
         """End a mission by the outcome of its coroutine."""
         self.living -= 1
         error, reason = task.error, ""
@@ -128,25 +125,24 @@ class Engine:
             status, reason = FAILED, wrong
         else:
             crash = as_crash(error)
-            blame(crash, self._core.app.flow)
-            self._core.kernel.crash(crash)
+            blame(crash, self.core.app.flow)
+            self.core.kernel.crash(crash)
             return
         self._end(state, status, reason)
 
     def _wrong(self, mission: Mission[Any]) -> str | None:
         """Return the invalid value that a hook left in the mission; None: the block itself is wrong."""
-        fields, names = self._core.app.fields, self._core.app.evaluators
+        fields, names = self.core.app.fields, self.core.app.evaluators
         for trip in mission.trips:
-            wrong = wrong_field(fields, Entity.TRIP, trip, names)
-            if wrong is not None:
+            if wrong := wrong_field(fields, Entity.TRIP, trip, names):
                 return f"trip {trip.name}: its {wrong}"
         wrong = wrong_field(fields, Entity.MISSION, mission, names)
-        return None if wrong is None else f"its {wrong}"
+        return wrong and f"its {wrong}"
 
     def _tell(self, fault: HookFault, mission: Mission[Any]) -> None:
         """Log where a hook failed, and which block called it."""
-        block = blamed(fault, self._core.app.flow)
-        self._core.log(fault.detail + (f"\nin block {block}" if block else ""), mission.name)
+        block = blamed(fault, self.core.app.flow)
+        self.core.log(fault.detail + (f"\nin block {block}" if block else ""), mission.name)
 
     def look_for_the_end(self) -> None:
         """Set `done` if every mission has ended."""
@@ -154,7 +150,7 @@ class Engine:
             self.done.set(None)
 
     def _end(self, state: MissionState, status: Status, reason: str) -> None:
-        mission, fleet = state.mission, self._core.fleet
+        mission, fleet = state.mission, self.core.fleet
         flight = state.in_flight
         if flight is not None:
             state.break_off(flight)
@@ -165,5 +161,5 @@ class Engine:
             fleet.recover(state.carrier)  # what it carries must be taken off
         state.allocated = state.carrier = state.carries = None
         state.ended = True
-        self._core.transitions.end(mission, status, reason)
+        self.core.transitions.end(mission, status, reason)
         self.look_for_the_end()

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import FlightFailed
@@ -14,12 +14,12 @@ from ..domain.text import bounded
 from ..hooks.calls import LONGEST_LOG, look
 from ..hooks.plain_data import change_data
 from ..time.kernel import mission_key
-from ..trips.flight import Flight
+from ..trips.flight import Flight, Limits
 
 if TYPE_CHECKING:
     from ..domain.airspace import Airspace
     from ..domain.app import App
-    from ..domain.model import Drone, Item, Mission, ResultStore, Trip
+    from ..domain.model import Drone, Item, Mission, ResultStore
     from ..domain.trace import Trace
     from ..fleet.fleet import Fleet
     from ..fleet.orders import Orders
@@ -27,18 +27,6 @@ if TYPE_CHECKING:
     from ..time.kernel import Task
     from ..time.told import ToldTime
     from ..trips.transitions import Transitions
-
-
-class MissionSupervisor(Protocol):
-    """Ends missions: the engine."""
-
-    def ended(self, state: MissionState, task: Task[Status]) -> None:
-        """Called when a mission's coroutine has ended."""
-        ...
-
-    def doomed(self, state: MissionState) -> None:
-        """Called when a mission must end, even if its graph would continue."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -54,8 +42,7 @@ class Core:
     transitions: Transitions
     queue: Queue
     fleet: Fleet
-    limits: dict[float, Any] = field(default_factory=dict)
-    """The limits on flights that are watched, by length (trips/deadlines.py)."""
+    limits: Limits
     on_record: Callable[[], Awaitable[None]] | None = None
     """Waits until everything up to now is durable; None: this run is never resumed."""
 
@@ -76,6 +63,7 @@ class Core:
 Delay = tuple[str, str, int, int]
 """A delay: block, trip, round, attempt."""
 
+
 MOST_CALLS = 100_000
 """Calls of hooks between two launches; a mission with more is in an endless loop, whether its hooks
 return at once or sleep."""
@@ -87,7 +75,8 @@ class MissionState:
 
     core: Core
     mission: Mission[Any]
-    supervisor: MissionSupervisor
+    doomed: Callable[[MissionState], object]
+    """Called when it must end, even if its graph would continue."""
     task: Task[Status] | None = None
     """The coroutine that runs its flow."""
     at: str | None = None
@@ -118,15 +107,16 @@ class MissionState:
     doom: str | None = None
     """Why it must end at once: a failure that no retry can repair."""
 
-    def __call__(self, task: Task[Status]) -> None:
-        """Called when its coroutine has ended."""
-        self.supervisor.ended(self, task)
+    @property
+    def suspended(self) -> bool:
+        """Whether it was taken out of its graph."""
+        return self.task is None and not self.ended
 
     def end(self, reason: str) -> None:
         """End it as FAILED, wherever it is in its graph; only the first reason counts."""
         if self.doom is None:
             self.doom = reason
-            self.supervisor.doomed(self)
+            self.doomed(self)
 
     def calls_too_often(self) -> bool:
         """Count a call of a hook; return whether the mission loops without ever launching."""
@@ -147,62 +137,54 @@ class MissionState:
         trip = mission.trips[0] if mission.trips else mission.current
         if core.fleet.errands:
             core.fleet.engage(drone)
-        self.flight = flight = self.new_flight(
-            trip, drone, last is not None and last.trip is trip and last.failed
-        )
+        retry = last is not None and last.trip is trip and last.failed
+        action, now = core.app.actions[trip.action], core.kernel.now
+        self.flight = flight = Flight(mission, trip, drone, action, now, retry)
         self.allocated, self.calls = None, 0
         core.transitions.launch(mission, trip, drone)
         core.orders.fly(drone.id, partial(self.reported, flight), flight.order)
-
-    def new_flight(self, trip: Trip, drone: Drone, retry: bool) -> Flight:
-        """Return a flight of one of its trips, which tells this mission what comes of it."""
-        action, now = self.core.app.actions[trip.action], self.core.kernel.now
-        return Flight(self.mission, trip, drone, action, now, retry)
 
     def reported(self, flight: Flight, result: object) -> None:
         """Called when a flight has arrived, is done, or has failed."""
         if self.flight is not flight or flight.trip.status is not _EXECUTING:
             return  # it was aborted meanwhile
         if isinstance(result, FlightFailed):
-            self.fail(flight, flight.overdue or str(result))
-        elif flight.hook is None:
+            self.fail(flight, flight.called_off or str(result))
+        elif flight.action.hook is None:
             self.complete(flight, result)
-        elif not flight.called_off and flight.own_action is None:
-            flight.own_action = self.core.kernel.spawn(
-                self.core.app.actions[flight.trip.action].act(self, flight),
-                mission_key(self.mission.index),
+        elif flight.called_off is None and flight.own_action is None:
+            act, name = (
+                flight.action.act(self, flight),
                 f"{self.mission.name}: {flight.trip.action}",
             )
+            key = mission_key(self.mission.index)
+            flight.own_action = self.core.kernel.spawn(act, key, name)
 
     def break_off(self, flight: Flight) -> None:
         """Stop a flight where it is; a report of what it has done still counts, and nothing more begins."""
-        flight.called_off = True
+        flight.called_off = ""
         if flight.own_action is not None:
             flight.own_action.cancel()
         self.core.orders.break_off(flight.flier.id)
 
     def complete(self, flight: Flight, value: object) -> None:
         """Complete a flight's trip; its drone is free, unless it carries an item."""
-        if flight.trip not in self.mission.trips:
+        core, mission, trip = self.core, self.mission, flight.trip
+        if trip not in mission.trips:
             self.fail(flight, "a hook took it from the mission's trips", mends=False)
             return
-        self.record_done(flight, value)
-        if self.carrier is None:
-            self.core.fleet.dismiss(flight.flier)
-        else:
-            self.keep_carrier(flight.flier)
-        flight.set(self.mission.status)
-
-    def record_done(self, flight: Flight, value: object) -> None:
-        """Complete a trip and its item; the drone is left as it is."""
-        trip = flight.trip
         if trip.item is not None:
             if trip.action == PICK:
                 self.carries, self.carrier = trip.item, flight.flier
             elif trip.action == RELEASE:
                 self.carries = self.carrier = None
-        self.last_action_end = self.core.kernel.now
-        self.core.transitions.complete(self.mission, trip, value)
+        self.last_action_end = core.kernel.now
+        core.transitions.complete(mission, trip, value)
+        if self.carrier is None:
+            core.fleet.dismiss(flight.flier)
+        else:
+            self.keep_carrier(flight.flier)
+        flight.set(mission.status)
 
     def keep_carrier(self, drone: Drone) -> None:
         """Reserve the drone that has the item aboard; if it is lost, so is the item."""
@@ -236,16 +218,14 @@ class MissionState:
         an action that is not safe to repeat is reported first.
         """
         core, flight = self.core, self.in_flight
-        if flight is None or flight.called_off:
+        if flight is None or flight.called_off is not None:
             return
-        repeatable = (
-            flight.hook is not None or core.app.actions[flight.trip.action].repeat == "safe"
-        )
+        repeatable = flight.action.hook is not None or flight.action.repeat == "safe"
         if core.on_record is None or repeatable:
             self.break_off(flight)
             self.fail(flight, reason)
         else:
-            flight.called_off, flight.overdue = True, reason
+            flight.called_off = reason
             core.orders.settle(flight.drone, flight.id)
 
 

@@ -1,30 +1,107 @@
-"""Resuming missions from their records, with what is reported of the drones."""
+"""What the events of a run must say so that another run can go on from them, and going on.
+
+Each mission stands as its record says, and the flights with it, with what is reported of the drones.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections import deque
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..domain.fields import Entity
 from ..domain.status import RUNNING, STANDBY, UNEXECUTED, Status
 from ..fleet.orders import failure_of
-from ..hooks.plain_data import item_of, value_of
+from ..hooks.plain_data import (
+    fields_of,
+    item_of,
+    mission_data,
+    trip_data,
+    value_data,
+    value_of,
+)
+from ..time.future import Future
+from ..trips.flight import Flight
 from .standing import update
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Mission, Trip
+    from ..domain.app import App
+    from ..domain.model import Drone, Mission, ResultStore, Trip
+    from ..domain.trace import Event
+    from ..hooks.plain_data import Data
     from .engine import Engine
-    from .mission import Core, MissionState
+    from .mission import MissionState
 
 Record = Mapping[str, Any]
 
 
-class Restorer:
-    """Restores the missions of one brain; each stands as its record says, and the flights with it."""
+class Recording:
+    """Adds to events what a later run must know, and waits until they are durable."""
 
-    def __init__(self, core: Core, engine: Engine, states: dict[str, MissionState]) -> None:
-        self._core, self._engine, self._states = core, engine, states
-        self._drones = {drone.id: drone for drone in core.fleet.drones}
+    def __init__(
+        self,
+        app: App,
+        states: Mapping[str, MissionState],
+        results: ResultStore,
+        events: list[Event],
+    ) -> None:
+        self._app, self._states, self._results, self._events = app, states, results, events
+        self._said = self._durable = 0
+        """How many events there were, and how many of them are durable."""
+        self._waiting: deque[tuple[int, Future[None]]] = deque()
+
+    def hear(self, event: Event) -> None:
+        """Keep an event, with what is added to it."""
+        self._said += 1
+        add = _ADDED.get(str(event["event"]))
+        self._events.append(event if add is None else {**event, **add(self, event)})
+
+    async def on_record(self) -> None:
+        """Wait until everything up to now is durable."""
+        if self._durable < self._said:
+            durable: Future[None] = Future()
+            self._waiting.append((self._said, durable))
+            await durable
+
+    def durable(self, message: Mapping[str, int]) -> None:
+        """Called when so many events are durable."""
+        self._durable = max(self._durable, message["durable"])
+        while self._waiting and self._waiting[0][0] <= self._durable:
+            self._waiting.popleft()[1].set(None)
+
+    def _mission(self, event: Event) -> Mission[Any]:
+        return self._states[str(event["mission"])].mission
+
+    def _plan(self, event: Event) -> Data:
+        return {"plan": mission_data(self._app, self._mission(event))}
+
+    def _result(self, _: Event) -> Data:
+        return {"result": value_data(self._results.newest)}
+
+    def _fields(self, event: Event) -> Data:
+        return {"fields": fields_of(self._app, Entity.TRIP, self._mission(event).current)}
+
+    def _trips(self, event: Event) -> Data:
+        names, trips = event["add"], self._mission(event).trips
+        assert isinstance(names, list)
+        return {"trips": [trip_data(self._app, trip) for trip in trips if trip.name in names]}
+
+
+_ADDED: dict[str, Callable[[Recording, Event], Data]] = {
+    "mission.created": Recording._plan,
+    "trip.completed": Recording._result,
+    "trip.reset": Recording._fields,
+    "mission.extended": Recording._trips,
+}
+
+
+class Restorer:
+    """Restores the missions of one brain."""
+
+    def __init__(self, engine: Engine) -> None:
+        self._core, self._engine, self._states = engine.core, engine, engine.states
+        self._drones = {drone.id: drone for drone in engine.core.fleet.drones}
         self._trips: dict[str, dict[str, Trip]] = {}
 
     def go_on(self, standing: Record, drones: Mapping[str, Record]) -> None:
@@ -32,10 +109,11 @@ class Restorer:
         core, records = self._core, standing.get("missions", {})
         by_index = sorted(records, key=lambda name: int(records[name].get("index", 0)))
         for name in by_index:
-            self._states[name] = self.restored(name, records[name])
-            before = self._engine.suspended.pop(name, None)
-            if before is not None and before.carrier not in (None, self._states[name].carrier):
-                core.fleet.recover(before.carrier)  # it may have had the mission's item
+            before = self._states.get(name)
+            self._states[name] = state = self.restored(name, records[name])
+            had = None if before is None or not before.suspended else before.carrier
+            if had not in (None, state.carrier):
+                core.fleet.recover(had)  # it may have had the mission's item
         self._restore_results(standing.get("results", ()), standing.get("first_result", 0), records)
         for drone, flown in standing.get("flown", {}).items():
             if drone in self._drones:
@@ -87,8 +165,8 @@ class Restorer:
         if known is None or trip is None or (known.get("outcome") is None and known.get("heard")):
             return
         trip.drone = drone = self._drones[known["drone"]]
-        state.flight = flight = state.new_flight(trip, drone, bool(known.get("retry")))
-        flight.launched_at = known["since"]
+        action, retry = self._core.app.actions[trip.action], bool(known.get("retry"))
+        state.flight = flight = Flight(state.mission, trip, drone, action, known["since"], retry)
         if known.get("outcome") is not None:
             flight.set(Status(known["outcome"]))
             state.goes_on = not known.get("heard")
@@ -105,43 +183,36 @@ class Restorer:
                 mission.last_result = kept
 
     def _resume(self, state: MissionState, record: Record, engaged: set[Drone]) -> None:
-        """Resume a mission, or suspend it; add the drones that it needs."""
+        """Resume a mission, unless it is suspended; add the drones that it needs."""
         core, mission, flight = self._core, state.mission, state.flight
-        unsettled = flight is not None and not flight.is_set
-        if record.get("suspended"):
-            self._engine.suspended[mission.name] = state
-            if flight is not None and unsettled:
+        suspended = bool(record.get("suspended"))
+        if flight is not None and not flight.is_set:
+            if not suspended:
+                engaged.add(flight.flier)
+                state.goes_on, mission.status = True, RUNNING
+                core.fleet.flies_on(flight.flier)
+                self._hear(state, flight, record["flight"].get("report"))
+            else:
                 state.flight = None
                 if flight.trip.item is not None:
                     state.carrier = flight.flier
-        elif flight is not None and unsettled:
-            engaged.add(flight.flier)
-            state.goes_on, mission.status = True, RUNNING
-            core.fleet.flies_on(flight.flier)
-            self._hear(state, record["flight"].get("report"))
         if state.carrier is not None and state.carrier not in engaged:
             engaged.add(state.carrier)
             state.keep_carrier(state.carrier)
-        if mission.name in self._engine.suspended:
-            return
-        if state.doom is not None:  # to be ended at once
-            self._engine.suspended[mission.name] = state
+        if suspended or state.doom is not None:  # or it is to be ended at once
             return
         status = STANDBY if mission.attempts or state.interrupted else UNEXECUTED
         if not state.goes_on:
             mission.status, mission.reason = status, ""
         self._engine.enter(state, status)
 
-    def _hear(self, state: MissionState, report: Record | None) -> None:
+    def _hear(self, state: MissionState, flight: Flight, report: Record | None) -> None:
         """Register for the end of a flight; if it is known, report it at once, before any time-out."""
-        flight = state.flight
-        assert flight is not None
         if report is None:
             self._core.orders.attach(flight.drone, partial(state.reported, flight), flight.id)
-        elif "failure" in report:
-            state.reported(flight, failure_of(report))
         else:
-            state.reported(flight, value_of(report.get("value")))
+            failed = "failure" in report
+            state.reported(flight, failure_of(report) if failed else value_of(report.get("value")))
 
 
 def _place(place: Iterable[Any]) -> tuple[str, str, int, int]:

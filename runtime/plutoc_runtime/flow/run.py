@@ -15,8 +15,7 @@ from .mission import MOST_CALLS, MissionState
 
 if TYPE_CHECKING:
     from ..time.kernel import Key, Task
-    from ..trips.deadlines import Limit
-    from ..trips.flight import Flight
+    from ..trips.flight import Flight, Limit
 
 M = TypeVar("M", bound=Mission[Any])
 
@@ -89,17 +88,15 @@ class Run(Generic[M]):
         self, status: Status, branches: Sequence[Callable[[Run[M], Status], Way]]
     ) -> list[Task[Status]]:
         """Start a task for each branch of a fork; the gate that calls this ends them."""
-        return [self._branch(status, branch, number) for number, branch in enumerate(branches)]
-
-    def _branch(
-        self, status: Status, branch: Callable[[Run[M], Status], Way], number: int
-    ) -> Task[Status]:
+        clones: list[Task[Status]] = []
         depth = self._depth + 1
-        key = branch_key(self.key, number, depth)
-        run = Run(self.mission, self.state, key, depth)
-        name = f"{self.mission.name}: branch {number + 1}"
-        run.task = self.core.kernel.spawn(branch(run, status), key, name)
-        return run.task
+        for number, branch in enumerate(branches):
+            key = branch_key(self.key, number, depth)
+            run = Run(self.mission, self.state, key, depth)
+            name = f"{self.mission.name}: branch {number + 1}"
+            run.task = self.core.kernel.spawn(branch(run, status), key, name)
+            clones.append(run.task)
+        return clones
 
 
 def watch(run: Run[Any], *limits: Limit | None) -> Flight:
@@ -108,12 +105,12 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
     A limit fails the trip; a trip that ends at that very instant has ended first. A limit is void
     once the branch that set it has ended.
     """
-    core, flight = run.core, run.state.flight
+    flight = run.state.flight
     if flight is None:
         raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
     for number, limit in enumerate(limits, 1):
         if limit is not None:
-            limit.set(core.kernel, core.limits, run, flight, number)
+            run.core.limits.set(run, number, flight, limit)
     return flight
 
 

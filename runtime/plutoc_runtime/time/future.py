@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar, cast
 
 T = TypeVar("T")
 
@@ -39,21 +39,15 @@ class Future(Generic[T]):
             if self.waiter is not None:
                 self.waiter.wake()
             if self._watchers is not None:
-                self._tell()
+                watchers, self._watchers = self._watchers, None
+                for watcher in watchers:
+                    watcher(self)
 
     def fail(self, error: BaseException) -> None:
         """Set an error, which is raised wherever it is awaited; only the first call counts."""
         if not self.is_set:
-            self.is_set, self.error = True, error
-            if self.waiter is not None:
-                self.waiter.wake()
-            if self._watchers is not None:
-                self._tell()
-
-    def _tell(self) -> None:
-        watchers, self._watchers = self._watchers, None
-        for watcher in watchers or ():
-            watcher(self)
+            self.error = error
+            self.set(cast("T", None))
 
     def watch(self, watcher: Watcher) -> None:
         """Call this with the future when it is set; at once if it is."""
@@ -68,11 +62,6 @@ class Future(Generic[T]):
         """Remove a watcher; one that is not there is ignored."""
         if self._watchers is not None and watcher in self._watchers:
             self._watchers.remove(watcher)
-
-    @property
-    def watched(self) -> bool:
-        """Whether anything waits for it."""
-        return self.waiter is not None or bool(self._watchers)
 
     def result(self) -> T:
         """Return the value, or raise the error; only once it is set."""

@@ -88,34 +88,20 @@ class Timer:
 class Task(Future[T]):
     """A running coroutine; as a future it is set when the coroutine ends."""
 
-    __slots__ = (
-        "_coroutine",
-        "_kernel",
-        "_waits_for",
-        "key",
-        "name",
-        "over",
-        "turn",
-    )
+    __slots__ = ("_kernel", "_waits_for", "coroutine", "key", "name", "over", "turn")
 
     def __init__(
         self, kernel: Kernel, coroutine: Coroutine[Any, Any, T], key: Key, name: str
     ) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
-        self._kernel, self._coroutine = kernel, coroutine
+        self._kernel, self.coroutine, self.key, self.name = kernel, coroutine, key, name
         self._waits_for: Future[Any] | None = None
         self.turn = 0
         """The number of the wake-up that may resume it; older ones are ignored. 0: none is pending."""
-        self.key, self.name = key, name
         self.over: Callable[[Task[T]], None] | None = None
         """Called when it has ended, in any way; without it, an unobserved error stops the run."""
         kernel.tasks[self] = None
-
-    @property
-    def coroutine(self) -> Coroutine[Any, Any, T]:
-        """The coroutine itself, to inspect where it waits."""
-        return self._coroutine
 
     def wake(self, _: object = None) -> None:
         """Resume at the current instant, in order of key."""
@@ -123,60 +109,35 @@ class Task(Future[T]):
         kernel.count = self.turn = turn = kernel.count + 1
         heappush(kernel.ready, (self.key, turn, self))
 
-    def step(self) -> None:
-        """Run the coroutine up to its next `await`."""
+    def step(self, error: BaseException | None = None) -> None:
+        """Run the coroutine up to its next `await`; an error is raised where it waits."""
+        coroutine = self.coroutine
         try:
-            waits_for = self._coroutine.send(None)
-        except StopIteration as end:
-            returned: T = end.value
-        except KeyboardInterrupt:
-            raise
-        except ANY_ERROR as error:
-            self._failed(error)
-            return
-        else:
-            if isinstance(waits_for, Future):
-                self._waits_for = waits_for
-                if waits_for.waiter is None:
-                    waits_for.waiter = self
-                else:
-                    waits_for.watch(self.wake)
-            else:
-                self._throw(ForeignAwait(f"it awaited {type(waits_for).__name__}"))
-            return
-        self._returned(returned)
-
-    def _throw(self, error: BaseException) -> None:
-        """Raise an error in the coroutine, and run it up to its next `await`."""
-        try:
-            waits_for = self._coroutine.throw(error)
+            waits_for = coroutine.send(None) if error is None else coroutine.throw(error)
             while not isinstance(waits_for, Future):
                 foreign = ForeignAwait(f"it awaited {type(waits_for).__name__}")
-                waits_for = self._coroutine.throw(foreign)
+                waits_for = coroutine.throw(foreign)
         except StopIteration as end:
             returned: T = end.value
         except KeyboardInterrupt:
             raise
-        except ANY_ERROR as ended:
-            self._failed(ended)
+        except ANY_ERROR as raised:
+            self._leave()
+            if not (isinstance(raised, Cancelled) or self.waiter or self._watchers or self.over):
+                self._kernel.crash(raised)
+            self.fail(raised)
+            if self.over is not None:
+                self.over(self)
             return
         else:
             self._waits_for = waits_for
-            waits_for.watch(self.wake)
+            if waits_for.waiter is None:
+                waits_for.waiter = self
+            else:
+                waits_for.watch(self.wake)
             return
-        self._returned(returned)
-
-    def _returned(self, value: T) -> None:
         self._leave()
-        self.set(value)
-        if self.over is not None:
-            self.over(self)
-
-    def _failed(self, error: BaseException) -> None:
-        self._leave()
-        if not (isinstance(error, Cancelled) or self.watched or self.over):
-            self._kernel.crash(error)
-        self.fail(error)
+        self.set(returned)
         if self.over is not None:
             self.over(self)
 
@@ -188,7 +149,7 @@ class Task(Future[T]):
         """Raise `Cancelled` where it waits, at once."""
         if not self.is_set:
             self._wait_no_longer()
-            self._throw(Cancelled())
+            self.step(Cancelled())
 
     def _wait_no_longer(self) -> None:
         waits_for, self._waits_for = self._waits_for, None
@@ -210,7 +171,7 @@ class Task(Future[T]):
         """Close the coroutine where it waits, without waking anything: the run is over."""
         self._wait_no_longer()
         self._kernel.tasks.pop(self, None)
-        self._coroutine.close()
+        self.coroutine.close()
 
 
 class Kernel:
@@ -257,20 +218,11 @@ class Kernel:
         task.wake()
         return task
 
-    def under_way(self) -> Sequence[Task[Any]]:
-        """Return the coroutines that have not ended, in the order in which they were started."""
-        return tuple(self.tasks)
-
     async def sleep(
         self, seconds: float, kind: EventKind = EventKind.CLOCK, key: Key = FLEET
     ) -> None:
         """Wait this many seconds."""
-        over: Future[None] = Future()
-        timer = self.at(self.now + seconds, kind, key, lambda: over.set(None))
-        try:
-            await over
-        finally:
-            timer.cancel()
+        await self.within(Future(), self.now + seconds, kind, key)
 
     async def within(self, future: Future[Any], until: float, kind: EventKind, key: Key) -> bool:
         """Wait until the future is set or the time comes; return whether it was set."""
@@ -306,7 +258,7 @@ class Kernel:
 
     def close(self) -> None:
         """Close all coroutines that still wait."""
-        for task in self.under_way():
+        for task in tuple(self.tasks):
             task.drop()
         unfreeze()
 

@@ -10,7 +10,7 @@ from typing import Any, Protocol, TypeVar, cast
 from ..domain.errors import ANY_ERROR
 from ..domain.guard import by_a_person, guarded
 from .future import Future, Watcher
-from .kernel import Call, EventKind, ForeignAwait, Kernel, Key
+from .kernel import Call, EventKind, ForeignAwait, Kernel, Key, Timer
 
 T = TypeVar("T")
 
@@ -63,49 +63,54 @@ class ToldTime(Kernel):
         """`midnight`: the seconds between the midnight before the start and the start."""
         super().__init__()
         self._runner, self._midnight = runner, midnight
-        self._inside = False
+        self._inside = runner is None
+        """Whether the brain is being called: without a runner, nothing happens between two calls."""
         self._hooks: dict[int, Future[None]] = {}
         """The hooks that take their time, by their numbers."""
         self._calls = 0
 
     def call(
-        self, now: float, stop: Sequence[object], call: Callable[[Any], object], what: object = None
-    ) -> None:
+        self, now: float, stop: Sequence[object], call: Callable[[Any], T], given: object = None
+    ) -> T:
         """Make a call at a time, and process what follows; raise the error with which a task crashed."""
         self.now, self._inside = now, True
         try:
-            call(what)
+            returned = call(given)
             self.drain(stop)
         finally:
-            self._inside = False
+            self._inside = self._runner is None
         if self.crashed is not None:
             raise self.crashed
+        return returned
 
     def time(self) -> float:
         """Return the seconds since the start; between two calls of the brain it goes on."""
-        runner = self._runner
-        return self.now if self._inside or runner is None else max(self.now, runner.now())
+        if self._inside or self._runner is None:
+            return self.now
+        return max(self.now, self._runner.now())
 
     @property
     def time_of_day(self) -> float:
         """Seconds since midnight."""
         return (self._midnight + self.now) % 86_400
 
-    def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
-        """Schedule a call; hooks may do so between two calls of the brain."""
-        if self._inside or self._runner is None:
-            super().schedule(when, kind, key, call)
-        else:
-            self.now = self.time()
-            super().schedule(when, kind, key, call)
-            self._runner.stirred()
+    def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
+        """Schedule a call that can be cancelled; hooks may do so between two calls of the brain."""
+        self.now = self.time()
+        timer = super().at(when, kind, key, call)
+        self._stirred()
+        return timer
 
     def post(self, call: Callable[..., object], *args: object) -> None:
         """Make a call within the kernel, for a hook that runs outside of it."""
-        if self._inside or self._runner is None:
+        if self._inside:
             call(*args)
         else:
             self.call(self.time(), AT_ONCE, lambda _: call(*args))
+            self._stirred()
+
+    def _stirred(self) -> None:
+        if not self._inside and self._runner is not None:
             self._runner.stirred()
 
     async def call_hook(

@@ -1,33 +1,29 @@
-"""One trip's flight by one drone: what is ordered, and its outcome."""
+"""One trip's flight by one drone: what is ordered, its outcome, and how long it may take."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from functools import partial
+from math import inf
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.status import FAILED, Status
 from ..hooks.plain_data import item_data
 from ..time.future import Future
+from ..time.kernel import EventKind, Kernel, Timer
 
 if TYPE_CHECKING:
     from ..domain.actions import Action
     from ..domain.model import Drone, Mission, Trip
-    from ..time.kernel import Task
+    from ..time.kernel import Key, Task
 
 
 class Flight(Future[Status]):
     """As a future it is set to the mission's status when the trip has ended."""
 
     __slots__ = (
-        "_action",
-        "called_off",
-        "flier",
-        "hook",
-        "launched_at",
-        "mission",
-        "overdue",
-        "own_action",
-        "retry",
-        "trip",
+        *("action", "called_off", "flier", "launched_at"),
+        *("mission", "own_action", "retry", "trip"),
     )
 
     def __init__(
@@ -41,18 +37,14 @@ class Flight(Future[Status]):
     ) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
-        self.mission, self.trip, self.flier, self._action = mission, trip, flier, action
-        self.hook = action.hook
-        """The hook of an action of the app's own; None: a built-in action."""
+        self.mission, self.trip, self.flier, self.action = mission, trip, flier, action
         self.launched_at = launched_at
         self.retry = retry
         """The mission's previous flight was of the same trip, and failed."""
         self.own_action: Task[None] | None = None
         """The task of an action of the app's own, once it has begun."""
-        self.called_off = False
-        """It was aborted."""
-        self.overdue = ""
-        """Why it was aborted, while its drone is asked what it has done."""
+        self.called_off: str | None = None
+        """Why it was aborted; while its drone is asked what it has done, that may be to come."""
 
     @property
     def id(self) -> str:
@@ -71,20 +63,93 @@ class Flight(Future[Status]):
 
         Without an action it hovers there, for one of the app's own.
         """
-        trip = self.trip
+        trip, action = self.trip, self.action
         source, item = trip.source, trip.item
         return {
             "do": "fly",
             "drone": self.flier.id,
             "flight": self.id,
             "stops": (trip.target,) if source is None else (source, trip.target),
-            "action": trip.action if self.hook is None else None,
+            "action": trip.action if action.hook is None else None,
             "parameters": trip.parameters,
             "item": None if item is None else item_data(item),
-            "seconds": self._action.seconds,
+            "seconds": action.seconds,
         }
 
     @property
     def failed(self) -> bool:
         """Whether it has ended, and failed."""
         return self._value is FAILED
+
+
+class Branch(Protocol):
+    """The branch of a mission that sets a limit; the limit is void once the branch has ended."""
+
+    key: Key
+    task: Task[Any] | None
+
+    def abort(self, reason: str) -> None:
+        """Fail the trip in flight."""
+        ...
+
+
+class Limit:
+    """How long a trip may take, from when on, and the reason that is given if it takes longer."""
+
+    __slots__ = ("flight", "overdue", "since", "span")
+
+    flight: Flight
+    """The flight that it is set for."""
+
+    def __init__(self, since: float, span: float, overdue: Callable[[Trip, float], str]) -> None:
+        self.since, self.span, self.overdue = since, span, overdue
+
+    def is_void(self, branch: Branch) -> bool:
+        """Return whether the flight has ended, or the branch that set the limit."""
+        return self.flight.is_set or (branch.task is not None and branch.task.is_set)
+
+    def expire(self, branch: Branch) -> None:
+        """Fail the trip in flight, unless that is over."""
+        if not self.is_void(branch):
+            branch.abort(self.overdue(self.flight.trip, self.span))
+
+
+class Limits:
+    """The limits on flights: as most end long before, one timer serves all."""
+
+    def __init__(self, kernel: Kernel) -> None:
+        self._kernel = kernel
+        self._set: dict[tuple[Branch, int], Limit] = {}
+        self._due: Timer | None = None
+        self._due_at = inf
+
+    def set(self, branch: Branch, number: int, flight: Flight, limit: Limit) -> None:
+        """Fail the flight at this limit, unless it or the branch has ended by then.
+
+        A branch waits for one flight at a time; `number` counts its limits on that.
+        """
+        limit.flight, self._set[branch, number] = flight, limit
+        until = limit.since + limit.span
+        if not until >= self._due_at:  # what is not a number means now
+            self._wait(until)
+
+    def _wait(self, until: float) -> None:
+        if self._due is not None:
+            self._due.cancel()
+        self._due_at = until
+        self._due = self._kernel.at(until, EventKind.TIMER, -1, self._look)
+
+    def _look(self) -> None:
+        """Expire what is due, and wait for the next."""
+        now, self._due_at = self._kernel.now, inf
+        for (branch, number), limit in tuple(self._set.items()):
+            until = limit.since + limit.span
+            if limit.is_void(branch) or not until > now:
+                del self._set[branch, number]
+                # after a hook of the mission at that instant, as if it were in a branch of its own
+                key, expire = branch.key + number, partial(limit.expire, branch)
+                self._kernel.schedule(now, EventKind.TIMER, key, expire)
+            else:
+                self._due_at = min(self._due_at, until)
+        if self._due_at < inf:
+            self._wait(self._due_at)

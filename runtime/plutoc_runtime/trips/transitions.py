@@ -39,8 +39,7 @@ class Transitions:
         for trip in mission.trips:
             trip.now = time
         if self._trace.live:
-            names = [trip.name for trip in mission.trips]
-            self._trace.note("mission.created", mission=mission.name, trips=names)
+            self._note("mission.created", mission, trips=[trip.name for trip in mission.trips])
 
     def allocate(
         self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: str
@@ -48,9 +47,9 @@ class Transitions:
         """Give a trip its drone; `at` is the block where it resumes after an interruption."""
         trip.drone = drone
         if self._trace.live:
-            self._trace.note(
+            self._note(
                 "trip.allocated",
-                mission=mission.name,
+                mission,
                 trip=trip.name,
                 drone=drone.id,
                 why=why,
@@ -65,14 +64,7 @@ class Transitions:
         mission.attempts += 1
         drone.trips += 1
         if self._trace.live:
-            self._trace.note(
-                "trip.launched",
-                mission=mission.name,
-                trip=trip.name,
-                drone=drone.id,
-                round=mission.round,
-                attempt=trip.attempt,
-            )
+            self._note_trip("trip.launched", mission, trip, drone)
 
     def complete(self, mission: Mission[Any], trip: Trip, value: object) -> None:
         """Complete a trip, and store its result."""
@@ -83,24 +75,23 @@ class Transitions:
         mission.status = STANDBY if trips else COMPLETED
         mission.last_result = self._results.add(mission, trip, mission.round, trip.attempt, value)
         if self._trace.live:
-            self._ended(mission, trip, "trip.completed", {"value": shown(value)})
+            self._note_trip("trip.completed", mission, trip, trip.drone, value=shown(value))
 
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """Fail a trip: it stays first in the list."""
-        reason = bounded(reason, LONGEST)
-        trip.status, trip.end_time, trip.reason = _FAILED, self._kernel.now, reason
-        mission.status, mission.reason = FAILED, reason
-        if self._trace.live:
-            self._ended(mission, trip, "trip.failed", {"reason": reason})
+        trip.status, trip.end_time = _FAILED, self._kernel.now
+        mission.status, mission.reason = FAILED, bounded(reason, LONGEST)
+        trip.reason = mission.reason
+        self._note_trip("trip.failed", mission, trip, trip.drone, reason=trip.reason)
 
-    def _ended(
-        self, mission: Mission[Any], trip: Trip, event: str, facts: dict[str, object]
+    def _note_trip(
+        self, event: str, mission: Mission[Any], trip: Trip, drone: Drone | None, **facts: object
     ) -> None:
-        self._trace.note(
+        self._note(
             event,
-            mission=mission.name,
+            mission,
             trip=trip.name,
-            drone=trip.drone.id if trip.drone else None,
+            drone=drone.id if drone else None,
             round=mission.round,
             attempt=trip.attempt,
             **facts,
@@ -110,11 +101,8 @@ class Transitions:
         """Reset the failed trip for a retry; one that has not flown since keeps its attempt."""
         trip = mission.current
         trip.reset()
-        self._standby(mission)
-        if self._trace.live:
-            self._trace.note(
-                "trip.reset", mission=mission.name, trip=trip.name, attempt=trip.attempt
-            )
+        mission.status, mission.reason = STANDBY, ""
+        self._note("trip.reset", mission, trip=trip.name, attempt=trip.attempt)
 
     def redo(self, mission: Mission[Any], trips: tuple[Trip, ...], added: tuple[Trip, ...]) -> None:
         """Give a finished mission trips to repeat, and new ones."""
@@ -124,14 +112,9 @@ class Transitions:
         for trip in added:
             trip.added, trip.now = True, self._time
         mission.trips += [*trips, *added]
-        self._standby(mission)
-        if self._trace.live:
-            self._trace.note(
-                "mission.extended",
-                mission=mission.name,
-                redo=[trip.name for trip in trips],
-                add=[trip.name for trip in added],
-            )
+        mission.status, mission.reason = STANDBY, ""
+        again, new = [trip.name for trip in trips], [trip.name for trip in added]
+        self._note("mission.extended", mission, redo=again, add=new)
 
     def begin_again(self, mission: Mission[Any]) -> None:
         """Start a further round of a finished mission, with the user's own trips."""
@@ -143,38 +126,31 @@ class Transitions:
                 mission.trips.append(trip)
         mission.trips.sort(key=lambda trip: trip.index)
         mission.completed_trips = []
-        self._standby(mission)
-        if self._trace.live:
-            self._trace.note("mission.repeated", mission=mission.name, round=mission.round)
+        mission.status, mission.reason = STANDBY, ""
+        self._note("mission.repeated", mission, round=mission.round)
 
     def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """Record that an action of the app's own begins: from now on it may have been done."""
-        if self._trace.live:
-            self._trace.note("action.begun", mission=mission.name, trip=trip.name, drone=drone.id)
+        self._note("action.begun", mission, trip=trip.name, drone=drone.id)
 
     def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
         """Set the status that a modifier returned."""
-        self._stands(mission, status, reason, "mission.modified")
+        mission.status, mission.reason = status, bounded(reason, LONGEST)
+        self._note("mission.modified", mission, status=status.value, reason=mission.reason)
 
     def end(self, mission: Mission[Any], status: Status, reason: str) -> None:
         """End a mission."""
-        self._stands(mission, status, reason, "mission.ended")
+        mission.status, mission.reason = status, bounded(reason, LONGEST)
+        self._note("mission.ended", mission, status=status.value, reason=mission.reason)
 
     def judge_failed(self, mission: Mission[Any], reason: str) -> None:
         """Fail a finished mission that its evaluator did not accept."""
-        reason = bounded(reason, LONGEST)
-        mission.status, mission.reason = FAILED, reason
-        if self._trace.live:
-            self._trace.note("mission.judged", mission=mission.name, reason=reason)
+        mission.status, mission.reason = FAILED, bounded(reason, LONGEST)
+        self._note("mission.judged", mission, reason=mission.reason)
 
-    def _stands(self, mission: Mission[Any], status: Status, reason: str, event: str) -> None:
-        reason = bounded(reason, LONGEST)
-        mission.status, mission.reason = status, reason
+    def _note(self, event: str, mission: Mission[Any], **facts: object) -> None:
         if self._trace.live:
-            self._trace.note(event, mission=mission.name, status=status.value, reason=reason)
-
-    def _standby(self, mission: Mission[Any]) -> None:
-        mission.status, mission.reason = STANDBY, ""
+            self._trace.note(event, mission=mission.name, **facts)
 
 
 _EXECUTING = TripStatus.EXECUTING

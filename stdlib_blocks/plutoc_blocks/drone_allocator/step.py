@@ -40,24 +40,22 @@ def allocate_drone(
     if status is FAILED:
         core.transitions.put_back(mission)
         status = STANDBY
-    trip = mission.trips[0]
-    if state.allocated is not None:
-        core.transitions.allocate(mission, trip, state.allocated, state.at, _BEFORE)
-    elif state.carrier is not None:
-        state.allocated = state.carrier
-        core.transitions.allocate(mission, trip, state.carrier, state.at, _CARRIES)
-    else:
+    trip, drone, why = mission.trips[0], state.allocated, "allocated before"
+    if drone is None:
+        drone, why = state.carrier, "carries the mission's item"
+    if drone is None:
         request = core.queue.enter(mission.trips, policy, priority)
         try:
             if allocate_within is not None:
                 yield from _no_longer_than(run, request, allocate_within)
             if not request.is_set:
                 yield request
-            state.allocated = request.result()
+            drone, why = request.result(), request.why
         finally:
             if not request.is_set:
                 core.queue.leave(request)
-        core.transitions.allocate(mission, trip, state.allocated, state.at, request.why)
+    state.allocated = drone
+    core.transitions.allocate(mission, trip, drone, state.at, why)
     return status
 
 
@@ -69,7 +67,3 @@ async def _no_longer_than(run: Run[Any], request: Request, seconds: float) -> No
             f"trip {request.trip.name} had no drone within {duration(seconds)}: "
             f"waits for a drone ({queue.summary()})"
         )
-
-
-_BEFORE = "allocated before"
-_CARRIES = "carries the mission's item"
