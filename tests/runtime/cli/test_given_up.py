@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,6 +18,7 @@ from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
+from tests.runtime import apps
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, FieldMission
 from tests.trials.examples import WAITING, app_of
@@ -48,7 +48,7 @@ async def rests(run: Run[FieldMission]) -> Status:
         await run.core.kernel.sleep(3_600.0)
 
 
-UNBOUNDED = replace(APP, flow=for_ever)
+UNBOUNDED = apps.changed(APP, flow=for_ever)
 NEVER = ("--fail", "action=100%")
 
 
@@ -121,14 +121,14 @@ def test_rounds_that_were_not_planned_do_not_count_anew(tmp_path: Path, command:
         '[[mission]]\nname = "South"\nrepeat = 2\n'
         '[[mission.trip]]\naction = "measure"\ntarget = [2, 3]\n'
     )
-    code, out, _ = command("simulate", tmp_path / "m.toml", app=replace(APP, flow=one_more))
+    code, out, _ = command("simulate", tmp_path / "m.toml", app=apps.changed(APP, flow=one_more))
     assert code == 1
     assert f"given up: {WHY}" in out
 
 
 def test_missions_that_only_rest_are_given_up(missions: Path, command: Command) -> None:
     """They fly nowhere, and end nowhere."""
-    code, out, _ = command("simulate", missions, app=replace(APP, flow=rests))
+    code, out, _ = command("simulate", missions, app=apps.changed(APP, flow=rests))
     assert code == 1
     assert "given up: nothing has set out for 366 days, and missions are not at their end" in out
 

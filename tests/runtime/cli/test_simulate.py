@@ -11,13 +11,14 @@ import pytest
 
 from pluto_fleet.app import App
 from pluto_fleet.shared.alone.faults import FAULTS, Faults
+from tests.runtime import apps
 from tests.runtime.cli.conftest import Command
 from tests.runtime.files.an_app import APP, POLLINATE
 
 
 def with_pollinate(hook: Any) -> App:
     """Return the app with another hook for its action."""
-    return replace(APP, actions={**APP.actions, "pollinate": replace(POLLINATE, hook=hook)})
+    return apps.changed(APP, actions={**APP.actions, "pollinate": replace(POLLINATE, hook=hook)})
 
 
 def test_the_log_is_told_as_it_happens_then_two_tables_and_a_last_line(
@@ -46,7 +47,7 @@ def test_an_app_that_repeats_nothing_has_no_column_for_rounds(
     missions: Path, command: Command
 ) -> None:
     """A column is there because a field is; JSON has the same keys for every app."""
-    out = command("simulate", missions, app=replace(APP, fields=()))[1]
+    out = command("simulate", missions, app=apps.changed(APP, fields=()))[1]
     assert "\nmission  status     trips  attempts  reason\n" in out
     assert "\nNorth    COMPLETED    2/2         2\n" in out
 
@@ -202,7 +203,7 @@ def test_a_mistake_of_ours_is_exit_70(
     missions: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A short message; where it happened only on request."""
-    app = replace(APP, flow=broken)
+    app = apps.changed(APP, flow=broken)
     monkeypatch.delenv("PLUTO_DEBUG", raising=False)
     code, _, err = command("simulate", missions, app=app)
     assert code == 70
@@ -222,7 +223,7 @@ async def broken_in_a_block(run: Any) -> Any:
 
 def test_a_mistake_in_a_block_names_the_block(missions: Path, command: Command) -> None:
     """As its declaration has it: it may be another author's."""
-    err = command("simulate", missions, app=replace(APP, flow=broken_in_a_block))[2]
+    err = command("simulate", missions, app=apps.changed(APP, flow=broken_in_a_block))[2]
     assert err == (
         "alfalfa: internal error: ZeroDivisionError: by accident\n"
         "in block scan = survey.GridScan\n"

@@ -35,8 +35,8 @@ from importlib import import_module
 from pkgutil import walk_packages
 sys.path.insert(0, sys.argv[1])
 sys.modules["cflib"] = None  # as where it is not installed
-import plutoc_runtime
-for module in walk_packages(pluto_fleet.__path__, "pluto_fleet.shared."):
+import pluto_fleet
+for module in walk_packages(pluto_fleet.__path__, "pluto_fleet."):
     if not module.name.endswith("__main__"):
         import_module(module.name)
 """
@@ -89,7 +89,7 @@ def test_all_else_works(missions: Path, fleet: Path, command: Command) -> None:
     assert err.endswith(SAID)
 
 
-def test_every_module_of_the_runtime_is_imported_without_it() -> None:
+def test_every_module_of_the_library_is_imported_without_it() -> None:
     """It is imported when a radio is opened, and no sooner."""
     home = Path(pluto_fleet.__path__[0]).parent
     done = subprocess.run(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from hypothesis import given
@@ -17,7 +17,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Item, Mission
 from pluto_fleet.shared.domain.status import Status
-from tests.runtime.files.an_app import APP, PLAIN, FieldMission, FieldTrip
+from tests.runtime.files.an_app import APP, PLAIN, FieldMission
 
 SIZE = (20.0, 12.0)
 AIRSPACE = Airspace(size=SIZE, no_fly=(((8.0, 0.0), (9.0, 0.0), (9.0, 5.0), (8.0, 5.0)),))
@@ -89,15 +89,15 @@ target = [1, 1]
 """
 
 
-def test_a_file_becomes_missions_of_the_apps_own_classes(tmp_path: Path) -> None:
+def test_a_file_becomes_missions_with_the_apps_own_fields(tmp_path: Path) -> None:
     """Units become SI, heights and parameters get their defaults, trips their numbers."""
-    north, south = load(tmp_path, "\ufeff" + FULL)
-    assert isinstance(north, FieldMission)
+    north, south = cast("list[FieldMission]", load(tmp_path, "\ufeff" + FULL))
+    assert type(north) is APP.mission
     assert (north.name, north.index, north.status) == ("North field", 0, Status.UNEXECUTED)
     assert (north.safe_time, north.repeat, north.at) == (180.0, 2, 30600.0)
     assert north.evaluator == "find_blooms"
     a, two, pick, release = north.trips
-    assert isinstance(a, FieldTrip)
+    assert type(a) is APP.trip
     assert (a.name, a.target, a.delay, a.priority) == ("A", (2.0, 1.5, 1.2), 30.0, 1)
     assert (two.name, two.target, two.index) == ("2", (4.0, 1.5, 0.8), 1)
     assert two.parameters == {
@@ -110,7 +110,7 @@ def test_a_file_becomes_missions_of_the_apps_own_classes(tmp_path: Path) -> None
     }
     assert pick.source == (0.5, 0.5, 1.2)
     assert pick.item == release.item == Item(name="pills", mass=0.004)
-    assert isinstance(south, FieldMission)
+    assert type(south) is APP.mission
     assert (south.index, south.repeat, south.at) == (1, True, 62130.0)
     assert south.trips[0].parameters == {"quantity": "temperature"}
 
