@@ -104,7 +104,17 @@ def test_random_graphs_fly_over_a_wire_as_without(how: Any) -> None:
 
 KNOWN = {
     *("done", "failed", "hook", "telemetry", "value", "failure", "reason"),
-    *("drones", "silent", "midnight", "after_trip", "max_airborne", "id", "category", "home"),
+    *(
+        "drones",
+        "silent",
+        "midnight",
+        "after_trip",
+        "max_airborne",
+        "speeds",
+        "id",
+        "category",
+        "home",
+    ),
     *("at", "leg", "battery", "landed"),
     *("trips", "name", "index", "fields"),
     *("action", "target", "source", "item", "parameters"),
