@@ -29,7 +29,7 @@ from .flow.restore import Recording, Restorer
 from .flow.standing import drone_standing, mission_of, standing_of, whereabouts_of
 from .hooks.plain_data import value_data
 from .time.kernel import FLEET
-from .time.told import AT_ONCE, HookRunner, ToldTime
+from .time.told import ONLY_WHAT_IS_READY, HookRunner, ToldTime
 from .trips.flight import Limits
 from .trips.transitions import Transitions
 
@@ -96,7 +96,7 @@ class Brain:
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
         """Begin missions: each has `trips`, and perhaps `name`, `index` and `fields`."""
-        self._kernel.call(now, AT_ONCE, self._begin, missions)
+        self._kernel.call(now, ONLY_WHAT_IS_READY, self._begin, missions)
 
     def _begin(self, missions: Sequence[Mapping[str, Any]]) -> None:
         first = len(self._states)
@@ -112,11 +112,14 @@ class Brain:
     def go_on(self, standing: Mapping[str, Any], drones: Mapping[str, Any], now: float) -> None:
         """Resume missions from their records, after any end, or after one was paused.
 
-        `standing` has the `missions` by name, as in `standing()`, the `results` so far, how many trips
-        each drone has `flown`, and which drones are `lost` or `retired`. `drones` are the reports of
-        those that no mission may need: `reached`, `landed`, `carrying`, `problems`.
+        `standing` has the `missions` by name, as in `standing()`; a mission may be `suspended`, a flight
+        may have a `report` of its end, and be `heard`: its graph has gone on from that end. Of the
+        `results` so far a mission's evaluator has seen those before `judged`; `first_result` is the
+        number of the first. Further how many trips each drone has `flown`, which drones are `retired`,
+        and why some are `lost`. `drones` are the reports of those that no mission may need: `reached`,
+        `landed`, `carrying`, `problems`.
         """
-        self._kernel.call(now, AT_ONCE, self._go_on, (standing, drones))
+        self._kernel.call(now, ONLY_WHAT_IS_READY, self._go_on, (standing, drones))
 
     def _go_on(self, told: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
         (standing, drones), fleet = told, self._core.fleet
@@ -124,7 +127,7 @@ class Brain:
             if drone.id in standing.get("retired", ()):
                 fleet.retired.add(drone)
             if drone.id in standing.get("lost", ()):
-                fleet.lost[drone] = str(standing["lost"][drone.id])
+                fleet.lost_before[drone] = str(standing["lost"][drone.id])
         self._restorer.go_on(standing, drones)
         self._see_through()
 
@@ -135,7 +138,7 @@ class Brain:
         never; `skip` a trip that is not the next one; `prioritise` one; `retire` or `bring-back` a drone;
         `probe` whether a flight's action was done: the answer is an order to note what was `probed`.
         """
-        return self._kernel.call(now, AT_ONCE, self._control.perform, request)
+        return self._kernel.call(now, ONLY_WHAT_IS_READY, self._control.perform, request)
 
     def tell(self, message: Mapping[str, Any], now: float) -> None:
         """Take over what has happened outside; what is unknown is ignored.
@@ -150,11 +153,11 @@ class Brain:
                 if drone in self._orders.drones:
                     self._orders.drones[drone].take(told)
         if "done" in message or "failed" in message:
-            self._kernel.call(now, AT_ONCE, self._orders.answered, message)
+            self._kernel.call(now, ONLY_WHAT_IS_READY, self._orders.answered, message)
         elif "hook" in message:
-            self._kernel.call(now, AT_ONCE, self._kernel.hook_ended, message)
+            self._kernel.call(now, ONLY_WHAT_IS_READY, self._kernel.hook_ended, message)
         elif "durable" in message:
-            self._kernel.call(now, AT_ONCE, self._recording.durable, message)
+            self._kernel.call(now, ONLY_WHAT_IS_READY, self._recording.durable, message)
 
     def advance(self, now: float) -> None:
         """Let everything happen that is due, up to the first orders: take those, and call it again."""

@@ -96,7 +96,8 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
         found = [one.version for one in distributions(name=name.rstrip("_"))]
         print(f"{name} {[*found, '(not installed)'][0]}, seam {_SEAM}, pluto-fleet: not installed")
         return 0
-    for word in argv if argv[:1] == ["simulate"] else argv[:1]:
+    flags = [word for word in argv if word.startswith("--")] if argv[:1] == ["simulate"] else []
+    for word in flags or argv[:1]:
         what = word.partition("=")[0]
         if what in _EXTRAS:
             said = f"{name}: {what} needs pluto-fleet, the library that flies: "

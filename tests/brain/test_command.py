@@ -243,6 +243,11 @@ def test_a_trace_that_cannot_be_written_is_told(
     assert "the trace cannot be written" in err
 
 
+def test_a_file_may_have_the_name_of_a_command(run: Run) -> None:
+    """Only what begins with two dashes is a flag."""
+    assert run("simulate", "fly") == (2, "", "fly: there is no such file\n")
+
+
 # The door
 
 

@@ -43,13 +43,13 @@ class Mortal(Kernel):
         raise AttributeError("time is the host's")
 
     @property
-    def last(self) -> Callable[[], object] | None:
+    def at_the_end(self) -> Callable[[], object] | None:
         """What is called when all else of this instant is done."""
-        return self._host.last
+        return self._host.at_the_end
 
-    @last.setter
-    def last(self, call: Callable[[], object] | None) -> None:
-        self._host.last = None if call is None else self._while_alive(call)
+    @at_the_end.setter
+    def at_the_end(self, call: Callable[[], object] | None) -> None:
+        self._host.at_the_end = None if call is None else self._while_alive(call)
 
     def time(self) -> float:
         """Return the host's time."""

@@ -42,24 +42,22 @@ class Fleet:
         self.drones, self.queue = tuple(drones), queue
         self._kernel, self._trace = kernel, trace
         self._orders, self._after_trip = orders, after_trip
-        self._stays = after_trip is AfterTrip.STAY
         self.errands: dict[Drone, Task[None]] = {}
-        """The tasks of drones that return, land, recover or charge."""
+        """The tasks of drones that return, land or recover."""
         self._change: Future[None] | None = None
         """Set at the next change of any drone, if something waits for it."""
         self.unready: dict[Drone, str] = {}
         """Drones that are lost, or not ready to fly, and why."""
         self.retired: set[Drone] = set()
         """Drones that are not allocated until they are brought back."""
-        self.lost: dict[Drone, str] = {}
+        self.lost_before: dict[Drone, str] = {}
         """Drones that were lost in an earlier run, and not brought back since."""
         queue.served = self._fetch_what_is_low
 
     def engage(self, drone: Drone) -> None:
         """End what a drone does by itself: it is about to fly for a mission."""
         self.unready.pop(drone, None)
-        errand = self.errands.pop(drone, None)
-        if errand is not None:
+        if (errand := self.errands.pop(drone, None)) is not None:
             errand.cancel()
 
     def keep(self, drone: Drone, lose: Callable[[str], None]) -> None:
@@ -73,7 +71,7 @@ class Fleet:
                 await self._orders.land(drone.id)
             except FlightFailed as error:
                 lose(str(error))
-                await self._bring_back(drone, str(error))
+                await self._rescue(drone, str(error))
 
         self._send(drone, DroneStatus.BUSY, land, "waits with its item")
 
@@ -81,12 +79,12 @@ class Fleet:
         """Take a drone back whose trip has ended well."""
         telemetry = drone.telemetry
         if drone in self.retired:
-            if not self._rests(drone):
+            if not self._settle_here(drone):
                 self.send_home(drone)
         elif (
             telemetry.landed
             and telemetry.battery_level > drone.category.reserve
-            and (self._stays or docked(telemetry.location, drone.home))
+            and (self._after_trip is _STAY or docked(telemetry.location, drone.home))
         ):
             # it is down already where it shall be, with enough in its battery
             self._become(drone, _FREE)
@@ -101,7 +99,7 @@ class Fleet:
 
     def recover(self, drone: Drone, reason: str = "") -> None:
         """Recover a drone whose flight has failed: it is not allocated again before it is home."""
-        self._send(drone, _RECOVERING, partial(self._bring_back, reason=reason), "recovers")
+        self._send(drone, _RECOVERING, partial(self._rescue, reason=reason), "recovers")
 
     def never_flew(self, drone: Drone) -> None:
         """Take a drone back that was allocated and not launched."""
@@ -115,12 +113,12 @@ class Fleet:
     def _send(self, drone: Drone, status: DroneStatus, errand: Errand, what: str) -> None:
         self.engage(drone)
         self._become(drone, status)
-        run, key = self._run(errand, drone), self._key(drone)
-        self.errands[drone] = self._kernel.spawn(run, key, f"{drone.id} {what}")
 
-    async def _run(self, errand: Errand, drone: Drone) -> None:
-        await errand(drone)
-        del self.errands[drone]
+        async def run() -> None:
+            await errand(drone)
+            del self.errands[drone]
+
+        self.errands[drone] = self._kernel.spawn(run(), self._key(drone), f"{drone.id} {what}")
 
     def _become(self, drone: Drone, status: DroneStatus) -> None:
         if drone.status is not status:
@@ -139,110 +137,16 @@ class Fleet:
             facts["reason"] = self.unready.get(drone, "")
         self._trace.note(f"drone.{drone.status.value.lower()}", drone=drone.id, **facts)
 
-    async def _stay(self, drone: Drone) -> None:
-        try:
-            await self._orders.land(drone.id)
-        except FlightFailed as error:
-            await self._bring_back(drone, str(error))
-            return
-        await self._settle(drone)
-        if self._after_trip is AfterTrip.NEXT:
-            await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
-            while self._is_stray(drone) and not self.queue.room:
-                if self._change is None:
-                    self._change = Future()
-                await self._change
-                await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
-            if self._is_stray(drone):
-                self._become(drone, DroneStatus.RETURNING)
-                await self._return(drone)
-
-    async def _return(self, drone: Drone) -> None:
-        try:
-            await self._orders.home(drone.id)
-        except FlightFailed as error:
-            await self._bring_back(drone, str(error))
-        else:
-            await self._settle(drone)
-
-    async def _bring_back(self, drone: Drone, reason: str, repaired: bool = False) -> None:
-        """Bring a drone home, or give it up as lost; a repaired one may say that it is not ready."""
-        self._become(drone, _RECOVERING)
-        why = await self._orders.recover(drone.id)
-        if drone in self.lost:
-            self._lose(drone, self.lost[drone])
-        elif why is not None:
-            why = self._not_ready(drone, why) if repaired else why
-            reason = cut_off(printable(reason), LONGEST) or "it could not be brought home"
-            self._lose(drone, why or reason)
-        else:
-            self.unready.pop(drone, None)
-            await self._settle(drone)
-
-    def _lose(self, drone: Drone, reason: str) -> None:
-        self.unready[drone] = reason
-        self._become(drone, DroneStatus.LOST)
-
-    # After an interruption, and when people look after drones
-
-    def take_up(self, drone: Drone, report: Mapping[str, Any]) -> None:
-        """Take over a drone that no mission needs now, when an app starts or resumes.
-
-        It is allocated only once it is on the ground, healthy, with nothing aboard; a lost one only
-        once it has been repaired, even if it reports to be healthy.
-        """
-        reached, landed = report.get("reached", True), report.get("landed", True)
-        if drone in self.lost:
-            if reached and not landed:
-                self.recover(drone)  # it comes home, and stays lost
-            else:
-                self._lose(drone, self.lost[drone])
-            return
-        why = self._not_ready(drone, "; ".join(report.get("problems", ())))
-        well = reached and landed and not why and report.get("carrying") is None
-        if not (well and self._rests(drone)):
-            self.recover(drone, why or f"{drone.id} does not answer")
-            if why and landed:
-                self.unready[drone] = why
-
-    def _not_ready(self, drone: Drone, why: str) -> str:
-        """Note why a drone may not fly, if it says why, and return that."""
-        why = cut_off(printable(why), LONGEST)
-        if why and self._trace.live:
-            self._trace.note("drone.not_ready", drone=drone.id, reason=why)
-        return why
-
-    def flies_on(self, drone: Drone) -> None:
-        """Take over a drone that has been flying for a mission since before an interruption."""
-        self._become(drone, DroneStatus.BUSY)
-
-    def retire(self, drone: Drone) -> None:
-        """Allocate this drone to no further mission; its current trip goes on to its end."""
-        self.retired.add(drone)
-        if drone.status in (_FREE, DroneStatus.CHARGING) and not self._rests(drone):
-            self.send_home(drone)
-
-    def bring_back(self, drone: Drone) -> None:
-        """Make a retired drone available again; a lost one once it has come home."""
-        self.retired.discard(drone)
-        self.lost.pop(drone, None)
-        if drone.status is DroneStatus.LOST or drone in self.unready:
-            self._orders.mended(drone.id)  # its errand may be waiting for this
-        if drone.status is DroneStatus.LOST:
-            unknown = "it was brought back, and could not be reached"
-            back = partial(self._bring_back, reason=unknown, repaired=True)
-            self._send(drone, _RECOVERING, back, "comes back")
-        elif drone.status is DroneStatus.OFFLINE and not self._rests(drone):
-            self.send_home(drone)
+    # On the ground
 
     async def _settle(self, drone: Drone) -> None:
-        """Free a healthy drone on the ground if its battery allows it, or charge it."""
-        if not self._rests(drone):
+        """Settle a healthy drone where it stands, or else at home."""
+        if not self._settle_here(drone):
             self._become(drone, DroneStatus.RETURNING)
             await self._return(drone)
 
-    def _rests(self, drone: Drone) -> bool:
-        """Free it, or charge it first; return False if it must go home for that, as if it is retired."""
+    def _settle_here(self, drone: Drone) -> bool:
+        """Make it FREE, CHARGING or, if it is retired, OFFLINE; return False: it must go home for that."""
         if drone in self.retired:
             if not self._is_docked(drone):
                 return False
@@ -270,6 +174,103 @@ class Fleet:
         else:
             self._look_at(drone, self._kernel.now + _LOOK_AGAIN)
 
+    async def _stay(self, drone: Drone) -> None:
+        try:
+            await self._orders.land(drone.id)
+        except FlightFailed as error:
+            await self._rescue(drone, str(error))
+            return
+        await self._settle(drone)
+        if self._after_trip is AfterTrip.NEXT:
+            await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
+            while self._is_stray(drone) and not self.queue.room:
+                if self._change is None:
+                    self._change = Future()
+                await self._change
+                await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
+            if self._is_stray(drone):
+                self._become(drone, DroneStatus.RETURNING)
+                await self._return(drone)
+
+    async def _return(self, drone: Drone) -> None:
+        try:
+            await self._orders.home(drone.id)
+        except FlightFailed as error:
+            await self._rescue(drone, str(error))
+        else:
+            await self._settle(drone)
+
+    async def _rescue(self, drone: Drone, reason: str, repaired: bool = False) -> None:
+        """Bring a drone home, or give it up as lost; a repaired one may say that it is not ready."""
+        self._become(drone, _RECOVERING)
+        why = await self._orders.recover(drone.id)
+        if drone in self.lost_before:
+            self._lose(drone, self.lost_before[drone])
+        elif why is not None:
+            why = self._not_ready(drone, why) if repaired else why
+            reason = cut_off(printable(reason), LONGEST) or "it could not be brought home"
+            self._lose(drone, why or reason)
+        else:
+            self.unready.pop(drone, None)
+            await self._settle(drone)
+
+    def _lose(self, drone: Drone, reason: str) -> None:
+        self.unready[drone] = reason
+        self._become(drone, DroneStatus.LOST)
+
+    # After an interruption, and when people look after drones
+
+    def take_up(self, drone: Drone, report: Mapping[str, Any]) -> None:
+        """Take over a drone that no mission needs now, when an app starts or resumes.
+
+        It is allocated only once it is on the ground, healthy, with nothing aboard; a lost one only
+        once it has been repaired, even if it reports to be healthy.
+        """
+        reached, landed = report.get("reached", True), report.get("landed", True)
+        if drone in self.lost_before:
+            if reached and not landed:
+                self.recover(drone)  # it comes home, and stays lost
+            else:
+                self._lose(drone, self.lost_before[drone])
+            return
+        why = self._not_ready(drone, "; ".join(report.get("problems", ())))
+        well = reached and landed and not why and report.get("carrying") is None
+        if well and self._settle_here(drone):
+            return
+        self.recover(drone, why or ("" if reached else f"{drone.id} does not answer"))
+        if why and landed:
+            self.unready[drone] = why
+
+    def _not_ready(self, drone: Drone, why: str) -> str:
+        """Note why a drone may not fly, if it says why, and return that."""
+        why = cut_off(printable(why), LONGEST)
+        if why and self._trace.live:
+            self._trace.note("drone.not_ready", drone=drone.id, reason=why)
+        return why
+
+    def flies_on(self, drone: Drone) -> None:
+        """Take over a drone that has been flying for a mission since before an interruption."""
+        self._become(drone, DroneStatus.BUSY)
+
+    def retire(self, drone: Drone) -> None:
+        """Allocate this drone to no further mission; its current trip goes on to its end."""
+        self.retired.add(drone)
+        if drone.status in (_FREE, DroneStatus.CHARGING) and not self._settle_here(drone):
+            self.send_home(drone)
+
+    def bring_back(self, drone: Drone) -> None:
+        """Make a retired drone available again; a lost one once it has come home."""
+        self.retired.discard(drone)
+        self.lost_before.pop(drone, None)
+        if drone.status is DroneStatus.LOST or drone in self.unready:
+            self._orders.mended(drone.id)  # its errand may be waiting for this
+        if drone.status is DroneStatus.LOST:
+            unknown = "it was brought back, and could not be reached"
+            back = partial(self._rescue, reason=unknown, repaired=True)
+            self._send(drone, _RECOVERING, back, "comes back")
+        elif drone.status is DroneStatus.OFFLINE and not self._settle_here(drone):
+            self.send_home(drone)
+
     def _fetch_what_is_low(self) -> None:
         """Send home to charge the drones that missions wait for."""
         for drone in self.queue.too_low():
@@ -290,7 +291,7 @@ class Fleet:
         return FLEET + 1 + drone.index
 
 
-_FREE, _RECOVERING = DroneStatus.FREE, DroneStatus.RECOVERING
+_FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
 
 _LOOK_AGAIN = 10.0
 """Seconds between two checks of a battery that should be charged by now."""

@@ -31,7 +31,7 @@ class Orders:
 
     def __init__(self, clock: Clock, homes: Mapping[str, Point]) -> None:
         self.pending: list[Order] = []
-        """The orders that have not been taken yet."""
+        """The orders that have not been taken yet; the kernel looks into this very list while it runs."""
         self.drones = {drone: KnownState(clock, home) for drone, home in homes.items()}
         """What was told of the drones, by their ids; always current."""
         self._answers: dict[int, Answer] = {}

@@ -99,7 +99,7 @@ class Queue:
         self._arrivals += 1
         insort(self._entries, (rank, -self._arrivals, request))
         self._fresh.append(request)
-        self._kernel.last = self._serve
+        self._kernel.at_the_end = self._serve
         return request
 
     def leave(self, request: Request) -> None:
@@ -117,7 +117,7 @@ class Queue:
     def changed(self) -> None:
         """Serve the queue at the end of this instant."""
         if self._entries:
-            self._kernel.last = self._serve
+            self._kernel.at_the_end = self._serve
 
     def prioritise(self, trip: Trip, priority: int) -> None:
         """Change the priority of the request for this trip."""

@@ -26,6 +26,13 @@ PRIORITY = "priority"
 Request = Mapping[str, Any]
 
 
+class _Request(dict[str, Any]):
+    """A request, of which a command takes what it needs."""
+
+    def __missing__(self, key: str) -> Any:
+        raise BadInput(f"the command {self['command']} needs {key!r}")
+
+
 class Control:
     """Carries out commands; each returns what it did, or raises `BadInput`."""
 
@@ -37,10 +44,7 @@ class Control:
         do = _COMMANDS.get(str(request.get("command")))
         if do is None:
             raise BadInput(f"there is no command {request.get('command')!r}")
-        try:
-            return do(self, request)
-        except KeyError as error:
-            raise BadInput(f"the command {request['command']} needs {error}") from None
+        return do(self, _Request(request))
 
     def _pause(self, request: Request) -> str:
         state = self._state(request)

@@ -82,7 +82,7 @@ class MissionState:
     at: str | None = None
     """The last block reached at which it can resume after an interruption."""
     goes_on: bool = False
-    """It was interrupted after a launch: until it is back there, it is allocated no drone."""
+    """It resumes behind a launch: the allocator and the launcher let it pass, up to its flight."""
     interrupted: bool = False
     """A flight of it was interrupted and does not count."""
     allocated: Drone | None = None
@@ -161,7 +161,7 @@ class MissionState:
             flight.own_action = self.core.kernel.spawn(act, key, name)
 
     def break_off(self, flight: Flight) -> None:
-        """Stop a flight where it is; a report of what it has done still counts, and nothing more begins."""
+        """Stop a flight where it is: no answer to it counts any more, and nothing more begins."""
         flight.called_off = ""
         if flight.own_action is not None:
             flight.own_action.cancel()

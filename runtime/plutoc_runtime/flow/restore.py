@@ -161,15 +161,22 @@ class Restorer:
     def _restore_flight(
         self, state: MissionState, known: Record | None, trips: Mapping[str, Trip]
     ) -> None:
+        """Restore the latest flight; one that has ended unknown to its graph is where that goes on.
+
+        `outcome`: how it ended, None: it may still fly; `heard`: its graph has gone on from that end.
+        """
         trip = None if known is None else trips.get(known["trip"])
-        if known is None or trip is None or (known.get("outcome") is None and known.get("heard")):
+        if known is None or trip is None:
+            return
+        outcome, heard = known.get("outcome"), known.get("heard")
+        if outcome is None and heard:
             return
         trip.drone = drone = self._drones[known["drone"]]
         action, retry = self._core.app.actions[trip.action], bool(known.get("retry"))
         state.flight = flight = Flight(state.mission, trip, drone, action, known["since"], retry)
-        if known.get("outcome") is not None:
-            flight.set(Status(known["outcome"]))
-            state.goes_on = not known.get("heard")
+        if outcome is not None:
+            flight.set(Status(outcome))
+            state.goes_on = not heard
 
     def _restore_results(
         self, results: Iterable[Any], first: int, records: Mapping[str, Record]

@@ -1,9 +1,8 @@
 """Coroutines and time: one small event loop, driven by the real clock or by a virtual one.
 
 Everything that happens is an event, ordered by (time, kind, key), so simultaneous events are
-processed in a declared order, whichever task ran first. Both drivers (`virtual.py` and the library's
-`realtime.py`) process events with the same `drain`: the same coroutines run in simulation and for
-real.
+processed in a declared order, whichever task ran first. A brain and the library process events with
+the same `drain`, in virtual time and in real time.
 
 Resumed coroutines and the queue for drones are by far the most frequent events, and they belong to
 the current instant: they bypass the heap of future events.
@@ -49,11 +48,11 @@ def branch_key(key: Key, number: int, depth: int) -> Key:
 class EventKind(IntEnum):
     """The order in which simultaneous events are processed."""
 
-    READY = 0  # a coroutine resumes: what has begun is finished first
-    FLIGHT = 1  # navigation: a trip that ends at its time-out has ended first
+    READY = 0  # a coroutine resumes: what has begun is finished first; see `Kernel.ready`
+    FLIGHT = 1  # what drones do: a trip that ends at its time-out has ended first
     TIMER = 2  # limits on flights
     CLOCK = 3  # delays and other waits
-    ALLOCATE = 4  # last: all requests and all free drones of the instant are known
+    ALLOCATE = 4  # all requests and all free drones are known; before these, `Kernel.at_the_end`
 
 
 class ForeignAwait(RuntimeError):
@@ -189,7 +188,7 @@ class Kernel:
         """How many events were scheduled; it breaks ties: first scheduled, first processed."""
         self.ready: list[tuple[Key, int, Task[Any]]] = []
         """The coroutines to resume at this instant, with the number of their wake-up."""
-        self.last: Callable[[], object] | None = None
+        self.at_the_end: Callable[[], object] | None = None
         """Called when all else of this instant is done: serves the fleet's queue."""
         self.settled: Callable[[], object] | None = None
         """Called when an instant has been processed: writes its events to the journal."""
@@ -264,17 +263,18 @@ class Kernel:
 
     def next_time(self) -> float | None:
         """Return the time of the next event; None: there will be none."""
-        if self.ready or self.last is not None:
+        if self.ready or self.at_the_end is not None:
             return self.now
         heap = self._heap
         while heap and isinstance(heap[0][4], Timer) and heap[0][4].cancelled:
             heappop(heap)
         return heap[0][0] if heap else None
 
-    def drain(self, stop: Sequence[object] = ()) -> None:
+    def drain(self, until_any: Sequence[object] = ()) -> None:
         """Process all events of this instant in order, also those that they cause.
 
-        As soon as `stop` has an element and no coroutine is ready, the rest is left to a later call.
+        First the coroutines that are ready; then, unless `until_any` has got an element meanwhile, what
+        the heap has due; then `at_the_end`, and last what is of the kind ALLOCATE.
         """
         heap, ready, now = self._heap, self.ready, self.now
         while not self.over:
@@ -283,13 +283,13 @@ class Kernel:
                 if turn == task.turn:
                     task.turn = 0
                     task.step()
-            elif stop:
+            elif until_any:
                 return
-            elif heap and heap[0][0] <= now and (heap[0][1] < _LAST or self.last is None):
+            elif heap and heap[0][0] <= now and (heap[0][1] < _LAST or self.at_the_end is None):
                 heappop(heap)[4]()
-            elif self.last is not None:
-                last, self.last = self.last, None
-                last()
+            elif self.at_the_end is not None:
+                serve, self.at_the_end = self.at_the_end, None
+                serve()
             else:
                 return
 

@@ -14,7 +14,7 @@ from .kernel import Call, EventKind, ForeignAwait, Kernel, Key, Timer
 
 T = TypeVar("T")
 
-AT_ONCE = (None,)
+ONLY_WHAT_IS_READY = (None,)
 """Runs the coroutines that are ready, and nothing that waits for its time."""
 
 
@@ -70,13 +70,17 @@ class ToldTime(Kernel):
         self._calls = 0
 
     def call(
-        self, now: float, stop: Sequence[object], call: Callable[[Any], T], given: object = None
+        self,
+        now: float,
+        until_any: Sequence[object],
+        call: Callable[[Any], T],
+        given: object = None,
     ) -> T:
         """Make a call at a time, and process what follows; raise the error with which a task crashed."""
         self.now, self._inside = now, True
         try:
             returned = call(given)
-            self.drain(stop)
+            self.drain(until_any)
         finally:
             self._inside = self._runner is None
         if self.crashed is not None:
@@ -106,7 +110,7 @@ class ToldTime(Kernel):
         if self._inside:
             call(*args)
         else:
-            self.call(self.time(), AT_ONCE, lambda _: call(*args))
+            self.call(self.time(), ONLY_WHAT_IS_READY, lambda _: call(*args))
             self._stirred()
 
     def _stirred(self) -> None:

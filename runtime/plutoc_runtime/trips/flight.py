@@ -44,7 +44,7 @@ class Flight(Future[Status]):
         self.own_action: Task[None] | None = None
         """The task of an action of the app's own, once it has begun."""
         self.called_off: str | None = None
-        """Why it was aborted; while its drone is asked what it has done, that may be to come."""
+        """None: it flies; empty: it was broken off; else why it fails once its drone has answered."""
 
     @property
     def id(self) -> str:

@@ -1,4 +1,4 @@
-"""The only place where a mission or a trip changes its status; each change is an event."""
+"""In the graph, the only place where a mission or a trip changes its status; each change is an event."""
 
 from __future__ import annotations
 
