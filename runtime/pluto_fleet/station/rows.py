@@ -49,12 +49,14 @@ def living_row(
     record: Record,
     where: Mapping[str, Any],
     resumes: Sequence[str],
+    priority: object,
     now: float,
     fleet: Callable[[str, str], str],
 ) -> Row:
     """Return the row of a mission that is `where` its brain says.
 
-    `resumes` are the blocks that allocate drones; `fleet` returns why no drone flies its trip yet.
+    `resumes` are the blocks that allocate drones, `priority` is that of a trip whose record has none;
+    `fleet` returns why no drone flies its trip yet.
     """
     status, todo, at = Status(record["status"]), record["todo"], blocks_of(where["block"])
     until = where["until"] if (where["until"] or 0.0) > now else None
@@ -63,8 +65,8 @@ def living_row(
         **recorded_row(name, record, lives=True),
         # once its trips are done, a block has yet to decide
         "status": (Status.STANDBY if status in ENDED else status).value,
-        "trips": [_trip(trip, "COMPLETED") for trip in record["done"]]
-        + [_trip(trip, "WAITING") for trip in todo],
+        "trips": [_trip(trip, "COMPLETED", priority) for trip in record["done"]]
+        + [_trip(trip, "WAITING", priority) for trip in todo],
         "drone": where["drone"],
         "at": list(at),
         "wait": "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status),
@@ -164,9 +166,9 @@ def _drone_row(
     }
 
 
-def _trip(data: Record, status: str) -> list[object]:
+def _trip(data: Record, status: str, usual: object = None) -> list[object]:
     x, y, _ = data["target"]
-    priority = data.get("fields", {}).get(PRIORITY)
+    priority = data.get("fields", {}).get(PRIORITY, usual)
     stands = data.get("status", status)
     return [data["name"], stands, round(x, 3), round(y, 3), priority, data["action"]]
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..flight.config import End, Stops
+from ..flight.control import PRIORITY
 from ..flight.lives import FlightObserver, FlightSetup, run_flight
 from ..flight.mission_status import aside, in_order, records_in
 from ..journal.fold import Records
@@ -231,13 +232,14 @@ class FlightSession:
     def _see_missions(self, number: int) -> bool:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.is_set_out:
-            now, resumes, brain = self.now, self.flight.app.resumes, life.brain
+            now, app, brain = self.now, self.flight.app, life.brain
+            priority = next((one.default for one in app.fields if one.name == PRIORITY), None)
             self._waiting.look(brain)
             why, where = partial(self._waiting.why, brain), brain.whereabouts()
             for name, record in in_order(life.records):
                 found = where.get(name)
                 if found is not None and found["lives"] and aside(record) is None:
-                    row = rows.living_row(name, record, found, resumes, now, why)
+                    row = rows.living_row(name, record, found, app.resumes, priority, now, why)
                 else:
                     row = rows.recorded_row(name, record, lives=True)
                 changed |= put(name, row, number)

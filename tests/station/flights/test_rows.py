@@ -19,7 +19,7 @@ def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, 
 
 def row(record: dict[str, Any], block: str, **more: Any) -> dict[str, object]:
     where = {"block": block, "drone": None, "flies": False, "allocated": False, "until": None}
-    return living_row("a", record, where | more, ("allocate",), 10.0, lambda name, trip: trip)
+    return living_row("a", record, where | more, ("allocate",), 1, 10.0, lambda name, trip: trip)
 
 
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
@@ -48,6 +48,12 @@ def test_a_delay_is_shown_as_long_as_it_lasts() -> None:
     assert row(record, block, until=12.0)["wait"] == "waits until its time has come"
     assert row(record, block, until=12.0)["until"] == 12.0
     assert row(record, block, until=10.0)["until"] is None
+
+
+def test_a_trip_without_a_priority_of_its_own_has_the_usual_one() -> None:
+    """A record leaves out what was not changed; what does not fly is not weighed either."""
+    rows = row(record_of("STANDBY", TRIP), ""), recorded_row("a", record_of("STANDBY", TRIP))
+    assert [seen["trips"][0][4] for seen in rows if isinstance(seen["trips"], list)] == [1, None]
 
 
 def test_a_trip_is_shown_as_it_flies_only_while_its_brain_knows_that() -> None:
