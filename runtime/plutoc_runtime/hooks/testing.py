@@ -20,7 +20,7 @@ from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Task
 from ..time.told import Stuck
 from ..time.virtual import VirtualTime
-from .calls import hook_name
+from .calls import call_hook, hook_name
 from .context import Context, LiveDrone, can_wait, results_for
 
 P = ParamSpec("P")
@@ -259,7 +259,7 @@ class AppKit(Generic[M, T]):
 
         for context in contexts:
             context.lend(mission, lambda: self._flights.get(mission), drone)
-        call = self.clock.kernel.call_hook(hook, *given, **named)
+        call = call_hook(self.clock.kernel, hook, *given, **named)
         task = self.clock.kernel.spawn(call, FLEET, hook_name(hook))
         task.over = over
         self.clock.advance(0.0)
