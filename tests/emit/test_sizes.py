@@ -175,7 +175,7 @@ ONLY_WITH = {
     "flow.modification": "MissionModifier",
 }
 """Modules of the runtime that a kind of block alone needs."""
-OF_HOOKS = {"hooks.calls", "hooks.context", "hooks.testing", "time.virtual"}
+OF_HOOKS = {"hooks.calls", "hooks.context", "alone.testing", "time.virtual"}
 """What calls the app's own code, and what that is given."""
 OF_STRANGERS = ("flow.declared",)
 """What holds blocks of other packages to what they declare: no example has one."""
