@@ -16,8 +16,7 @@ from types import MappingProxyType
 from plutoc.block import Block
 from plutoc.declarations import is_name, mistakes_in
 from plutoc.foreign_code import Terminated, by_a_person, isolated
-from plutoc_runtime.domain.text import printable
-from plutoc_runtime.hooks.calls import said
+from plutoc_runtime.domain.text import printable, said
 
 GROUP = "plutoc.blocks"
 STD = "std"

@@ -34,7 +34,7 @@ from .shared.domain.errors import BadInput
 from .shared.domain.model import Item, Mission, Point, Trip
 from .shared.domain.status import Status, TripStatus
 from .shared.domain.trace import Event
-from .shared.hooks.calls import loaded
+from .shared.hooks.loading import loaded
 
 __all__ = [
     "Airspace",

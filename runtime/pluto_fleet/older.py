@@ -52,6 +52,7 @@ def provide(brain: str) -> None:
     policies.__path__ = []  # it was a package
     results = import_module(f"{brain}.domain.model").ResultStore
     results.for_evaluator = import_module(f"{brain}.hooks.context").results_for
+    import_module(f"{brain}.flow.run").Run.hook = import_module(f"{brain}.flow.asking").ask
     for name in ("Policy", "Choice", "Able", "Batch", "lowest"):
         setattr(queue, name, getattr(policies, name))
 

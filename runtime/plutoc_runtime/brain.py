@@ -21,12 +21,17 @@ from .fleet.fleet import Fleet
 from .fleet.orders import Order, Orders
 from .fleet.queue import Queue
 from .fleet.reach import Reach
-from .fleet.waiting import hindrances
 from .flow.control import Control
 from .flow.engine import Engine
 from .flow.mission import Core
 from .flow.restore import Recording, Restorer
-from .flow.standing import drone_standing, mission_of, standing_of, whereabouts_of
+from .flow.standing import (
+    drone_standing,
+    hindrances,
+    mission_of,
+    standing_of,
+    whereabouts_of,
+)
 from .hooks.plain_data import value_data
 from .time.kernel import FLEET
 from .time.told import ONLY_WHAT_IS_READY, HookRunner, ToldTime
@@ -185,14 +190,8 @@ class Brain:
             "missions": {name: standing_of(self._app, one) for name, one in self._states.items()},
             "drones": self.drones(),
             "results": [
-                [
-                    one.mission.name,
-                    one.trip and one.trip.name,
-                    one.round,
-                    one.attempt,
-                    value_data(one.value),
-                ]
-                for one in core.results.results
+                [mission.name, trip and trip.name, round_, attempt, value_data(value)]
+                for mission, trip, round_, attempt, value in core.results.results
             ],
             "waiting": core.queue.summary() if core.queue.waiting else "",
         }

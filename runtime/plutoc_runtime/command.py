@@ -88,7 +88,7 @@ def _tell(text: str, code: int = 0) -> int:
 
 
 def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
-    from .hooks.calls import loaded
+    from .hooks.loading import loaded
 
     if argv[:1] == ["--version"]:
         from importlib.metadata import distributions  # slow to import

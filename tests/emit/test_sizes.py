@@ -175,6 +175,8 @@ ONLY_WITH = {
     "flow.modification": "MissionModifier",
 }
 """Modules of the runtime that a kind of block alone needs."""
+OF_HOOKS = {"hooks.calls", "hooks.context", "alone.testing", "time.virtual"}
+"""What calls the app's own code, and what that is given."""
 OF_STRANGERS = ("flow.declared",)
 """What holds blocks of other packages to what they declare: no example has one."""
 
@@ -186,6 +188,9 @@ def test_modules_that_nothing_needs_stay_behind(example: str) -> None:
     carried = carried_by(text)
     for module, kind in ONLY_WITH.items():
         assert (module in carried) == (kind in text)
+    hooks = set(re.findall(r"^ *(action|evaluator|modifier|policy) ", text, re.MULTILINE))
+    assert carried & OF_HOOKS == (OF_HOOKS if hooks else set())
+    assert ("flow.asking" in carried) == bool(hooks - {"policy"})
     assert not carried & set(OF_STRANGERS)
     chosen = re.search(r"policy: (\w+)", text)
     assert carried & POLICIES == NEEDED.get(chosen[1] if chosen else "nearest", OWN)

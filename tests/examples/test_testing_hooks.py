@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.shared.hooks.testing import AppKit, Clock, HookCall, KitContext
+from pluto_fleet.shared.alone.testing import AppKit, Clock, HookCall, KitContext
 from tests.examples.test_docs import DOCS, blocks
 from tests.flying import compiled_file
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.shared.alone.testing import AppKit
 from pluto_fleet.shared.domain.actions import BUILT_IN, Action, Parameter
 from pluto_fleet.shared.domain.app import App
 from pluto_fleet.shared.domain.errors import ActionFailed
@@ -15,7 +16,6 @@ from pluto_fleet.shared.domain.model import Category, Drone, Mission, Results, T
 from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.domain.status import Status, TripStatus
 from pluto_fleet.shared.hooks.context import Context, LiveDrone
-from pluto_fleet.shared.hooks.testing import AppKit
 
 SCOUT = Category(name="scout", actions=frozenset({"take_photo"}))
 CARRIER = Category(name="carrier", payload=0.2, actions=frozenset({"pour"}))

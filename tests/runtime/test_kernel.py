@@ -9,6 +9,7 @@ import pytest
 
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.errors import Cancelled
+from pluto_fleet.shared.hooks.calls import call_hook
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import EventKind
 from pluto_fleet.shared.time.told import Stuck
@@ -192,7 +193,7 @@ def test_in_virtual_time_a_hook_that_awaits_asyncio_is_told_what_it_may_await() 
 
     for hook in (sleeps, yields):
         kernel = VirtualTime()
-        task = kernel.spawn(kernel.call_hook(hook), 0, "hook")
+        task = kernel.spawn(call_hook(kernel, hook), 0, "hook")
         task.watch(lambda _: None)
         kernel.run(task)
         with pytest.raises(RuntimeError, match=r"only what its context offers"):

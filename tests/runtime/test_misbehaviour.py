@@ -14,7 +14,7 @@ from pluto_fleet.process.signal_guard import Interrupted, interrupted_by_a_perso
 from pluto_fleet.shared.domain.errors import ActionFailed, Cancelled
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.status import Status
-from pluto_fleet.shared.flow import mission as state
+from pluto_fleet.shared.flow import asking
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.flow.run import Run
 from pluto_fleet.shared.hooks.context import Context, Verdict
@@ -225,7 +225,7 @@ def test_a_fault_in_one_branch_does_not_wait_for_the_others() -> None:
 
 def test_a_failure_before_the_launch_counts_as_no_attempt(monkeypatch: pytest.MonkeyPatch) -> None:
     """Only flights count; a modifier that fails every time is stopped by the number of its calls."""
-    monkeypatch.setattr(state, "MOST_CALLS", 10)
+    monkeypatch.setattr(asking, "MOST_CALLS", 10)
     asked: list[int] = []
 
     def never(mission: Any, context: Context) -> Status:

@@ -10,7 +10,7 @@ import pytest
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.status import Status, TripStatus
-from pluto_fleet.shared.flow import mission as state
+from pluto_fleet.shared.flow import asking
 from pluto_fleet.shared.flow.run import Run
 from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.trials.invariants import violations
@@ -154,7 +154,7 @@ def test_a_mission_that_goes_round_for_ever_fails_with_the_reason(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where its hook sleeps in between: then the clock does not stand still."""
-    monkeypatch.setattr(state, "MOST_CALLS", 5_000)
+    monkeypatch.setattr(asking, "MOST_CALLS", 5_000)
     outcome = apps.fly(
         apps.app(apps.flow(watch=round_and_round)), apps.mission(name, apps.trip("A", 2.0))
     )
@@ -166,7 +166,7 @@ def test_a_mission_that_goes_round_for_ever_fails_with_the_reason(
 
 def test_hooks_calls_are_counted_from_launch_to_launch(monkeypatch: pytest.MonkeyPatch) -> None:
     """A mission of many trips calls its hooks often, and goes round nowhere."""
-    monkeypatch.setattr(state, "MOST_CALLS", 1)
+    monkeypatch.setattr(asking, "MOST_CALLS", 1)
     trips = [apps.trip(f"{number}", 1.0 + number) for number in range(4)]
     assert apps.fly(apps.app(apps.flow(prepare=look)), apps.mission("m", *trips)).completed
 

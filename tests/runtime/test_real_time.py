@@ -17,7 +17,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category, Drone, Mission
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
-from pluto_fleet.shared.flow import mission as state
+from pluto_fleet.shared.flow import asking
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.flow.run import Run
 from pluto_fleet.shared.hooks.context import Context
@@ -185,7 +185,7 @@ def test_a_mission_that_goes_round_for_ever_fails_though_time_passes(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Here the clock never stands still; what counts is what lies between two launches."""
-    monkeypatch.setattr(state, "MOST_CALLS", 20)
+    monkeypatch.setattr(asking, "MOST_CALLS", 20)
 
     async def round_and_round(run: Run[Any], status: Status) -> Status:
         while True:

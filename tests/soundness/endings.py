@@ -26,7 +26,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Mission, Point, Results
 from pluto_fleet.shared.domain.trace import Event
-from pluto_fleet.shared.flow import mission as state
+from pluto_fleet.shared.flow import asking
 from pluto_fleet.shared.hooks.context import Context, Verdict
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
@@ -167,12 +167,12 @@ def _really(
 
 @contextmanager
 def _fewer_calls() -> Iterator[None]:
-    usual = state.MOST_CALLS
-    state.MOST_CALLS = CALLS
+    usual = asking.MOST_CALLS
+    asking.MOST_CALLS = CALLS
     try:
         yield
     finally:
-        state.MOST_CALLS = usual
+        asking.MOST_CALLS = usual
 
 
 def _category(given: Category, speed: float) -> Category:

@@ -37,7 +37,7 @@ def start(name: str, load: Callable[[], object], package: str, seam: Seam) -> in
     with ending:
         from ..process.forked import end_if_forked, refused
         from ..process.signal_guard import guard_hooks, interrupted_by_a_person
-        from ..shared.hooks.calls import loaded
+        from ..shared.hooks.loading import loaded
 
         guard_hooks()
         parent = os.getpid()

@@ -14,7 +14,7 @@ from ..process.forked import leave
 from ..process.signal_guard import by_a_person
 from ..shared import output
 from ..shared.domain.errors import ANY_ERROR
-from ..shared.hooks.calls import said
+from ..shared.domain.text import said
 
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess

@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     from ..jobs.controls import FleetDrone
     from ..jobs.job import Job
     from ..jobs.telemetry import Subscription
+    from ..process.realtime import RealTime
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.errors import FlightFailed
     from ..shared.domain.model import Category, Item, Point, Telemetry
-    from ..shared.time.kernel import Kernel
     from .protocol import DroneNavigation
     from .real_fleet import RealDrone, RealFleet, RequiredAction
 
@@ -43,7 +43,7 @@ class Team:
 
     def __init__(
         self,
-        kernel: Kernel,
+        kernel: RealTime,
         drones: Sequence[TeamDrone],
         airspace: Airspace,
         *,
@@ -254,7 +254,7 @@ def top_speed(category: Category) -> float:
 
 
 def make_team(
-    kernel: Kernel,
+    kernel: RealTime,
     drones: Sequence[FleetDrone],
     real: RealFleet,
     airspace: Airspace,

@@ -14,7 +14,7 @@ def main(name: str, words: list[str]) -> int:
     from ..process.forked import refused
     from ..process.signal_guard import guard_hooks, interrupted_by_a_person
     from ..shared import output
-    from ..shared.hooks.calls import loaded
+    from ..shared.hooks.loading import loaded
     from .command import test
 
     def by_itself(words: list[str]) -> int:

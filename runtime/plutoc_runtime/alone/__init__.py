@@ -1,1 +1,1 @@
-"""Simulation without the library: each drone alone in the air, in virtual time."""
+"""What needs no library: simulation, each drone alone in the air, and a kit for tests of hooks."""

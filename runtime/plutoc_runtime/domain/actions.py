@@ -37,6 +37,10 @@ class Action:
         """Call its hook; only an action of the app's own has one (flow/own_action.py)."""
         raise NotImplementedError(f"{self.name} is done by the drone's navigation")
 
+    async def was_done(self, state: Any, flight: Any) -> bool | None:
+        """Return whether its hook says that it was done; None: it cannot tell."""
+        return None
+
 
 PICK, RELEASE = "pick_item", "release_item"
 MEASURE = "measure"

@@ -108,11 +108,20 @@ def shown(value: object) -> str:
         return f"<{class_of(value)} that cannot be shown>"
 
 
+def said(error: BaseException) -> str:
+    """Return an error's type and text."""
+    text = f"{class_of(error)}: {text_of(error)}".removesuffix(": ")
+    return bounded(text, LONGEST_REASON)
+
+
 def class_of(value: object) -> str:
     """Return the name of a value's class, even if its metaclass hides it."""
     name: str = type.__dict__["__name__"].__get__(type(value))
     return bounded(str.__str__(name), LONGEST)
 
+
+LONGEST_REASON, LONGEST_LOG = 2_000, 20_000
+"""Characters of what a hook says of a failure, and of a line that it has logged."""
 
 LONGEST_VALUE = 10_000
 """Characters of a value that is kept as text."""

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import HookFault
 from ..domain.guard import guarded, unless_by_a_person
 from ..domain.model import Drone
-from ..domain.text import class_of
-from ..hooks.calls import hook_name, said, trace_of
+from ..domain.text import class_of, said
+from ..hooks.calls import hook_name, trace_of
 
 if TYPE_CHECKING:
     from ..domain.model import Trip

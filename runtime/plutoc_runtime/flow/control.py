@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import ANY_ERROR, BadInput
-from ..domain.guard import NOT_ITS_OWN
+from ..domain.errors import BadInput
 from ..domain.status import Status
-from ..hooks.calls import trace_of
 from ..time.kernel import mission_key
 
 if TYPE_CHECKING:
-    from ..domain.actions import Action
-    from ..domain.app import App
     from ..domain.model import Drone, Trip
     from .engine import Engine
     from .mission import MissionState
@@ -90,19 +85,9 @@ class Control:
         flight = state.flight
         if flight is None:
             raise BadInput(f"mission {request['mission']} has no flight to ask about")
-        action = self._core.app.actions[flight.trip.action]
-        probe = probe_of(self._core.app, action)
 
         async def ask() -> None:
-            answer: object = None
-            try:
-                if probe is not None:
-                    answer = await self._core.kernel.call_hook(probe, flight.flier, flight.trip)
-            except NOT_ITS_OWN:
-                raise
-            except ANY_ERROR as error:  # it cannot tell: a person must
-                self._core.log(trace_of(error), state.mission.name)
-            known = answer if type(answer) is bool else None
+            known = await flight.action.was_done(state, flight)
             self._core.orders.probed(flight.drone, flight.id, known)
 
         key = mission_key(state.mission.index)
@@ -129,14 +114,6 @@ class Control:
             if drone.id == request["drone"]:
                 return drone
         raise BadInput(f"no drone {request['drone']} is in the fleet")
-
-
-def probe_of(app: App, action: Action) -> Callable[..., Any] | None:
-    """Return the hook that can tell whether an action was done: `pollinate` has `pollinate_done`."""
-    name, hook = f"{action.name}_done", action.hook
-    if hook is None or name in app.actions or name in app.evaluators:
-        return None  # something else has this name
-    return getattr(sys.modules.get(hook.__module__), name, None)
 
 
 _COMMANDS: Mapping[str, Callable[[Control, Request], str]] = {

@@ -10,9 +10,9 @@ from ..domain.actions import PICK, RELEASE
 from ..domain.errors import ANY_ERROR, HookFault
 from ..domain.guard import unless_by_a_person
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
-from ..domain.text import class_of, shown, text_of
+from ..domain.text import class_of, said, shown, text_of
 from ..fleet.reach import why_not
-from ..hooks.calls import hook_name, said
+from ..hooks.calls import hook_name
 from ..hooks.context import Verdict
 from ..hooks.soundness import unsound, unsound_mission
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from types import CodeType, FrameType
 from typing import Any
 
-from ..hooks.calls import said
+from ..domain.text import said
 
 
 def blame(error: BaseException, flow: Callable[..., Any]) -> None:

@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import FlightFailed
 from ..domain.status import Status, TripStatus
-from ..domain.text import bounded
-from ..hooks.calls import LONGEST_LOG, look
-from ..hooks.plain_data import change_data
+from ..domain.text import LONGEST_LOG, bounded
 from ..time.kernel import mission_key
 from ..trips.flight import Flight, Limits
 
@@ -46,14 +44,6 @@ class Core:
     on_record: Callable[[], Awaitable[None]] | None = None
     """Waits until everything up to now is durable; None: this run is never resumed."""
 
-    def look(self, hook: Callable[..., object], mission: Mission[Any]) -> None:
-        """Record what a hook that was given this mission may have changed, if the run may be resumed."""
-        if self.on_record is not None:
-            look(hook, self._note_mission, mission)
-
-    def _note_mission(self, mission: Mission[Any]) -> None:
-        self.trace.note("mission.changed", **change_data(self.app, mission))
-
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console."""
         if self.trace.live:
@@ -62,11 +52,6 @@ class Core:
 
 Delay = tuple[str, str, int, int]
 """A delay: block, trip, round, attempt."""
-
-
-MOST_CALLS = 100_000
-"""Calls of hooks between two launches; a mission with more is in an endless loop, whether its hooks
-return at once or sleep."""
 
 
 @dataclass(slots=True, eq=False)
@@ -118,11 +103,6 @@ class MissionState:
             self.doom = reason
             self.doomed(self)
 
-    def calls_too_often(self) -> bool:
-        """Count a call of a hook; return whether the mission loops without ever launching."""
-        self.calls += 1
-        return self.calls > MOST_CALLS
-
     @property
     def in_flight(self) -> Flight | None:
         """The flight that is not over yet."""
@@ -153,11 +133,8 @@ class MissionState:
         elif flight.action.hook is None:
             self.complete(flight, result)
         elif flight.called_off is None and flight.own_action is None:
-            act, name = (
-                flight.action.act(self, flight),
-                f"{self.mission.name}: {flight.trip.action}",
-            )
-            key = mission_key(self.mission.index)
+            mission, act = self.mission, flight.action.act(self, flight)
+            key, name = mission_key(mission.index), f"{mission.name}: {flight.trip.action}"
             flight.own_action = self.core.kernel.spawn(act, key, name)
 
     def break_off(self, flight: Flight) -> None:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import HookFault
 from ..domain.status import Status, TripStatus
 from ..domain.text import bounded, class_of, shown
-from ..hooks.calls import hook_name, look
+from ..hooks.calls import hook_name
 from ..hooks.context import Context
-from ..hooks.plain_data import change_data
 from ..hooks.soundness import unsound, unsound_mission
+from .asking import look, note_change
 
 if TYPE_CHECKING:
     from ..domain.model import Mission, Trip
@@ -98,7 +98,7 @@ def _note_change(core: Core, before: OpenTrips, mission: Mission[Any]) -> None:
     to_do, trips = before
     left = [known for known in to_do if known[0].status is not TripStatus.COMPLETED]
     if core.trace.live and open_trips(mission) != (left, trips):
-        core.trace.note("mission.changed", **change_data(core.app, mission))
+        note_change(core, mission)
 
 
 def _contradiction(state: MissionState, status: Status) -> str | None:

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..domain.actions import Action
 from ..domain.errors import ANY_ERROR, ActionFailed, Failure, FlightFailed, HookFault
 from ..domain.guard import NOT_ITS_OWN
-from ..domain.text import bounded, text_of
-from ..hooks.calls import LONGEST_REASON, Hook, ProtectedFacts, changed, fault_of
+from ..domain.text import LONGEST_REASON, bounded, text_of
+from ..hooks.calls import Hook, ProtectedFacts, call_hook, changed, fault_of, trace_of
 from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.plain_data import keepable
 from ..time.future import Future
-from ..time.kernel import EventKind, Kernel, mission_key
+from ..time.kernel import EventKind, mission_key
+from .asking import keep
 
 if TYPE_CHECKING:
+    from ..time.told import ToldTime
     from ..trips.flight import Flight
     from .mission import MissionState
 
@@ -72,14 +75,31 @@ class OwnAction(Action):
                 live.release()
         if fact:
             raise changed(hook, "trip", fact)
-        core.look(hook, mission)
+        keep(core, hook, mission)
         return value
 
+    async def was_done(self, state: MissionState, flight: Flight) -> bool | None:
+        """Ask the hook that can tell whether it was done: `pollinate` has `pollinate_done`."""
+        core, hook, name = state.core, self.hook, f"{self.name}_done"
+        assert hook is not None
+        if name in core.app.actions or name in core.app.evaluators:
+            return None  # something else has this name
+        probe: Hook | None = getattr(sys.modules.get(hook.__module__), name, None)
+        answer: object = None
+        try:
+            if probe is not None:
+                answer = await call_hook(core.kernel, probe, flight.flier, flight.trip)
+        except NOT_ITS_OWN:
+            raise
+        except ANY_ERROR as error:  # it cannot tell: a person must
+            core.log(trace_of(error), state.mission.name)
+        return answer if type(answer) is bool else None
 
-async def _call(kernel: Kernel, hook: Hook, /, *args: object, **named: object) -> object:
+
+async def _call(kernel: ToldTime, hook: Hook, /, *args: object, **named: object) -> object:
     """Call an action; all that it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
-        return await kernel.call_hook(hook, *args, **named)
+        return await call_hook(kernel, hook, *args, **named)
     except (ActionFailed, *NOT_ITS_OWN):
         raise
     except ANY_ERROR as error:

@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ..domain.errors import ANY_ERROR, MissionFailed
-from ..domain.guard import NOT_ITS_OWN
 from ..domain.model import Mission
 from ..domain.status import UNEXECUTED, Status
-from ..hooks.calls import ProtectedFacts, changed, fault_of, hook_name
 from ..time.kernel import branch_key
-from .mission import MOST_CALLS, MissionState
 
 if TYPE_CHECKING:
     from ..time.kernel import Key, Task
     from ..trips.flight import Flight, Limit
+    from .mission import MissionState
 
 M = TypeVar("M", bound=Mission[Any])
 
@@ -45,34 +42,6 @@ class Run(Generic[M]):
         state = self.state
         if not self._depth and state.allocated is None and block in self.core.app.resumes:
             state.at = block
-
-    async def hook(self, hook: Callable[..., object], *args: object) -> object:
-        """Call one of the app's hooks; its faults end the mission."""
-        if self.state.calls_too_often():
-            raise MissionFailed(
-                f"it goes round in its graph for ever: its hooks were called {MOST_CALLS:,} times "
-                f"since its last launch, and now {hook_name(hook)} again"
-            )
-        mission, flying = self.mission, self.state.in_flight
-        name, index = mission.name, mission.index
-        held = None if flying is None else ProtectedFacts(flying.trip, "name", "action")
-        try:
-            answer = await self.core.kernel.call_hook(hook, *args)
-        except NOT_ITS_OWN:
-            raise
-        except ANY_ERROR as error:
-            raise fault_of(hook, error) from error
-        finally:
-            known = mission.name is name and mission.index is index
-            if not known:
-                mission.name, mission.index = name, index
-            fact = held and held.put_back()
-        if not known:
-            raise changed(hook, "mission", "name or index")
-        if fact:
-            raise changed(hook, "trip", fact)
-        self.core.look(hook, self.mission)
-        return answer
 
     @property
     def trip(self) -> Any:

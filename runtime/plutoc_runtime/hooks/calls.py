@@ -2,21 +2,93 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import PurePath
-from types import ModuleType
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Coroutine, Generator
+from functools import partial
+from types import CoroutineType, coroutine
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from ..domain.errors import ANY_ERROR, ActionFailed, BadInput, HookFault
-from ..domain.guard import by_a_person, unless_by_a_person
-from ..domain.text import bounded, class_of, text_of
+from ..domain.errors import ANY_ERROR, ActionFailed, HookFault
+from ..domain.guard import by_a_person, guarded, unless_by_a_person
+from ..domain.text import LONGEST_LOG, LONGEST_REASON, bounded, said, text_of
+from ..time.future import Future
+from ..time.kernel import ForeignAwait
 
 if TYPE_CHECKING:
-    from ..domain.model import Mission
+    from ..time.told import ToldTime
 
 T = TypeVar("T")
 
 Hook = Callable[..., object]
+
+
+async def call_hook(kernel: ToldTime, hook: Hook, /, *args: object, **named: object) -> object:
+    """Call one of the app's hooks, `def` or `async def`, and return its result."""
+    runner, call = kernel.runner, partial(hook, *args, **named)
+    if runner is None:
+        return await _finished(guarded(call))
+    kernel.calls = number = kernel.calls + 1
+    if not runner.start(number, hook, call):
+        ended = kernel.hooks[number] = Future[None]()
+        try:
+            await ended
+        finally:
+            del kernel.hooks[number]
+            if not ended.is_set:
+                runner.cancel(number)
+    return await _finished(guarded(partial(runner.result, number)))
+
+
+async def offer(kernel: ToldTime, future: Future[T]) -> T:
+    """Wait for a future in a hook, which may run outside of the kernel."""
+    waits = None if kernel.runner is None else kernel.runner.offer(future.watch)
+    if waits is None:
+        return await future
+    await waits
+    return future.result()
+
+
+async def _finished(result: object) -> object:
+    """Return what a hook has returned; a coroutine is run to its end."""
+    if not issubclass(type(result), CoroutineType):  # a hook's result may lie about its class
+        return result
+    waiting = cast("Coroutine[Any, Any, object]", result)
+    try:
+        return await _run_cancellable(waiting)
+    except RuntimeError as error:
+        if isinstance(error, ForeignAwait) or "no running event loop" in str(error):
+            raise RuntimeError(
+                "in a simulation a hook may await only what its context offers "
+                "(context.sleep, context.trip_ended), not asyncio"
+            ) from error
+        raise
+
+
+@coroutine
+def _run_cancellable(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
+    """Run a hook inside this coroutine; a cancelled one cannot catch that and run on."""
+    step: Callable[[], object] = partial(hook.send, None)
+    while True:
+        try:
+            waits_for = guarded(step)
+        except StopIteration as end:
+            returned: T = end.value
+            return returned
+        try:
+            yield waits_for
+            step = partial(hook.send, None)
+        except ForeignAwait as error:
+            step = partial(hook.throw, error)
+        except BaseException as error:
+            for call in (partial(hook.throw, error), hook.close):
+                try:
+                    call()
+                except ANY_ERROR as its_own:  # its result is not wanted any more
+                    if by_a_person(its_own):
+                        raise
+            raise
+
+
+# What it may not do
 
 
 class ProtectedFacts:
@@ -40,16 +112,6 @@ def changed(hook: Hook, what: str, fact: str) -> HookFault:
     return HookFault(f"hook {hook_name(hook)} changed the {what}'s {fact}, by which it is known")
 
 
-def look(hook: Hook, note: Callable[[Mission[Any]], object], mission: Mission[Any]) -> None:
-    """Record what a hook has changed; a change that cannot be stored is a fault of the hook."""
-    try:
-        note(mission)
-    except ANY_ERROR as error:
-        unless_by_a_person(error)
-        reason = f"hook {hook_name(hook)} left its mission so that it cannot be kept: {said(error)}"
-        raise HookFault(reason, trace_of(error)) from None
-
-
 def fault_of(hook: Hook, error: BaseException) -> HookFault:
     """Return the error for what a hook raised.
 
@@ -63,12 +125,6 @@ def fault_of(hook: Hook, error: BaseException) -> HookFault:
     return HookFault(reason, trace_of(error))
 
 
-def said(error: BaseException) -> str:
-    """Return an error's type and text."""
-    text = f"{class_of(error)}: {text_of(error)}".removesuffix(": ")
-    return bounded(text, LONGEST_REASON)
-
-
 def hook_name(hook: Hook) -> str:
     """Return a hook's name, as declared."""
     inner = getattr(hook, "func", hook)  # functools.partial carries its function so
@@ -77,7 +133,7 @@ def hook_name(hook: Hook) -> str:
 
 def trace_of(error: BaseException) -> str:
     """Return the traceback of a hook's error, for the log."""
-    import traceback  # not needed by those who only declare blocks
+    import traceback  # only where something has gone wrong
 
     try:
         if all(type(given) in (str, int, float) for given in error.args):
@@ -88,42 +144,3 @@ def trace_of(error: BaseException) -> str:
     through = BaseException.__dict__["__traceback__"].__get__(error)
     lines = ["Traceback (most recent call last):\n", *traceback.format_tb(through)]
     return bounded("".join(lines), LONGEST_LOG) + said(error)
-
-
-LONGEST_REASON, LONGEST_LOG = 2_000, 20_000
-"""Characters of what a hook says of a failure, and of a line that it has logged."""
-
-
-def loaded(load: Callable[[], T]) -> T:
-    """Return the app; raise `BadInput` with the place where its hooks cannot be loaded."""
-    try:
-        return load()
-    except BaseException as error:  # even a SystemExit: it would pass for a proper end
-        said = None if by_a_person(error) else _explained(error)
-        if said is None:
-            raise
-        raise BadInput(said) from error
-
-
-def _explained(error: BaseException) -> str | None:
-    """Return the message for an error of the hooks' module; None: the error is elsewhere."""
-    from traceback import extract_tb  # not needed by those who only declare blocks
-
-    if isinstance(error, AttributeError) and isinstance(error.obj, ModuleType):
-        file = error.obj.__file__
-        if _is_hooks(file):
-            return f"{file} has no {error.name}: write it; plutoc compile --add-stubs adds a stub"
-    if isinstance(error, SyntaxError) and _is_hooks(error.filename):
-        return f"{error.filename}:{error.lineno}: {error.msg}"
-    frames = [f for f in extract_tb(error.__traceback__) if _is_hooks(f.filename)]
-    if not frames:
-        return None
-    place = f"{frames[-1].filename}:{frames[-1].lineno}"
-    why = f"{place}: the hooks cannot be loaded: {said(error)}"
-    if isinstance(error, ModuleNotFoundError):
-        why += "; install it, and name it in the app's source, by the name that pip knows: requires"
-    return why
-
-
-def _is_hooks(file: str | None) -> bool:
-    return PurePath(file or "").name == "hooks.py"

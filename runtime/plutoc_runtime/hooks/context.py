@@ -13,11 +13,12 @@ from ..domain.model import NO_RESULT, Result, Results
 from ..domain.text import class_of, text_of
 from ..time.future import Future
 from ..time.kernel import EventKind, mission_key
-from ..time.told import ToldTime
+from .calls import offer
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Point, ResultStore, Trip
     from ..time.kernel import Key, Task
+    from ..time.told import ToldTime
 
 T = TypeVar("T")
 
@@ -98,9 +99,9 @@ class Context:
         timer = None
         if until is not None:
             key = mission_key(self._mission.index)
-            timer = self._kernel.at(until, kind, key, partial(over.set, None))
+            timer = self._kernel.post(self._kernel.at, until, kind, key, partial(over.set, None))
         try:
-            await self._kernel.offer(over)
+            await offer(self._kernel, over)
         finally:
             if timer is not None:
                 timer.cancel()
@@ -172,20 +173,20 @@ class LiveDrone:
     async def _asked(self, ask: Callable[[str], Coroutine[Any, Any, T]], name: str) -> T:
         """Make the request within the kernel, and wait for the answer in a hook."""
         kernel, drone = self._kernel, self._now.id
-        asking: list[Task[T]] = []
 
-        def begin() -> None:
-            asking.append(kernel.spawn(ask(drone), self._key, f"{drone} is asked for {name}"))
-            asking[0].over = lambda _: None  # an error is told to the hook, not to the kernel
+        def begin() -> Task[T]:
+            task = kernel.spawn(ask(drone), self._key, f"{drone} is asked for {name}")
+            task.over = lambda _: None  # an error is told to the hook, not to the kernel
+            return task
 
-        kernel.post(begin)
+        asking = kernel.post(begin)
         try:
-            return await kernel.offer(asking[0])
+            return await offer(kernel, asking)
         except FlightFailed as error:
             raise ActionFailed(str(error)) from error
         finally:
-            if not asking[0].is_set:
-                kernel.post(asking[0].cancel)
+            if not asking.is_set:
+                kernel.post(asking.cancel)
 
 
 def can_wait(hook: Callable[..., object]) -> bool:

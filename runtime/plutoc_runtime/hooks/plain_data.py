@@ -27,16 +27,6 @@ def fields_of(app: App, entity: Entity, of: object) -> Data:
     return {f.name: _plain(value) for f, value in given.items() if value is not f.default}
 
 
-def change_data(app: App, mission: Mission[Any]) -> Data:
-    """Return the state of a mission that a hook has changed."""
-    return {
-        "mission": mission.name,
-        "todo": [trip_data(app, trip) for trip in mission.trips],
-        "done": [trip_data(app, trip) for trip in mission.completed_trips],
-        "fields": fields_of(app, Entity.MISSION, mission),
-    }
-
-
 def trip_data(app: App, trip: Trip) -> Data:
     """Return a trip without the values that every new trip has."""
     data: Data = {

@@ -10,8 +10,7 @@ from ..domain.fields import number_of
 from ..domain.guard import unless_by_a_person
 from ..domain.model import Item
 from ..domain.status import Status, TripStatus
-from ..domain.text import class_of, shown
-from .calls import said
+from ..domain.text import class_of, said, shown
 from .plain_data import keepable
 
 if TYPE_CHECKING:

@@ -239,15 +239,9 @@ class Kernel:
             future.unwatch(over)
         return future.is_set
 
-    async def call_hook(
-        self, hook: Callable[..., object], /, *args: object, **named: object
-    ) -> object:
-        """Call one of the app's hooks, `def` or `async def`, and return its result."""
-        raise NotImplementedError
-
-    def post(self, call: Callable[..., object], *args: object) -> None:
+    def post(self, call: Callable[..., object], *args: object) -> object:
         """Deliver something from outside: an answer of a drone, a hook or a person."""
-        call(*args)
+        return call(*args)
 
     def crash(self, error: BaseException) -> None:
         """Stop the run with an error that no coroutine has caught; the driver raises it."""

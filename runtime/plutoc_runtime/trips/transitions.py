@@ -48,12 +48,7 @@ class Transitions:
         trip.drone = drone
         if self._trace.live:
             self._note(
-                "trip.allocated",
-                mission,
-                trip=trip.name,
-                drone=drone.id,
-                why=why,
-                resumes_at=at,
+                "trip.allocated", mission, trip=trip.name, drone=drone.id, why=why, resumes_at=at
             )
 
     def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:

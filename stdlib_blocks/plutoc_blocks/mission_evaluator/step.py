@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime.flow.asking import ask
 from plutoc_runtime.flow.judgement import apply
 from plutoc_runtime.hooks.context import results_for
 
@@ -19,4 +20,4 @@ async def evaluate_mission(
     """Ask the mission's evaluator, and do as its verdict says."""
     chosen = run.core.app.evaluators[evaluator] if evaluator else hook
     results = results_for(run.core.results, run.mission)
-    return apply(run, chosen, await run.hook(chosen, run.mission, results))
+    return apply(run, chosen, await ask(run, chosen, run.mission, results))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime.flow.asking import ask
 from plutoc_runtime.flow.modification import context_of, open_trips, settle
 
 if TYPE_CHECKING:
@@ -21,5 +22,5 @@ async def modify_mission(
 ) -> Status:
     """Call the hook, and go on with the status that it returns."""
     before = open_trips(run.mission)
-    returned = await run.hook(hook, run.mission, context_of(run))
+    returned = await ask(run, hook, run.mission, context_of(run))
     return await settle(run, hook, status, emits, returned, before)

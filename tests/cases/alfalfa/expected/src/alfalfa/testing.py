@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from ._runtime.hooks.testing import AppKit, Clock, HookCall, KitContext
+from ._runtime.alone.testing import AppKit, Clock, HookCall, KitContext
 from .flow import APP
 from .model import Mission, Trip
 

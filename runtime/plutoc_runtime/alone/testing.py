@@ -15,13 +15,15 @@ from ..domain.actions import Plain
 from ..domain.app import App
 from ..domain.errors import Failure, FlightFailed
 from ..domain.model import Drone, Mission, Point, Results, ResultStore, Trip
-from ..domain.status import COMPLETED, FAILED, RUNNING, STANDBY, Status, TripStatus
+from ..domain.status import RUNNING, Status
+from ..domain.trace import Trace
+from ..hooks.calls import call_hook, hook_name
+from ..hooks.context import Context, LiveDrone, can_wait, results_for
 from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Task
 from ..time.told import Stuck
 from ..time.virtual import VirtualTime
-from .calls import hook_name
-from .context import Context, LiveDrone, can_wait, results_for
+from ..trips.transitions import Transitions
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -150,6 +152,8 @@ class AppKit(Generic[M, T]):
 
     def __init__(self, app: App) -> None:
         self._app, self._store, self.clock = app, ResultStore(), Clock()
+        kernel = self.clock.kernel
+        self._transitions = Transitions(kernel, Trace(kernel, ()), self._store)
         self._flights: dict[Mission[Any], Flight] = {}
         self._none = app.mission(name="no mission", trips=[])
         self._drones, self._trips, self._missions = count(1), count(1), count(1)
@@ -200,32 +204,25 @@ class AppKit(Generic[M, T]):
         """Have a drone leave for the mission's next trip; one that flew before is put back."""
         trip, flier = mission.trips[0], drone or self.drone()
         trip.reset()
-        trip.status, trip.drone = TripStatus.EXECUTING, flier
-        trip.start_time, trip.end_time, trip.reason = self.clock.now, None, ""
-        mission.status, mission.reason = RUNNING, ""
-        mission.attempts += 1
-        flier.trips += 1
+        trip.drone = flier
+        self._transitions.launch(mission, trip, flier)
         self._flights[mission] = Flight(trip)
 
     def complete(self, mission: M, value: object = None) -> None:
         """Complete the mission's trip, whose action has given this value."""
-        trip = self._over(mission, TripStatus.COMPLETED)
-        mission.completed_trips.append(mission.trips.pop(0))
-        mission.status = STANDBY if mission.trips else COMPLETED
-        mission.last_result = self._store.add(mission, trip, mission.round, trip.attempt, value)
+        self._transitions.complete(mission, self._flown(mission), value)
         self._tell(mission)
 
     def fail(self, mission: M, reason: str = "the test has failed it") -> None:
         """Fail the mission's trip for this reason."""
-        self._over(mission, TripStatus.FAILED).reason = mission.reason = reason
-        mission.status = FAILED
+        self._transitions.fail(mission, self._flown(mission), reason)
         self._tell(mission)
 
-    def _over(self, mission: M, status: TripStatus) -> Trip:
+    def _flown(self, mission: M) -> Trip:
+        """Return the mission's trip in flight; one that was not launched is by now."""
         if mission.status is not RUNNING:
             self.launch(mission)
         trip: Trip = mission.trips[0]
-        trip.status, trip.end_time = status, self.clock.now
         return trip
 
     def _tell(self, mission: M) -> None:
@@ -259,7 +256,7 @@ class AppKit(Generic[M, T]):
 
         for context in contexts:
             context.lend(mission, lambda: self._flights.get(mission), drone)
-        call = self.clock.kernel.call_hook(hook, *given, **named)
+        call = call_hook(self.clock.kernel, hook, *given, **named)
         task = self.clock.kernel.spawn(call, FLEET, hook_name(hook))
         task.over = over
         self.clock.advance(0.0)
