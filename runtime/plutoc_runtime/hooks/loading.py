@@ -19,10 +19,10 @@ def loaded(load: Callable[[], T]) -> T:
     try:
         return load()
     except BaseException as error:  # even a SystemExit: it would pass for a proper end
-        said = None if by_a_person(error) else _explained(error)
-        if said is None:
+        why = None if by_a_person(error) else _explained(error)
+        if why is None:
             raise
-        raise BadInput(said) from error
+        raise BadInput(why) from error
 
 
 def _explained(error: BaseException) -> str | None:
