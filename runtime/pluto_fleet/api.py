@@ -25,8 +25,8 @@ from .flight.simulate import simulate as _simulate
 from .jobs.reports import Down
 from .journal.header import header
 from .journal.store import Store
-from .older import is_older, loaded_again, provide
-from .seam import checked
+from .older import loaded_again, provide
+from .seam import checked, is_older
 from .shared.alone.faults import Faults
 from .shared.alone.simulate import SimulationResult
 from .shared.domain.airspace import Airspace

@@ -26,15 +26,18 @@ def main(app: object, argv: Sequence[str] | None = None, *, brain: str, seam: Se
     if not _meet(str(getattr(app, "name", "")), brain, seam):
         return 2
     from .cli import main as run
-    from .older import is_older, loaded_again
+    from .seam import is_older
 
-    return run(loaded_again(brain) if is_older(seam) else app, argv)
+    if is_older(seam):
+        from .older import loaded_again
+
+        app = loaded_again(brain)
+    return run(app, argv)
 
 
 def _meet(name: str, brain: str, seam: Seam) -> bool:
     """Return whether this library can fly an app, and say why it cannot; lend its brain to an older one."""
-    from .older import is_older, provide
-    from .seam import problem
+    from .seam import is_older, problem
     from .shared import output
 
     why = problem(name, seam)
@@ -42,5 +45,7 @@ def _meet(name: str, brain: str, seam: Seam) -> bool:
         output.tell(why)
         return False
     if is_older(seam):
+        from .older import provide
+
         provide(brain)
     return True

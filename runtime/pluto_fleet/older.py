@@ -16,7 +16,6 @@ from pathlib import Path
 from types import ModuleType
 
 from . import shared
-from .seam import NEWEST, Seam
 
 _MOVED = {
     "domain.results": "domain.model",
@@ -32,11 +31,6 @@ _MOVED = {
 """The former modules, and where their names are today."""
 
 _COPY = Path(shared.__file__).parent
-
-
-def is_older(seam: Seam) -> bool:
-    """Return whether an app of this seam is flown by the library's copy of the brain."""
-    return seam[0] < NEWEST[0]
 
 
 def provide(brain: str) -> None:

@@ -35,6 +35,11 @@ def problem(app: str, seam: Seam) -> str | None:
     return f'{said}: compile {app} anew, or pip install "pluto-fleet<{seam[0] + 2}"'
 
 
+def is_older(seam: Seam) -> bool:
+    """Return whether an app of this seam is flown by the library's copy of the brain (`older.py`)."""
+    return seam[0] < NEWEST[0]
+
+
 def spoken() -> str:
     """Return the seams that this library supports, for a message."""
     return written(NEWEST) if OLDEST == NEWEST else f"{written(OLDEST)} to {written(NEWEST)}"
