@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, make_dataclass
 from dataclasses import field as dataclass_field
+from functools import lru_cache
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
@@ -78,8 +79,8 @@ def described(given: Any) -> App:
         name=about["name"],
         title=about["title"],
         flow=given.flow,
-        mission=_with(Mission, Entity.MISSION, fields, given.mission),
-        trip=_with(Trip, Entity.TRIP, fields, given.trip),
+        mission=_with(Mission, Entity.MISSION, fields, given.mission.__module__),
+        trip=_with(Trip, Entity.TRIP, fields, given.trip.__module__),
         fields=fields,
         categories=tuple(map(_category, about["categories"])),
         actions={
@@ -142,8 +143,9 @@ def _action(data: Mapping[str, Any], hook: Callable[..., Any] | None) -> Action:
     )
 
 
-def _with(base: T, entity: Entity, fields: tuple[Field, ...], given: type) -> T:
-    """Return the class of the app's missions or trips: with the fields that its graph adds."""
+@lru_cache(maxsize=100)
+def _with(base: T, entity: Entity, fields: tuple[Field, ...], module: str) -> T:
+    """Return the class of an app's missions or trips, made once: with the fields that its graph adds."""
     added = [
         (one.name, object, dataclass_field(default=one.default))
         for one in fields
@@ -152,6 +154,6 @@ def _with(base: T, entity: Entity, fields: tuple[Field, ...], given: type) -> T:
     made: Any = make_dataclass(
         base.__name__, added, bases=(base,), kw_only=True, eq=False, slots=True
     )
-    made.__module__ = given.__module__
+    made.__module__ = module
     classes: T = made
     return classes
