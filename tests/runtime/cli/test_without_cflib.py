@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -12,9 +11,7 @@ import pytest
 import pluto_fleet
 from tests.runtime.cli.conftest import Command
 
-INSTALL = f"'{'carrier' if 'PLUTO_EMBEDDED' in os.environ else 'pluto-fleet'}[crazyflie]'"
-"""What is to be installed: within a package it is an extra of that package."""
-SAID = f"to fly Crazyflies, cflib is needed: pip install {INSTALL}\n"
+SAID = "to fly Crazyflies, cflib is needed: pip install 'pluto-fleet[crazyflie]'\n"
 
 FLEET = """
 [[drone]]
