@@ -33,14 +33,14 @@ def test_without_the_extras_it_is_said_what_to_install(package: Path, tmp_path: 
     program = programs / "drugs_distribution"
     assert "--port" in succeed(program, "serve", "--help")
     succeed(program, "simulate", MISSIONS, "--fleet", FLEET)
-    for extra, words in (
-        ("station", ["serve", "--sim", "--folder", str(tmp_path / "kept")]),
-        ("crazyflie", ["fly", str(MISSIONS)]),
-        ("crazyflie", ["drones"]),
+    for install, words in (
+        ("drugs_distribution[station]", ["serve", "--sim", "--folder", str(tmp_path / "kept")]),
+        ("pluto-fleet[crazyflie]", ["fly", str(MISSIONS)]),
+        ("pluto-fleet[crazyflie]", ["drones"]),
     ):
         done = run(program, *words, "--fleet", FLEET, XDG_STATE_HOME=str(tmp_path / "state"))
         assert (done.code, done.out) == (2, "")
-        assert f"pip install 'drugs_distribution[{extra}]'" in done.err
+        assert f"pip install '{install}'" in done.err
     assert not (tmp_path / "state").exists()
     assert not (tmp_path / "kept").exists()
 
