@@ -71,7 +71,10 @@ def load_app(package: str) -> App:
     Its `mission` and `trip` are the classes of its missions and trips, with the fields of its graph.
     """
     brain = f"{package}._runtime"
-    seam = checked(package, import_module(f"{brain}.command").SEAM)
+    try:
+        seam = checked(package, import_module(f"{brain}.command").SEAM)
+    except ModuleNotFoundError as error:
+        raise BadInput(f"{package} is no app that can be imported here: {error}") from error
     if is_older(seam):
         provide(brain)
         return described(loaded_again(brain))
@@ -155,8 +158,12 @@ async def resume(
 ) -> FlightResult:
     """Go on with the missions of a journal, with the drones with which they were begun."""
     taken = reopen(app, journal)
-    if not taken.header["sim"]:
-        check_real(taken.app, taken.fleet, f"{journal} (its fleet)", stand_ins=False)
+    try:
+        if not taken.header["sim"]:
+            check_real(taken.app, taken.fleet, f"{journal} (its fleet)", stand_ins=False)
+    except BadInput:
+        taken.store.close()  # it holds the journal's lock
+        raise
     observer = _observer(on_event)
     flight = taken.flight(speed)
     return await run_flight(flight, taken.store, stops or Stops(), taken.known, observer)

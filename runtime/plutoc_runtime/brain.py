@@ -63,7 +63,8 @@ class Brain:
     ) -> None:
         """`fleet` has the `drones` (`id`, `category`, `home`), and perhaps `after_trip`, `max_airborne`.
 
-        `speeds` are those of categories that fly at others than the app says: the mean, and the top one.
+        `speeds` are those of categories that fly at others than the app says: the mean, and the top one;
+        `midnight` is how many seconds after midnight the app has started.
         With `recorded` in it, the events say all from which a later brain can go on; no drone is free
         before `go_on` has said how it is, and the brain must be told what is `durable`. With `silent`
         nothing is kept for `events`. Without `hooks` they are called at once.
@@ -271,7 +272,8 @@ def _drones(
 def _as_fast(app: App, speeds: Mapping[str, Any]) -> App:
     """Return the app with its categories as fast as their drones fly."""
     kinds = {one.name: one for one in app.categories}
-    for name, (speed, top_speed) in speeds.items():
+    for name in kinds.keys() & speeds.keys():
+        speed, top_speed = speeds[name]
         kinds[name] = replace(kinds[name], speed=speed, top_speed=top_speed)
     return replace(app, categories=tuple(kinds.values())) if speeds else app
 
