@@ -43,7 +43,6 @@ if TYPE_CHECKING:
     from .domain.app import App
     from .domain.model import Point
     from .domain.trace import Event
-    from .fleet.telemetry import KnownState
     from .flow.mission import MissionState
     from .time.kernel import Task
 
@@ -212,10 +211,6 @@ class Brain:
         """When the last mission ended, once all have and every drone has landed; None: not yet."""
         whole = self._whole
         return whole.result() if whole is not None and whole.is_set else None
-
-    def telemetry(self, drone: str) -> KnownState:
-        """Return what is known of a drone; it stays current."""
-        return self._orders.drones[drone]
 
     def whereabouts(self) -> Mapping[str, Any]:
         """Return where each mission that has not ended is in its graph.

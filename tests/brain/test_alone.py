@@ -111,7 +111,7 @@ def track(airspace: Airspace, mission: Any, home: Point, faults: Faults, seed: i
     flown.begin([mission])
     brain, places, now = flown.brain, [], 0.0
     while not flown.run(now):
-        places.append(brain.telemetry("cf1").location)
+        places.append(tuple(brain.drones()["cf1"]["at"]))
         now += 0.1
     assert brain.standing()["missions"]["a"]["status"] in ("COMPLETED", "FAILED")
     flown.close()

@@ -123,6 +123,30 @@ def test_it_is_over_when_missions_have_ended_and_drones_are_down(home: bool, sta
     brain.close()
 
 
+@pytest.mark.parametrize("fails", [False, True])
+def test_a_drone_that_never_reaches_its_dock_is_lost_after_a_few_flights_home(fails: bool) -> None:
+    """It would fly until its battery is empty: a person must see what stands in its dock."""
+    brain = charged()
+    brain.begin([{"trips": [trip()]}], 0.0)
+    (order,) = settled(brain, 0.0)
+    brain.tell({"telemetry": {"cf1": {"battery": 0.1, "landed": False}}}, 5.0)
+    brain.tell({"done": order["id"]}, 5.0)
+    done: list[object] = []
+    while (orders := settled(brain, 5.0)) and len(done) < 20:
+        (order,) = orders
+        done.append(order["do"])
+        failed = fails and order["do"] == "home"
+        brain.tell({"telemetry": {"cf1": {"at": [1.5, 0.5, 0.0], "landed": True}}}, 5.0)
+        answer = {"failed": order["id"], "failure": "REFUSED", "reason": "its dock is taken"}
+        brain.tell(answer if failed else {"done": order["id"], "value": True}, 5.0)
+    assert done == (["home", "recover"] * 3 if fails else ["home"] * 3)
+    (drone,) = brain.drones().values()
+    assert drone["status"] == "LOST"
+    assert drone["unready"] == "it flew home 3 times, and landed 0.5 m from its dock"
+    assert brain.over == 5.0
+    brain.close()
+
+
 def test_missions_may_begin_while_others_fly() -> None:
     """They are numbered on, and it is not over before they have ended."""
     brain = charged(2)
@@ -152,9 +176,10 @@ def test_telemetry_is_exact_between_two_messages() -> None:
     told = {"leg": leg, "battery": [0.9, 2.0, -0.01], "landed": False}
     brain.tell({"telemetry": {"cf1": told}}, 2.0)
     brain.advance(6.0)
-    known = brain.telemetry("cf1")
-    assert known.location == (3.0, 0.5, 1.2)
-    assert known.battery_level == pytest.approx(0.86)
+    (known,) = brain.drones().values()
+    assert known["at"] == [3.0, 0.5, 1.2]
+    assert known["battery"] == pytest.approx(0.86)
     brain.tell({"telemetry": {"cf1": {"battery": 0.5}}}, 7.0)
-    assert (known.location, known.battery_level, known.landed) == ((3.5, 0.5, 1.2), 0.5, False)
+    (known,) = brain.drones().values()
+    assert (known["at"], known["battery"], known["landed"]) == ([3.5, 0.5, 1.2], 0.5, False)
     brain.close()

@@ -12,10 +12,11 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from pluto_fleet.drones.recovery import RECONNECT_LIMIT
 from pluto_fleet.journal.place import commands_note
 
-PATIENCE = 120.0
-"""Seconds until a life that does not end is called a failure."""
+PATIENCE = RECONNECT_LIMIT + 60.0
+"""Seconds until a life that does not end is called a failure: a lost link is waited for."""
 
 
 @dataclass(slots=True, kw_only=True)

@@ -20,6 +20,7 @@ from ..domain.model import Drone, Mission, Result
 from ..domain.status import DroneStatus, Status
 from ..domain.text import counted, duration, quoted
 from ..domain.trace import Event
+from ..fleet.telemetry import KnownState
 from ..flow.standing import drones_of, fleet_data, mission_data, results_of, take_over
 from ..time.told import Stuck
 from .ideal import IdealDrones
@@ -108,7 +109,7 @@ def simulate(
         return SimulationResult(
             duration=ended,
             missions=tuple(missions),
-            drones=drones_of(app, fleet, standing["drones"], flown.brain.telemetry),
+            drones=drones_of(app, fleet, standing["drones"], flown.telemetry),
             flown={drone.id: drone.flown for drone in flown.drones.drones.values()},
             events=tuple(events),
             results=results_of(missions, standing["results"]),
@@ -154,6 +155,13 @@ class Alone:
                 brain.advance(when)
             self._listen()
         return True
+
+    def telemetry(self, drone: str) -> KnownState:
+        """Return what the brain knows of a drone at this instant."""
+        stands = self.brain.drones()[drone]
+        known = KnownState(self, stands["at"])
+        known.take(stands)
+        return known
 
     def close(self) -> None:
         """End everything where it is."""

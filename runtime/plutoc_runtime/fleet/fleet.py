@@ -124,26 +124,27 @@ class Fleet:
         if drone.status is not status:
             drone.status = status
             if self._trace.live:
-                self._note(drone)
+                why = {"reason": self.unready.get(drone, "")} if status is DroneStatus.LOST else {}
+                at, battery = [round(metres, 3) for metres in drone.location], drone.battery_level
+                what = f"drone.{status.value.lower()}"
+                self._trace.note(what, drone=drone.id, battery=round(battery, 4), at=at, **why)
         self.queue.moved(drone)
         if self._change is not None:
             change, self._change = self._change, None
             change.set(None)
 
-    def _note(self, drone: Drone) -> None:
-        at = [round(metres, 3) for metres in drone.location]
-        facts: dict[str, object] = {"battery": round(drone.battery_level, 4), "at": at}
-        if drone.status is DroneStatus.LOST:
-            facts["reason"] = self.unready.get(drone, "")
-        self._trace.note(f"drone.{drone.status.value.lower()}", drone=drone.id, **facts)
-
     # On the ground
 
-    async def _settle(self, drone: Drone) -> None:
-        """Settle a healthy drone where it stands, or else at home."""
-        if not self._settle_here(drone):
+    async def _settle(self, drone: Drone, tries: int = 0) -> None:
+        """Settle a healthy drone where it stands, or else at home; `tries`: how often it has flown there."""
+        if self._settle_here(drone):
+            return
+        if tries == HOMINGS:
+            away = drone.distance(drone.home)
+            self._lose(drone, f"it flew home {tries} times, and landed {away:.1f} m from its dock")
+        else:
             self._become(drone, DroneStatus.RETURNING)
-            await self._return(drone)
+            await self._return(drone, tries)
 
     def _settle_here(self, drone: Drone) -> bool:
         """Make it FREE, CHARGING or, if it is retired, OFFLINE; return False: it must go home for that."""
@@ -159,20 +160,20 @@ class Fleet:
         if not self._is_docked(drone):
             return False
         self._become(drone, DroneStatus.CHARGING)
-        self._look_at(drone, self._kernel.now + missing * drone.category.charge_time + 0.001)
+        self._free_after(missing * drone.category.charge_time + 0.001, drone)
         return True
 
-    def _look_at(self, drone: Drone, when: float) -> None:
-        self._kernel.at(when, EventKind.CLOCK, self._key(drone), partial(self._charged, drone))
+    def _free_after(self, seconds: float, drone: Drone) -> None:
+        """Free a charging drone; if its battery is still low then, look at it again later."""
 
-    def _charged(self, drone: Drone) -> None:
-        """Free a drone whose charging time is over; check again later if its battery is still low."""
-        if drone.status is not DroneStatus.CHARGING:
-            return
-        if drone.battery_level > drone.category.reserve:
-            self._become(drone, _FREE)
-        else:
-            self._look_at(drone, self._kernel.now + _LOOK_AGAIN)
+        def look() -> None:
+            if drone.status is DroneStatus.CHARGING:
+                if drone.battery_level > drone.category.reserve:
+                    self._become(drone, _FREE)
+                else:
+                    self._free_after(10.0, drone)  # it should be charged by now
+
+        self._kernel.at(self._kernel.now + seconds, EventKind.CLOCK, self._key(drone), look)
 
     async def _stay(self, drone: Drone) -> None:
         try:
@@ -181,38 +182,40 @@ class Fleet:
             await self._rescue(drone, str(error))
             return
         await self._settle(drone)
-        if self._after_trip is AfterTrip.NEXT:
+        while self._after_trip is AfterTrip.NEXT:
             await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
-            while self._is_stray(drone) and not self.queue.room:
-                if self._change is None:
-                    self._change = Future()
-                await self._change
-                await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
-            if self._is_stray(drone):
+            if drone.status is not _FREE or self._is_docked(drone):
+                return
+            if self.queue.room:
                 self._become(drone, DroneStatus.RETURNING)
                 await self._return(drone)
+                return
+            self._change = self._change or Future()
+            await self._change
 
-    async def _return(self, drone: Drone) -> None:
+    async def _return(self, drone: Drone, tries: int = 0) -> None:
         try:
             await self._orders.home(drone.id)
         except FlightFailed as error:
-            await self._rescue(drone, str(error))
+            await self._rescue(drone, str(error), tries=tries + 1)
         else:
-            await self._settle(drone)
+            await self._settle(drone, tries + 1)
 
-    async def _rescue(self, drone: Drone, reason: str, repaired: bool = False) -> None:
-        """Bring a drone home, or give it up as lost; a repaired one may say that it is not ready."""
+    async def _rescue(
+        self, drone: Drone, reason: str, mended: bool = False, tries: int = 0
+    ) -> None:
+        """Bring a drone home, or give it up as lost; a mended one may say that it is not ready."""
         self._become(drone, _RECOVERING)
         why = await self._orders.recover(drone.id)
         if drone in self.lost_before:
             self._lose(drone, self.lost_before[drone])
         elif why is not None:
-            why = self._not_ready(drone, why) if repaired else why
+            why = self._not_ready(drone, why) if mended else why
             reason = cut_off(printable(reason), LONGEST) or "it could not be brought home"
             self._lose(drone, why or reason)
         else:
             self.unready.pop(drone, None)
-            await self._settle(drone)
+            await self._settle(drone, tries)
 
     def _lose(self, drone: Drone, reason: str) -> None:
         self.unready[drone] = reason
@@ -266,7 +269,7 @@ class Fleet:
             self._orders.mended(drone.id)  # its errand may be waiting for this
         if drone.status is DroneStatus.LOST:
             unknown = "it was brought back, and could not be reached"
-            back = partial(self._rescue, reason=unknown, repaired=True)
+            back = partial(self._rescue, reason=unknown, mended=True)
             self._send(drone, _RECOVERING, back, "comes back")
         elif drone.status is DroneStatus.OFFLINE and not self._settle_here(drone):
             self.send_home(drone)
@@ -281,9 +284,6 @@ class Fleet:
         """Whether its battery holds little more than the way home takes."""
         return drone.battery_level < drone.category.reserve + 0.2
 
-    def _is_stray(self, drone: Drone) -> bool:
-        return drone.status is _FREE and not self._is_docked(drone)
-
     def _is_docked(self, drone: Drone) -> bool:
         return drone.telemetry.landed and docked(drone.location, drone.home)
 
@@ -293,8 +293,8 @@ class Fleet:
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
 
-_LOOK_AGAIN = 10.0
-"""Seconds between two checks of a battery that should be charged by now."""
+HOMINGS = 3
+"""How often a drone flies home that lands beside its dock, where it is not charged."""
 
 LONGEST = 500
 """Characters of the reason why a drone is lost."""
