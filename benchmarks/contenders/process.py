@@ -64,7 +64,7 @@ class Said(TypedDict):
     threads: int
     """The most that there were at once."""
     peak_mib: float
-    """The most memory that the process held."""
+    """The most memory that the process held, up to the end of the last run."""
 
 
 def kernel_says(key: str) -> int:
@@ -81,7 +81,7 @@ def measure(fly: Fly, work: Work, repeat: int) -> Said:
     """Do the work a number of times; every time is checked, and every time is told."""
     cpu, wall = [], []
     ground: list[float] = []
-    wanted, threads = expected(work), 1
+    wanted, threads, peak = expected(work), 1, 0.0
     for _ in range(repeat):
         gc.collect()
         notes = Notes()
@@ -91,6 +91,7 @@ def measure(fly: Fly, work: Work, repeat: int) -> Said:
         MARK()
         cpu.append(time.process_time() - cpu_before)
         wall.append(time.perf_counter() - wall_before)
+        peak = kernel_says("VmHWM") / 1024
         if callable(done):
             done = done()
         if done != wanted:
@@ -106,7 +107,7 @@ def measure(fly: Fly, work: Work, repeat: int) -> Said:
         "wall": wall,
         "on_the_ground": ground,
         "threads": threads,
-        "peak_mib": kernel_says("VmHWM") / 1024,
+        "peak_mib": peak,
     }
 
 
