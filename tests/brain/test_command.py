@@ -386,7 +386,7 @@ def test_ctrl_c_ends_a_simulation_cleanly(package: Path) -> None:
     )
     assert process.stdout is not None and process.stdout.readline() == "begins\n"
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=20)
+    _, err = process.communicate(timeout=60)
     assert process.returncode == 130
     assert err.endswith("pm10: interrupted\n") and "Traceback" not in err
 

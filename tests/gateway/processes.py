@@ -86,7 +86,7 @@ class Brain:
 
     async def until(self, is_so: Callable[[], bool]) -> None:
         """Wait until something is so."""
-        async with asyncio.timeout(20):
+        async with asyncio.timeout(60):
             while not is_so():
                 await asyncio.sleep(0.005)
 
@@ -97,7 +97,7 @@ def played(folder: Path, play: Callable[[Brain], Awaitable[None]], **other: Any)
     async def main() -> None:
         brain = Brain(RealTime(SPEED), folder, **other)
         try:
-            async with asyncio.timeout(30):
+            async with asyncio.timeout(150):
                 await play(brain)
         finally:
             for link in brain.links:

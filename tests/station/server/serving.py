@@ -86,7 +86,7 @@ class Served:
 async def all_of(reader: asyncio.StreamReader) -> bytes:
     """Read until the other side hangs up, as it must."""
     found = b""
-    async with asyncio.timeout(20):
+    async with asyncio.timeout(60):
         with suppress(ConnectionError):
             while part := await reader.read(65536):
                 found += part
