@@ -105,11 +105,12 @@ def simulate(
         flown.begin(missions)
         ended, given_up = see_through(flown, flown.run, app.name, bound, until)
         standing = flown.brain.standing()
+        stand = standing["drones"]
         take_over(app, missions, standing["missions"])
         return SimulationResult(
             duration=ended,
             missions=tuple(missions),
-            drones=drones_of(app, fleet, standing["drones"], flown.telemetry),
+            drones=drones_of(app, fleet, stand, lambda drone: flown.known(stand[drone])),
             flown={drone.id: drone.flown for drone in flown.drones.drones.values()},
             events=tuple(events),
             results=results_of(missions, standing["results"]),
@@ -156,9 +157,8 @@ class Alone:
             self._listen()
         return True
 
-    def telemetry(self, drone: str) -> KnownState:
-        """Return what the brain knows of a drone at this instant."""
-        stands = self.brain.drones()[drone]
+    def known(self, stands: Mapping[str, Any]) -> KnownState:
+        """Return the state of a drone that stands so."""
         known = KnownState(self, stands["at"])
         known.take(stands)
         return known

@@ -124,54 +124,44 @@ class Fleet:
         if drone.status is not status:
             drone.status = status
             if self._trace.live:
-                why = {"reason": self.unready.get(drone, "")} if status is DroneStatus.LOST else {}
-                at, battery = [round(metres, 3) for metres in drone.location], drone.battery_level
-                what = f"drone.{status.value.lower()}"
-                self._trace.note(what, drone=drone.id, battery=round(battery, 4), at=at, **why)
+                self._note(drone)
         self.queue.moved(drone)
         if self._change is not None:
             change, self._change = self._change, None
             change.set(None)
 
+    def _note(self, drone: Drone) -> None:
+        at = [round(metres, 3) for metres in drone.location]
+        facts: dict[str, object] = {"battery": round(drone.battery_level, 4), "at": at}
+        if drone.status is DroneStatus.LOST:
+            facts["reason"] = self.unready.get(drone, "")
+        self._trace.note(f"drone.{drone.status.value.lower()}", drone=drone.id, **facts)
+
     # On the ground
 
-    async def _settle(self, drone: Drone, tries: int = 0) -> None:
-        """Settle a healthy drone where it stands, or else at home; `tries`: how often it has flown there."""
-        if self._settle_here(drone):
-            return
-        if tries == HOMINGS:
-            away = drone.distance(drone.home)
-            self._lose(drone, f"it flew home {tries} times, and landed {away:.1f} m from its dock")
-        else:
-            self._become(drone, DroneStatus.RETURNING)
-            await self._return(drone, tries)
-
     def _settle_here(self, drone: Drone) -> bool:
-        """Make it FREE, CHARGING or, if it is retired, OFFLINE; return False: it must go home for that."""
-        if drone in self.retired:
-            if not self._is_docked(drone):
-                return False
-            self._become(drone, DroneStatus.OFFLINE)
-            return True
-        missing = drone.category.reserve - drone.battery_level
-        if missing < 0:
+        """Make a healthy drone FREE, CHARGING or, if retired, OFFLINE; return False: it must go home for that."""
+        missing, retired = drone.category.reserve - drone.battery_level, drone in self.retired
+        if missing < 0 and not retired:
             self._become(drone, _FREE)
-            return True
-        if not self._is_docked(drone):
+        elif not self._is_docked(drone):
             return False
-        self._become(drone, DroneStatus.CHARGING)
-        self._free_after(missing * drone.category.charge_time + 0.001, drone)
+        elif retired:
+            self._become(drone, DroneStatus.OFFLINE)
+        else:
+            self._become(drone, DroneStatus.CHARGING)
+            self._free_after(missing * drone.category.charge_time + 0.001, drone)
         return True
 
     def _free_after(self, seconds: float, drone: Drone) -> None:
         """Free a charging drone; if its battery is still low then, look at it again later."""
 
         def look() -> None:
-            if drone.status is DroneStatus.CHARGING:
-                if drone.battery_level > drone.category.reserve:
-                    self._become(drone, _FREE)
-                else:
-                    self._free_after(10.0, drone)  # it should be charged by now
+            charging = drone.status is DroneStatus.CHARGING
+            if charging and drone.battery_level > drone.category.reserve:
+                self._become(drone, _FREE)
+            elif charging:
+                self._free_after(10.0, drone)  # it should be charged by now
 
         self._kernel.at(self._kernel.now + seconds, EventKind.CLOCK, self._key(drone), look)
 
@@ -181,41 +171,50 @@ class Fleet:
         except FlightFailed as error:
             await self._rescue(drone, str(error))
             return
-        await self._settle(drone)
+        if not self._settle_here(drone):
+            await self._return(drone)
         while self._after_trip is AfterTrip.NEXT:
             await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             if drone.status is not _FREE or self._is_docked(drone):
                 return
             if self.queue.room:
-                self._become(drone, DroneStatus.RETURNING)
                 await self._return(drone)
                 return
             self._change = self._change or Future()
             await self._change
 
-    async def _return(self, drone: Drone, tries: int = 0) -> None:
-        try:
-            await self._orders.home(drone.id)
-        except FlightFailed as error:
-            await self._rescue(drone, str(error), tries=tries + 1)
-        else:
-            await self._settle(drone, tries + 1)
+    async def _return(self, drone: Drone) -> None:
+        """Fly a drone home; one that lands beside its dock each time is lost there."""
+        for _ in range(FLIGHTS_HOME):
+            self._become(drone, DroneStatus.RETURNING)
+            try:
+                await self._orders.home(drone.id)
+            except FlightFailed as error:
+                if not await self._recovered(drone, str(error)):
+                    return
+            if self._settle_here(drone):
+                return
+        away = f"{drone.distance(drone.home):.1f} m from its dock"
+        self._lose(drone, f"it flew home {FLIGHTS_HOME} times, and landed {away}")
 
-    async def _rescue(
-        self, drone: Drone, reason: str, mended: bool = False, tries: int = 0
-    ) -> None:
-        """Bring a drone home, or give it up as lost; a mended one may say that it is not ready."""
+    async def _rescue(self, drone: Drone, reason: str, repaired: bool = False) -> None:
+        """Bring a drone home, or give it up as lost; a repaired one may say that it is not ready."""
+        if await self._recovered(drone, reason, repaired) and not self._settle_here(drone):
+            await self._return(drone)
+
+    async def _recovered(self, drone: Drone, reason: str, repaired: bool = False) -> bool:
+        """Recover a drone; return False if it is lost."""
         self._become(drone, _RECOVERING)
         why = await self._orders.recover(drone.id)
         if drone in self.lost_before:
             self._lose(drone, self.lost_before[drone])
         elif why is not None:
-            why = self._not_ready(drone, why) if mended else why
+            why = self._not_ready(drone, why) if repaired else why
             reason = cut_off(printable(reason), LONGEST) or "it could not be brought home"
             self._lose(drone, why or reason)
         else:
             self.unready.pop(drone, None)
-            await self._settle(drone, tries)
+        return drone.status is _RECOVERING
 
     def _lose(self, drone: Drone, reason: str) -> None:
         self.unready[drone] = reason
@@ -269,7 +268,7 @@ class Fleet:
             self._orders.mended(drone.id)  # its errand may be waiting for this
         if drone.status is DroneStatus.LOST:
             unknown = "it was brought back, and could not be reached"
-            back = partial(self._rescue, reason=unknown, mended=True)
+            back = partial(self._rescue, reason=unknown, repaired=True)
             self._send(drone, _RECOVERING, back, "comes back")
         elif drone.status is DroneStatus.OFFLINE and not self._settle_here(drone):
             self.send_home(drone)
@@ -293,7 +292,7 @@ class Fleet:
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
 
-HOMINGS = 3
+FLIGHTS_HOME = 3
 """How often a drone flies home that lands beside its dock, where it is not charged."""
 
 LONGEST = 500
