@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Diagnostic, Rejected, accept_or_raise
+from plutoc.graph.model import Graph
 from plutoc.graph.resolve import resolved
 from plutoc.registry import blocks, standard
 from plutoc.source import Source
@@ -66,7 +67,12 @@ def analyse(source: Source) -> tuple[Checked, Warnings]:
     """Return the checked graph of a source."""
     file, of_syntax = read(source)
     graph, of_names = resolved(file, blocks() if file.uses else standard())
-    warnings = accept_or_raise((*of_syntax, *of_names))
+    return check_names_first(graph, (*of_syntax, *of_names))
+
+
+def check_names_first(graph: Graph, found: Iterable[Diagnostic]) -> tuple[Checked, Warnings]:
+    """Return the checked graph, unless something was found about its syntax or its names."""
+    warnings = accept_or_raise(found)
     checked, of_graph = check(graph)
     return checked, warnings + of_graph
 
