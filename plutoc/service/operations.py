@@ -173,7 +173,7 @@ Operation = (
 )
 
 KINDS: Mapping[str, type] = MappingProxyType(
-    {kind.__name__: kind for kind in Operation.__args__}  # type: ignore[attr-defined]
+    {kind.__name__: kind for kind in Operation.__args__}
 )
 
 
