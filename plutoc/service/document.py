@@ -65,10 +65,15 @@ class Document:
         """As much of the graph as is clear."""
         return self._resolved[0]
 
+    @property
+    def of_names(self) -> tuple[Diagnostic, ...]:
+        """What is found about its syntax and its names."""
+        return (*self._read[1], *self._resolved[1])
+
     @cached_property
     def _checked(self) -> tuple[Checked | None, tuple[Diagnostic, ...]]:
         try:
-            return check_names_first(self.graph, (*self._read[1], *self._resolved[1]))
+            return check_names_first(self.graph, self.of_names)
         except Rejected as rejected:
             return None, rejected.diagnostics
 
