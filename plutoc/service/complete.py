@@ -14,13 +14,13 @@ from plutoc.service.completion.hole import Hole, hole
 from plutoc.service.completion.known import Known
 from plutoc.service.completion.outside import outside
 from plutoc.service.completion.statements import statement
-from plutoc.service.completion.trial import SMALL, Trial, Trials
+from plutoc.service.completion.trial import Trial, Trials
 from plutoc.service.document import Document
 
 MOST = 100
-"""Of more completions nobody reads the rest: with more letters typed, others come in."""
-MOST_JUDGED = 8
-"""Of so many the checks of the graph say how well they fit: of those that are likeliest."""
+"""Of more completions the rest is not read: with more letters typed, others come in."""
+MOST_CHECKED = 50
+"""In blocks: so much is checked anew at most to tell which completions fit the graph best."""
 
 
 def complete(document: Document, offset: int) -> tuple[Item, ...]:
@@ -71,9 +71,11 @@ def _legal(trials: Trials, found: list[Candidate]) -> list[tuple[Candidate, str]
             legal.append((candidate, trial))
             if len(legal) == MOST:
                 break
-    small = len(trials.graph.nodes) <= SMALL
-    judged = [one for one in legal if one[0].judged and small][:MOST_JUDGED]
-    before = trials.without if judged else 0
+    size = len(trials.graph.nodes)
+    most = min(MOST_CHECKED // size, 8) if size else 0
+    judged = [one for one in legal if one[0].judged][:most] if len(legal) > 1 else []
+    mixed = len(judged) < len(legal) and not all(one[0].judged for one in legal)
+    before = trials.without if judged and mixed else 0
     scores = {id(one): trials.findings(one[1]) - before for one in judged}
     worst = max(scores.values(), default=0)
 

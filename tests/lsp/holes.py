@@ -17,7 +17,7 @@ from pathlib import Path
 from plutoc.diagnostic import Severity
 from plutoc.service.complete import complete
 from plutoc.service.document import Document
-from plutoc.service.symbols import Role, occurrences
+from plutoc.service.symbols import occurrences
 from plutoc.source import Span
 from plutoc.syntax.grammar import lexed
 

@@ -38,11 +38,15 @@ _TYPICAL = {
 }
 """Names of parameters, likewise."""
 
+_SEVERAL = 1_000
+"""Most kinds stand in an app once: what it has already comes later."""
+
 _OFTEN = (Type.TIME, Type.MASS, Type.LENGTH, Type.TEXT, Type.FLOAT, Type.INT, Type.BOOL)
 
 
 def kinds(known: Known, prefix: str = "") -> Iterator[Candidate]:
     """Give the kinds of blocks, with what each of them must be given; of one package, or all."""
+    there = [node.block for node in known.graph.nodes]
     for i, (written, block) in enumerate(known.kinds.items()):
         if not written.startswith(prefix):
             continue
@@ -55,7 +59,7 @@ def kinds(known: Known, prefix: str = "") -> Iterator[Candidate]:
             forms=(*forms, *new),
             detail=first_line(block),
             doc=describe.of_kind(written, block),
-            rank=i,
+            rank=i + (_SEVERAL if block in there else 0),
             judged=True,
         )
 

@@ -56,6 +56,8 @@ def blocks(hole: Hole, known: Known) -> Iterator[Candidate]:
 
 def _from(known: Known, name: str, _: Sequence[str]) -> int:
     """Rank a block by whether it is left with statuses that no arrow takes yet."""
+    if name == START:
+        return 0 if known.graph.outgoing.get(START) else _UNREACHED
     return _LIKELY if known.leaves(name) - known.taken_from(name) else 0
 
 

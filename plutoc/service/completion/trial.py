@@ -22,9 +22,6 @@ from plutoc.syntax.fragment import statements_of
 from plutoc.syntax.parse import read
 from plutoc.syntax.tree import ActionDecl, BadStatement, BlockDecl, File, HookDecl, Statement
 
-SMALL = 60
-"""In blocks: of a larger app the graph is not checked anew for each completion."""
-
 _NO_NAMES = frozenset({Role.KIND, Role.PARAMETER, Role.TYPE, Role.STATUS, Role.TERMINAL, Role.APP})
 """What an app does not declare by these names."""
 
