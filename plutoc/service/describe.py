@@ -33,7 +33,7 @@ KEYWORDS: Mapping[str, str] = MappingProxyType(
         "version": "The version of the app's package, as PEP 440 writes versions.",
         "requires": "What must be installed for the hooks, as PEP 508 writes requirements.",
         "safe": "The action may be repeated after a crash of the system.",
-        "once": "The action is never repeated after a crash: a person is asked where it is not known.",
+        "once": "The action is not repeated after a crash of the system.",
         "ask": "After a crash a person decides whether the action is repeated.",
         "start": "Where every mission begins: it leads to the block that makes missions.",
         "end": "Where missions end: it takes COMPLETED and FAILED.",
@@ -200,7 +200,7 @@ def in_units(value: Plain, kind: Type) -> str:
         _, factor, offset = UNITS[unit]
         number = f"{(value - offset) / factor:.6g}"
         ways.append(
-            (len(number.replace(".", "")) + (abs(float(number)) < 1), -factor, number, unit)
+            (len(number.replace(".", "")) + (abs(float(number)) < 0.1), -factor, number, unit)
         )
     _, _, number, unit = min(ways)
     return f"{number} {unit}"
@@ -224,3 +224,8 @@ def hook_declaration(hook: Hook | Action) -> str:
     emits = f" emits {', '.join(s.value for s in hook.emits)}" if hook.emits else ""
     writes = f" writes {', '.join(hook.writes)}" if hook.writes else ""
     return f"{hook.kind.value} {hook.name}{f'({given})' if given else ''}{emits}{writes}"
+
+
+def in_si(value: float, kind: Type) -> str:
+    """Say a number as hooks get it."""
+    return f"{value:g} ({_UNIT_OF_HOOK[kind]})"

@@ -15,6 +15,7 @@ from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.model import Edge, Graph
 from plutoc.graph.resolve import resolved
 from plutoc.registry import Blocks, blocks, standard
+from plutoc.service.symbols import Occurrence, occurrences
 from plutoc.source import Source
 from plutoc.syntax.parse import read
 from plutoc.syntax.tree import File
@@ -50,6 +51,11 @@ class Document:
     def file(self) -> File:
         """The tree."""
         return self._read[0]
+
+    @cached_property
+    def names(self) -> tuple[Occurrence, ...]:
+        """All names in it, with their places."""
+        return occurrences(self.file)
 
     @cached_property
     def installed(self) -> Blocks:

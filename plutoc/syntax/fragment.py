@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 from lark import Token
 
-from plutoc.source import Source
+from plutoc.source import Source, Span
 from plutoc.syntax import build
 from plutoc.syntax.grammar import lexed, tree_of
 from plutoc.syntax.lines import Line, lines_of
-from plutoc.syntax.tokens import END, NEWLINE, made_up
+from plutoc.syntax.tokens import END, NEWLINE, made_up, span
 from plutoc.syntax.tree import Statement
 
 _BEFORE = (
@@ -58,4 +58,13 @@ def marked(text: str, mark: str) -> Marked | None:
                 still = any(one.first == "RBRACE" for one in lines[i:])
                 inside = opened and (still or not closed)
                 return Marked(line=line, at=at, inside=inside, above=tuple(lines[:i]))
+    return None
+
+
+def word_at(text: str, offset: int) -> tuple[str, Span, str] | None:
+    """Return the token in which a place lies, where it is and its type; None in blanks and comments."""
+    for token in lexed(text):
+        where = span(token)
+        if where.start <= offset < where.end and token.type != NEWLINE:
+            return str(token), where, token.type
     return None
