@@ -61,10 +61,17 @@ def marked(text: str, mark: str) -> Marked | None:
     return None
 
 
+def tokens_of(text: str) -> list[Token]:
+    """Return the words and signs of a whole source, comments left out."""
+    if text.startswith("\ufeff"):
+        text = f" {text[1:]}"
+    return [token for token in lexed(text) if token.type != NEWLINE]
+
+
 def word_at(text: str, offset: int) -> tuple[str, Span, str] | None:
     """Return the token in which a place lies, where it is and its type; None in blanks and comments."""
-    for token in lexed(text):
+    for token in tokens_of(text):
         where = span(token)
-        if where.start <= offset < where.end and token.type != NEWLINE:
+        if where.start <= offset < where.end:
             return str(token), where, token.type
     return None
