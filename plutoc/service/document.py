@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -23,6 +23,9 @@ from plutoc_runtime.domain.status import Status
 
 FindHooks = Callable[[Checked], Source | None]
 """Returns the hooks.py that counts for an app, if there is one."""
+
+_OF_HOOKS = frozenset({"hooks", "diagnostics"})
+"""What depends on hooks.py."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,6 +95,13 @@ class Document:
     def hooks(self) -> Source | None:
         """The hooks.py that counts, if there is one; it can be told of a sound graph only."""
         return None if self.checked is None else self.find_hooks(self.checked)
+
+    def with_hooks_anew(self) -> Document:
+        """Return the same text, whose hooks.py is looked for once more."""
+        again = replace(self)
+        known = {name: value for name, value in vars(self).items() if name not in _OF_HOOKS}
+        vars(again).update(known)
+        return again
 
     @cached_property
     def diagnostics(self) -> tuple[Diagnostic, ...]:

@@ -12,6 +12,7 @@ from plutoc.hooks.check import missing
 from plutoc.service.document import Document
 from plutoc.service.symbols import HOOKS, at
 from plutoc.source import Source, Span
+from plutoc_runtime.domain.actions import BUILT_IN
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,9 +52,8 @@ def lacking_hook(document: Document, offset: int) -> str | None:
     one = at(document.names, offset)
     if one is None or one.role not in HOOKS or document.checked is None:
         return None
-    declared = {hook.name for hook in (*document.graph.hooks, *document.graph.actions)}
     if document.hooks is None:
-        return one.name if one.name in declared else None
+        return one.name if one.name not in BUILT_IN else None
     return one.name if one.name in missing(document.checked, document.hooks) else None
 
 

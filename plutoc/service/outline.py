@@ -15,7 +15,6 @@ from plutoc.syntax.tree import (
     BadStatement,
     BlockDecl,
     CategoryDecl,
-    FlowDecl,
     HookDecl,
     Name,
     Statement,
