@@ -57,7 +57,7 @@ class Server(LanguageServer):
         self._waiting: dict[str, asyncio.TimerHandle] = {}
 
     def report_server_error(
-        self, error: Exception, source: type[PyglsError] | type[JsonRpcException]
+        self, error: Exception, source: type[PyglsError | JsonRpcException]
     ) -> None:
         """Tell a mistake of ours to the log of the editor: no window pops up while one types."""
         said = f"internal error (P9001): {type(error).__name__}: {error}"
@@ -87,7 +87,8 @@ class Server(LanguageServer):
         before = self._published.pop(uri, {})
         if app:
             self._published[uri] = found
-        for each in dict.fromkeys((*before, *found, *([] if app else [uri]))):
+        others = dict.fromkeys(each for each in (*before, *found) if each != uri)
+        for each in (*others, uri):
             every = [one for by_file in self._published.values() for one in by_file.get(each, [])]
             file = self.apps.file(each)
             self.text_document_publish_diagnostics(
