@@ -137,7 +137,7 @@ class Answers:
         changes: Iterable[Fix] = fixes.changes(app.document.source, text)
         if range is not None:
             start, end = app.places.span(range)
-            changes = [one for one in changes if one.span.start < end and start <= one.span.end]
+            changes = [one for one in changes if one.span.start <= end and start < one.span.end]
         return words.edits(app.places, changes)
 
     def actions(self, uri: str, range: types.Range) -> list[types.CodeAction]:

@@ -8,7 +8,7 @@ from collections.abc import Generator
 from typing import Any, BinaryIO
 
 from lsprotocol import types
-from pygls.exceptions import JsonRpcException, PyglsError
+from pygls.exceptions import FeatureRequestError, JsonRpcException, PyglsError
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
@@ -60,6 +60,8 @@ class Server(LanguageServer):
         self, error: Exception, source: type[PyglsError | JsonRpcException]
     ) -> None:
         """Tell a mistake of ours to the log of the editor: no window pops up while one types."""
+        if source is FeatureRequestError:  # that is answered already
+            return
         said = f"internal error (P9001): {type(error).__name__}: {error}"
         self.window_log_message(types.LogMessageParams(type=types.MessageType.Error, message=said))
 
@@ -119,7 +121,8 @@ def _hear(ls: Server) -> None:
 
     @ls.feature(types.INITIALIZE)
     def begin(_: types.InitializeParams) -> None:
-        ls.apps.encoding = str(getattr(ls.workspace.position_encoding, "value", "utf-16"))
+        agreed = ls.workspace.position_encoding
+        ls.apps.encoding = str(getattr(agreed, "value", agreed))
 
     @ls.feature(types.INITIALIZED)
     async def begun(_: types.InitializedParams) -> None:
