@@ -16,9 +16,9 @@ from statistics import median, quantiles
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from large_apps import SHAPES
 from lsprotocol import types
 
+from large_apps import SHAPES
 from measuring.options import at_least_one
 from tests.lsp.client import Client
 

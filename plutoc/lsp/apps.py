@@ -15,6 +15,7 @@ from plutoc.service.document import Document
 from plutoc.source import Source
 
 HOOKS = "hooks.py"
+LANGUAGE = "pluto"
 
 
 class Disk(Protocol):
@@ -40,6 +41,12 @@ class OpenFile:
     uri: str
     places: Places
     version: int | None
+    language: str
+
+    @property
+    def is_app(self) -> bool:
+        """It is an app, by what the client says or by its name."""
+        return self.language == LANGUAGE or self.uri.endswith(".pluto")
 
     @property
     def path(self) -> Path | None:
@@ -78,10 +85,10 @@ class Apps:
         self._open: dict[str, OpenFile] = {}
         self._apps: dict[str, App] = {}
 
-    def open(self, uri: str, text: str, version: int | None) -> None:
+    def open(self, uri: str, text: str, version: int | None, language: str) -> None:
         """Take in a file, or a new text of it."""
         places = Places(text=text, encoding=self.encoding)
-        self._open[uri] = OpenFile(uri=uri, places=places, version=version)
+        self._open[uri] = OpenFile(uri=uri, places=places, version=version, language=language)
         self._forget(uri)
 
     def close(self, uri: str) -> None:
@@ -101,7 +108,7 @@ class Apps:
     def app(self, uri: str) -> App | None:
         """Return an open app, analysed as far as was asked."""
         file = self._open.get(uri)
-        if file is None or is_hooks(uri):
+        if file is None or not file.is_app:
             return None
         app = self._apps.get(uri)
         if app is None or app.places is not file.places:

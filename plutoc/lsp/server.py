@@ -53,6 +53,8 @@ class Server(LanguageServer):
         super().__init__("plutoc", f"v{__version__}", protocol_cls=_Protocol)
         self.apps = Apps(disk)
         self.answers = Answers(apps=self.apps)
+        self.shows_pages = True
+        """A page that explains a code is opened by the server; else the client shows what it returns."""
         self._published: dict[str, dict[str, list[types.Diagnostic]]] = {}
         self._waiting: dict[str, asyncio.TimerHandle] = {}
 
@@ -120,7 +122,9 @@ def _hear(ls: Server) -> None:
     """Hear of files that are opened, changed, closed."""
 
     @ls.feature(types.INITIALIZE)
-    def begin(_: types.InitializeParams) -> None:
+    def begin(params: types.InitializeParams) -> None:
+        asked = params.initialization_options
+        ls.shows_pages = not (isinstance(asked, dict) and asked.get("showsPages"))
         agreed = ls.workspace.position_encoding
         ls.apps.encoding = str(getattr(agreed, "value", agreed))
 
@@ -147,7 +151,7 @@ def _hear(ls: Server) -> None:
     @ls.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: types.DidOpenTextDocumentParams) -> None:
         one = params.text_document
-        ls.apps.open(one.uri, one.text, one.version)
+        ls.apps.open(one.uri, one.text, one.version, one.language_id)
         ls.changed(one.uri)
 
     @ls.feature(types.TEXT_DOCUMENT_DID_CHANGE)
@@ -155,7 +159,7 @@ def _hear(ls: Server) -> None:
         one = params.text_document
         if file := ls.apps.file(one.uri):
             text = file.places.changed(params.content_changes).text
-            ls.apps.open(one.uri, text, one.version)
+            ls.apps.open(one.uri, text, one.version, file.language)
             ls.changed(one.uri)
 
     @ls.feature(types.TEXT_DOCUMENT_DID_CLOSE)
@@ -259,6 +263,6 @@ async def _explain(ls: Server, code: str) -> str:
     if code not in codes():
         return f"there is no code {code}"
     shown = ls.client_capabilities.window
-    if shown and shown.show_document and shown.show_document.support:
+    if ls.shows_pages and shown and shown.show_document and shown.show_document.support:
         await ls.window_show_document_async(types.ShowDocumentParams(uri=words.page_of(code)))
     return page(code).text

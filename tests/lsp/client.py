@@ -36,7 +36,7 @@ class Client(LanguageClient):
         self._on(types.CLIENT_REGISTER_CAPABILITY, self._register)
 
     def _on(self, method: str, act: Callable[[Any], object]) -> None:
-        @self.feature(method)
+        @self.feature(method)  # type: ignore[untyped-decorator]
         def heard(params: Any) -> object:
             return act(params)
 
@@ -80,7 +80,7 @@ class Client(LanguageClient):
         """Take leave as editors do."""
         await self.shutdown_async(None)
         self.exit(None)
-        await self.stop()
+        await self.stop()  # type: ignore[no-untyped-call]
 
     def open(self, uri: str, text: str, version: int = 0) -> None:
         """Open a file with a text, whatever is on the disk."""
