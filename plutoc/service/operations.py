@@ -7,6 +7,7 @@ from dataclasses import MISSING, dataclass, field, fields
 from types import MappingProxyType
 from typing import Any
 
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrow:
     """An edge, by its two ends and its guard as written: no two of an app are the same."""
