@@ -66,7 +66,7 @@ def app_of(text: str) -> App:
                         a.text,
                         b.text,
                         when,
-                        b.text == "end" and not when or bool(guard and guard.otherwise),
+                        (b.text == "end" and not when) or bool(guard and guard.otherwise),
                     )
                     for a in left.names
                     for b in right.names

@@ -143,7 +143,7 @@ FORK = "pluto 1\napp a {\n  x = Clock\n  y = Clock\n  z = Clock\n  x -> [y, z]\n
         (Disconnect(arrow=Arrow(source="y", target="x")), "no edge from `y` to `x`"),
         (Rename(name="x", new="start"), "where every mission begins"),
         (Rename(name="x", new="Y"), "snake_case"),
-        (SetGuard(arrow=Arrow(source="x", target="q")), "no edge"),
+        (SetGuard(arrow=Arrow(source="z", target="x")), "no edge from `z`"),
         (SetArgument(owner="x", parameter="p", value="1) -> y"), "no Pluto text"),
         (SetArgument(owner="x", parameter="p", value="1 # no"), "no Pluto text"),
         (AddBlock(kind="Nothing"), "no kind of block `Nothing`"),
