@@ -172,9 +172,7 @@ Operation = (
     | Move
 )
 
-KINDS: Mapping[str, type] = MappingProxyType(
-    {kind.__name__: kind for kind in Operation.__args__}
-)
+KINDS: Mapping[str, type] = MappingProxyType({kind.__name__: kind for kind in Operation.__args__})
 
 
 class NotAnOperation(Exception):
