@@ -25,6 +25,7 @@ class Options:
 
     command: str = ""
     name: str = ""
+    example: str | None = None
     file: Path = field(default_factory=Path)
     files: list[Path] = field(default_factory=list)
     format: str = "text"
@@ -77,15 +78,30 @@ def parse(arguments: Sequence[str]) -> Options:
     return parser.parse_args(arguments, namespace=Options())
 
 
-class _Version(Action):
-    """Not argparse's own: that one says nothing of a full disk."""
+class _Printing(Action):
+    """What is printed in the place of a command. Not argparse's own: that says nothing of a full disk."""
 
     def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
         super().__init__(option_strings, SUPPRESS, nargs=0, default=SUPPRESS, help=help)
 
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
-        output.line(f"plutoc {__version__}")
+        output.line(self.text())
         parser.exit()
+
+    def text(self) -> str:
+        raise NotImplementedError
+
+
+class _Version(_Printing):
+    def text(self) -> str:
+        return f"plutoc {__version__}"
+
+
+class _Examples(_Printing):
+    def text(self) -> str:
+        from plutoc.cli.examples import listing
+
+        return listing()
 
 
 def _plain(parser: ArgumentParser) -> ArgumentParser:
@@ -126,6 +142,13 @@ def _writes_nothing(parser: ArgumentParser) -> None:
 
 def _new(parser: ArgumentParser) -> None:
     parser.add_argument("name", metavar="NAME", help="the app's name, such as crop_watch")
+    parser.add_argument(
+        "--from",
+        dest="example",
+        metavar="EXAMPLE",
+        help="begin with one of the examples, its missions, its fleet and its hooks",
+    )
+    parser.add_argument("--list", action=_Examples, help="print the examples, and end")
 
 
 def _check(parser: ArgumentParser) -> None:
@@ -334,7 +357,7 @@ def _whole(text: str) -> int:
 
 
 _COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
-    "new": ("Make a folder with a small app to begin with.", _new),
+    "new": ("Make a folder with a small app, or an example, to begin with.", _new),
     "check": ("Say what is wrong with apps; with --fix, mend what is certain.", _check),
     "compile": ("Write the Python package of an app.", _compile),
     "run": ("Compile an app and simulate its missions at once.", _run),
