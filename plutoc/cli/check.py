@@ -14,6 +14,7 @@ from plutoc.cli.files import (
     read_app,
     read_standard_input,
 )
+from plutoc.cli.folders import apps_of
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import analyse, check_hooks
@@ -23,10 +24,10 @@ from plutoc_runtime import output
 
 
 def check(options: Options) -> int:
-    """Check every file, and say what was found in all of them."""
+    """Check every file, and those in every folder, and say what was found in all of them."""
     found: list[Diagnostic] = []
     troubles: list[str] = []
-    for file in dict.fromkeys(options.files):
+    for file in apps_of(options.files, troubles):
         try:
             found += _check(file, options, troubles)
         except UsageError as error:

@@ -157,7 +157,7 @@ def _check(parser: ArgumentParser) -> None:
         metavar="FILE",
         type=Path,
         nargs="+",
-        help="apps, .pluto files; - for standard input",
+        help="apps, .pluto files, or folders of them; - for standard input",
     )
     parser.add_argument(
         "--fix", action="store_true", help="change what can be mended for certain, then check"
@@ -265,7 +265,7 @@ def _fmt(parser: ArgumentParser) -> None:
         metavar="FILE",
         type=Path,
         nargs="+",
-        help="apps, .pluto files; - for standard input, with the result on standard output",
+        help="apps, .pluto files, or folders of them; - for standard input, with the result on standard output",
     )
     _writes_nothing(parser)
 
