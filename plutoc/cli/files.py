@@ -42,7 +42,7 @@ def read_standard_input() -> Source:
         data = sys.stdin.buffer.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         raise UsageError(f"{name} cannot be read: {_why(error)}") from None
-    return Source("<stdin>", _decoded(data, name))
+    return Source("<stdin>", decoded(data, name))
 
 
 def find_hooks(checked: Checked, file: Path, folder: Path) -> Source | None:
@@ -133,7 +133,7 @@ def _text(path: Path) -> str:
         raise UsageError(f"there is no file {shown(path)}") from None
     except (OSError, ValueError) as error:
         raise UsageError(f"{shown(path)} cannot be read: {_why(error)}") from None
-    return _decoded(data, shown(path))
+    return decoded(data, shown(path))
 
 
 def _opened(path: str, flags: int) -> int:
@@ -145,7 +145,7 @@ def _opened(path: str, flags: int) -> int:
     return descriptor
 
 
-def _decoded(data: bytes, name: str) -> str:
+def decoded(data: bytes, name: str) -> str:
     if len(data) > LARGEST:
         raise UsageError(f"{name} is larger than {LARGEST // 1024} KiB (P0006)")
     try:

@@ -286,9 +286,12 @@ def _diff(parser: ArgumentParser) -> None:
         "old",
         metavar="OLD",
         type=Path,
-        help="the app as it was: a .pluto file, the folder of one, or - for standard input",
+        help="the app as it was: a .pluto file, the folder of one, - for standard input, or a revision"
+        " of NEW that Git knows, such as HEAD~1",
     )
-    parser.add_argument("new", metavar="NEW", type=Path, help="the app as it is now: the same")
+    parser.add_argument(
+        "new", metavar="NEW", type=Path, help="the app as it is now: a file, a folder or -"
+    )
     parser.add_argument(
         "--format",
         choices=CHANGES,
