@@ -58,6 +58,15 @@ class Options:
 
 def parse(arguments: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
+    parser = all_commands()
+    if not arguments:
+        parser.print_help(sys.stderr)
+        raise SystemExit(USAGE)
+    return parser.parse_args(arguments, namespace=Options())
+
+
+def all_commands() -> ArgumentParser:
+    """Return what knows every command, and its flags."""
     parser = _plain(
         ArgumentParser(
             prog="plutoc",
@@ -72,10 +81,7 @@ def parse(arguments: Sequence[str]) -> Options:
     )
     for name, (what, describe) in _COMMANDS.items():
         describe(_plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False)))
-    if not arguments:
-        parser.print_help(sys.stderr)
-        raise SystemExit(USAGE)
-    return parser.parse_args(arguments, namespace=Options())
+    return parser
 
 
 class _Printing(Action):
