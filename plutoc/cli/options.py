@@ -25,6 +25,7 @@ class Options:
 
     command: str = ""
     name: str = ""
+    example: str | None = None
     file: Path = field(default_factory=Path)
     files: list[Path] = field(default_factory=list)
     format: str = "text"
@@ -51,12 +52,24 @@ class Options:
     old: Path = field(default_factory=Path)
     new: Path = field(default_factory=Path)
     exit_code: bool = False
+    host: str = "127.0.0.1"
+    port: int = 0
+    no_open: bool = False
     kind: str | None = None
     code: str | None = None
 
 
 def parse(arguments: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
+    parser = all_commands()
+    if not arguments:
+        parser.print_help(sys.stderr)
+        raise SystemExit(USAGE)
+    return parser.parse_args(arguments, namespace=Options())
+
+
+def all_commands() -> ArgumentParser:
+    """Return what knows every command, and its flags."""
     parser = _plain(
         ArgumentParser(
             prog="plutoc",
@@ -71,21 +84,33 @@ def parse(arguments: Sequence[str]) -> Options:
     )
     for name, (what, describe) in _COMMANDS.items():
         describe(_plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False)))
-    if not arguments:
-        parser.print_help(sys.stderr)
-        raise SystemExit(USAGE)
-    return parser.parse_args(arguments, namespace=Options())
+    return parser
 
 
-class _Version(Action):
-    """Not argparse's own: that one says nothing of a full disk."""
+class _Printing(Action):
+    """What is printed in the place of a command. Not argparse's own: that says nothing of a full disk."""
 
     def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
         super().__init__(option_strings, SUPPRESS, nargs=0, default=SUPPRESS, help=help)
 
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
-        output.line(f"plutoc {__version__}")
+        output.line(self.text())
         parser.exit()
+
+    def text(self) -> str:
+        raise NotImplementedError
+
+
+class _Version(_Printing):
+    def text(self) -> str:
+        return f"plutoc {__version__}"
+
+
+class _Examples(_Printing):
+    def text(self) -> str:
+        from plutoc.cli.examples import listing
+
+        return listing()
 
 
 def _plain(parser: ArgumentParser) -> ArgumentParser:
@@ -126,6 +151,13 @@ def _writes_nothing(parser: ArgumentParser) -> None:
 
 def _new(parser: ArgumentParser) -> None:
     parser.add_argument("name", metavar="NAME", help="the app's name, such as crop_watch")
+    parser.add_argument(
+        "--from",
+        dest="example",
+        metavar="EXAMPLE",
+        help="begin with one of the examples, its missions, its fleet and its hooks",
+    )
+    parser.add_argument("--list", action=_Examples, help="print the examples, and end")
 
 
 def _check(parser: ArgumentParser) -> None:
@@ -134,7 +166,7 @@ def _check(parser: ArgumentParser) -> None:
         metavar="FILE",
         type=Path,
         nargs="+",
-        help="apps, .pluto files; - for standard input",
+        help="apps, .pluto files, or folders of them; - for standard input",
     )
     parser.add_argument(
         "--fix", action="store_true", help="change what can be mended for certain, then check"
@@ -242,7 +274,7 @@ def _fmt(parser: ArgumentParser) -> None:
         metavar="FILE",
         type=Path,
         nargs="+",
-        help="apps, .pluto files; - for standard input, with the result on standard output",
+        help="apps, .pluto files, or folders of them; - for standard input, with the result on standard output",
     )
     _writes_nothing(parser)
 
@@ -258,14 +290,33 @@ def _graph(parser: ArgumentParser) -> None:
     )
 
 
+def _edit(parser: ArgumentParser) -> None:
+    _file(parser)
+    parser.add_argument(
+        "--port", metavar="N", type=_whole, default=0, help="the port (default: any that is free)"
+    )
+    parser.add_argument(
+        "--host",
+        metavar="H",
+        default="127.0.0.1",
+        help="the address to listen at (default: this machine alone reaches it)",
+    )
+    parser.add_argument(
+        "--no-open", action="store_true", help="print the address, and open no browser"
+    )
+
+
 def _diff(parser: ArgumentParser) -> None:
     parser.add_argument(
         "old",
         metavar="OLD",
         type=Path,
-        help="the app as it was: a .pluto file, the folder of one, or - for standard input",
+        help="the app as it was: a .pluto file, the folder of one, - for standard input, or a revision"
+        " of NEW that Git knows, such as HEAD~1",
     )
-    parser.add_argument("new", metavar="NEW", type=Path, help="the app as it is now: the same")
+    parser.add_argument(
+        "new", metavar="NEW", type=Path, help="the app as it is now: a file, a folder or -"
+    )
     parser.add_argument(
         "--format",
         choices=CHANGES,
@@ -340,13 +391,14 @@ def _whole(text: str) -> int:
 
 
 _COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
-    "new": ("Make a folder with a small app to begin with.", _new),
+    "new": ("Make a folder with a small app, or an example, to begin with.", _new),
     "check": ("Say what is wrong with apps; with --fix, mend what is certain.", _check),
     "compile": ("Write the Python package of an app.", _compile),
     "run": ("Compile an app and simulate its missions at once.", _run),
     "test": ("Try an app under everything that can go wrong.", _test),
     "fmt": ("Write sources in canonical form; comments and meaning are kept.", _fmt),
     "graph": ("Print the picture of an app, with the statuses on every edge.", _graph),
+    "edit": ("Edit an app's graph in a browser, beside its text.", _edit),
     "diff": ("Say in words what changed in meaning from one app to another.", _diff),
     "blocks": ("List the blocks that are installed, or explain one.", _blocks),
     "lsp": ("Serve an editor: the language server, on standard input and output.", _lsp),

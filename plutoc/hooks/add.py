@@ -17,7 +17,7 @@ _BUILTINS = re.compile(r"\b(_?builtins)\.")
 
 
 def with_stubs(checked: Checked, hooks: Source, *, only: str | None = None) -> str:
-    """Return the file's text with a stub for each hook that it does not define, or for one of them.
+    """Return the file's text with a stub for each hook that it does not define, or for one.
 
     What stands there stays as it is; only imports that the stubs need come in.
     """

@@ -2,36 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
 
 from pygls.uris import from_fs_path, to_fs_path
 
 from plutoc.check.model import Checked
+from plutoc.lsp import disk
 from plutoc.lsp.places import Places
+from plutoc.project.hooks import HOOKS
 from plutoc.service.document import Document
 from plutoc.source import Source
 
-HOOKS = "hooks.py"
 LANGUAGE = "pluto"
-
-
-class Disk(Protocol):
-    """What is asked of the disk."""
-
-    def read_app(self, path: Path) -> str | None:
-        """Return the text of an app's file; None where it cannot be read."""
-
-    def hooks_places(self, checked: Checked, app: Path) -> tuple[Path, ...]:
-        """Return where the hooks.py of an app can be: the first that is there counts."""
-
-    def read_hooks(self, checked: Checked, app: Path) -> tuple[Path, Source] | None:
-        """Return the hooks.py that counts, if there is one."""
-
-    def apps_beside(self, hooks: Path) -> Iterator[Path]:
-        """Give the files of apps whose hooks.py this may be."""
 
 
 @dataclass(kw_only=True, eq=False)
@@ -79,9 +62,8 @@ class App:
 class Apps:
     """All open files, and the apps among them."""
 
-    def __init__(self, disk: Disk) -> None:
+    def __init__(self) -> None:
         self.encoding = "utf-16"
-        self._disk = disk
         self._open: dict[str, OpenFile] = {}
         self._apps: dict[str, App] = {}
 
@@ -123,8 +105,8 @@ class Apps:
         for app in self.apps():
             if app.document.checked is not None and path in self._places(app):
                 return app
-        for beside in self._disk.apps_beside(path):
-            text = self._disk.read_app(beside)
+        for beside in disk.apps_beside(path):
+            text = disk.read_app(beside)
             if text is not None and uri_of(beside) not in self._open:
                 app = self._read(uri_of(beside), Places(text=text, encoding=self.encoding), None)
                 if app.document.checked is not None and path in self._places(app):
@@ -142,7 +124,7 @@ class Apps:
 
     def _places(self, app: App) -> tuple[Path, ...]:
         path, checked = path_of(app.uri), app.document.checked
-        return () if path is None or checked is None else self._disk.hooks_places(checked, path)
+        return () if path is None or checked is None else disk.hooks_places(checked, path)
 
     def _read(self, uri: str, places: Places, version: int | None) -> App:
         path = path_of(uri)
@@ -162,8 +144,8 @@ class Apps:
 
     def _hooks(self, checked: Checked, app: Path) -> tuple[Path | None, Source | None]:
         """Return the hooks.py that counts: as it is in the editor, else on the disk."""
-        on_disk = self._disk.read_hooks(checked, app)
-        for place in self._disk.hooks_places(checked, app):
+        on_disk = disk.read_hooks(checked, app)
+        for place in disk.hooks_places(checked, app):
             is_there = on_disk is not None and on_disk[0] == place
             opened = next((one for one in self._open.values() if one.path == place), None)
             if opened is not None:

@@ -16,7 +16,7 @@ from plutoc import __version__
 from plutoc.explain.pages import code_meant, codes, page
 from plutoc.lsp import words
 from plutoc.lsp.answers import COMPLETE_AT, EXPLAIN, Answers
-from plutoc.lsp.apps import Apps, Disk, is_hooks
+from plutoc.lsp.apps import Apps, is_hooks
 from plutoc.service.edit import CannotEdit
 
 LARGE = 20_000
@@ -49,9 +49,9 @@ class _Protocol(LanguageServerProtocol):
 class Server(LanguageServer):
     """One client, and the files that it has open."""
 
-    def __init__(self, disk: Disk) -> None:
+    def __init__(self) -> None:
         super().__init__("plutoc", f"v{__version__}", protocol_cls=_Protocol)
-        self.apps = Apps(disk)
+        self.apps = Apps()
         self.answers = Answers(apps=self.apps)
         self.shows_pages = True
         """A page that explains a code is opened by the server; else the client shows what it returns."""
@@ -102,20 +102,20 @@ class Server(LanguageServer):
             )
 
 
-def server(disk: Disk) -> Server:
+def server() -> Server:
     """Return a server with all that it can answer."""
-    made = Server(disk)
+    made = Server()
     _hear(made)
     _answer(made)
     _change(made)
     return made
 
 
-def serve(disk: Disk, reads: BinaryIO, writes: BinaryIO) -> None:
+def serve(reads: BinaryIO, writes: BinaryIO) -> None:
     """Serve one client until it leaves."""
     logging.getLogger("pygls").addHandler(logging.NullHandler())
     logging.getLogger("pygls").propagate = False  # its errors are told to the client
-    server(disk).start_io(reads, writes)
+    server().start_io(reads, writes)
 
 
 def _hear(ls: Server) -> None:

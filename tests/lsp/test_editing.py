@@ -97,9 +97,7 @@ def test_without_the_extra_one_line_says_how_to_get_it(tmp_path: Path) -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, cwd=tmp_path, check=False
     )
     assert done.returncode == 2
-    assert done.stderr == (
-        'plutoc: the language server is not installed: pip install "plutoc[editor]"\n'
-    )
+    assert done.stderr == ('plutoc: lsp needs a library: pip install "plutoc[editor]"\n')
 
 
 @pytest.mark.parametrize("said", [b"", b"Content-Length: 5\r\n\r\n{{{{{", b"nonsense\n" * 9])
