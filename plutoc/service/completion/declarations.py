@@ -78,7 +78,10 @@ def names(role: Role, known: Known) -> Iterator[Candidate]:
     lacking = known.lacking.get(role, ())
     for i, name in enumerate(lacking or map(known.fresh, _NEW.get(role.value, ()))):
         detail = "used, and not declared yet" if lacking else "a free name"
-        yield Candidate(label=name, kind=sort, detail=detail, rank=i, judged=bool(lacking))
+        forms = (name, f"{name} can {', '.join(known.actions)}") if role is Role.CATEGORY else ()
+        yield Candidate(
+            label=name, kind=sort, forms=forms, detail=detail, rank=i, judged=bool(lacking)
+        )
 
 
 def category(hole: Hole, known: Known) -> Iterator[Candidate]:

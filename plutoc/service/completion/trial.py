@@ -101,14 +101,14 @@ class Trials:
 
     def legal(self, forms: Iterable[str]) -> Trial | None:
         """Return the first form that can be read, and with which no name or value is wrong."""
-        for insert in forms:
-            for tail in self._tails:
+        every = tuple(forms)
+        for tail in self._tails:
+            for insert in every:
                 statements = self._statements(insert, tail)
                 if statements is not None:
                     trial = Trial(insert=insert, tail=tail, statements=statements)
                     if not self._wrong(trial):
                         return trial
-                    break
         return None
 
     @cached_property
