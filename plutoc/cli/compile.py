@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -43,11 +43,14 @@ class _Messages:
     lines: list[str] = field(default_factory=list)
 
 
-def compile_(options: Options) -> int:
-    """Write an app's package, or say what would be written."""
+def compile_(options: Options, written: Callable[[], None] = lambda: None) -> int:
+    """Write an app's package, or say what would be written.
+
+    `written` is called when files were written, and nothing is said yet.
+    """
     said, code = _Messages(), CLEAN
     try:
-        _compile(options, said)
+        _compile(options, said, written)
     except Rejected as rejected:
         said.found += rejected.diagnostics
         code = REFUSED if isinstance(rejected, Refused) else ERRORS
@@ -62,7 +65,7 @@ def compile_(options: Options) -> int:
     return code
 
 
-def _compile(options: Options, said: _Messages) -> None:
+def _compile(options: Options, said: _Messages, written: Callable[[], None]) -> None:
     source = read_app(options.file)
     if options.show is not None:
         _show(source, options, options.show, said)
@@ -88,6 +91,7 @@ def _compile(options: Options, said: _Messages) -> None:
             _refuse(compiled.checked, changes)
         elif not options.diff:
             write(changes)
+            written()
     except CannotWrite as error:
         raise UsageError(f"{printable(str(error))}; nothing was changed") from None
     if options.format == "text" and not options.diff:
