@@ -82,14 +82,13 @@ def _wrong_trips(run: Run[Any]) -> str | None:
     if flying is not None and (not mission.trips or mission.trips[0] is not flying.trip):
         return f"took trip {flying.trip.name}, which is flying, from its place"
     seen: set[int] = set()
-    for number, trip in enumerate(mission.trips, start=1):
+    for trip in mission.trips:
         problem = unsound(run.core.app, run.core.airspace, trip)
         if problem is None and id(trip) in seen:
-            problem = "it is in the list twice"
-        seen.add(id(trip))
+            problem = f"trip {trip.name}: it is in the list twice"
         if problem is not None:
-            called = trip.name if type(getattr(trip, "name", None)) is str else number
-            return f"left a trip that cannot be flown, {called}: {problem}"
+            return f"left a trip that cannot be flown: {problem}"
+        seen.add(id(trip))
     return None
 
 
