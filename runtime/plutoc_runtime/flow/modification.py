@@ -51,14 +51,10 @@ async def settle(
         raise HookFault(f"{name} {wrong}")
     if run.core.on_record is None:  # else it has looked already
         look(hook, partial(_note_change, run.core, before), run.mission)
-    if not emits:
-        if returned is not None:
-            nothing = f"so must return nothing, not {_shown(returned)}"
-            raise HookFault(f"{name} declares no `emits` and {nothing}")
+    if (wrong := undeclared(hook, emits, returned)) is not None:
+        raise HookFault(wrong)
+    if type(returned) is not Status:
         return status
-    if type(returned) is not Status or returned not in emits:
-        declared = ", ".join(status.value for status in emits)
-        raise HookFault(f"{name} must return one of {declared}, not {_shown(returned)}")
     lie = _contradiction(run.state, returned)
     if lie is not None:
         raise HookFault(f"{name} returned {returned.value}, but {lie}")
@@ -72,6 +68,19 @@ async def settle(
         reason = f"{name} failed the mission" if returned is Status.FAILED else ""
         run.core.transitions.modify(run.mission, returned, reason)
     return returned
+
+
+def undeclared(
+    hook: Callable[..., object], emits: tuple[Status, ...], returned: object
+) -> str | None:
+    """Return what is wrong with what a modifier returned, or None."""
+    name = f"modifier {hook_name(hook)}"
+    if not emits and returned is not None:
+        return f"{name} declares no `emits` and so must return nothing, not {_shown(returned)}"
+    if emits and (type(returned) is not Status or returned not in emits):
+        declared = ", ".join(status.value for status in emits)
+        return f"{name} must return one of {declared}, not {_shown(returned)}"
+    return None
 
 
 def _wrong_trips(run: Run[Any]) -> str | None:

@@ -8,7 +8,7 @@ from types import CoroutineType, coroutine
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from ..domain.awaited import all_awaited
-from ..domain.errors import ANY_ERROR, ActionFailed, HookFault
+from ..domain.errors import ANY_ERROR, ActionFailed, Cancelled, HookFault
 from ..domain.guard import by_a_person, guarded, unless_by_a_person
 from ..domain.text import LONGEST_LOG, LONGEST_REASON, bounded, said, text_of
 from ..time.future import Future
@@ -89,6 +89,8 @@ def _run_cancellable(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
                 except ANY_ERROR as its_own:  # its result is not wanted any more
                     if by_a_person(its_own):
                         raise
+                    if type(its_own) is StopIteration and type(error) is Cancelled:
+                        error.returned = its_own.value
             raise
 
 
