@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 from plutoc.block import IN_GRAPH
 from plutoc.check import errors
@@ -20,18 +20,25 @@ Left = tuple[Node, tuple[Status, ...], Place]
 """A block, the statuses of it that no edge takes, and where it is left with the first of them."""
 
 
-def stuck(flow: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic]:
+def stuck(flow: Flow, whole: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic]:
     """Find where missions get stuck: one message per block, or per fork.
 
     Missions at an `idle` gate were meant to be in a fork: what is left behind it is not reported.
+    In the branches of a barred fork they are, from the `whole` exploration; behind it they are not.
     """
+    forks = {split.fork for split in flow.entries}
+    more = [
+        (place, status)
+        for place, status in whole.loose
+        if place not in flow.places and place.frame and place.frame.split.fork in forks
+    ]
     diagnostics = []
     walked = set(flow.edges)
     # a forbidden arrow has its own message, and was meant to take something
     wrong = {edge.source for edge in flow.graph.edges if edge not in walked}
     open_forks: dict[Fork, list[Left]] = {}
     for node in flow.graph.nodes:
-        left = _left(flow, node)
+        left = _left([*flow.loose, *more], node)
         if not left or node.name in wrong:
             continue
         statuses = tuple(s for s in IN_GRAPH if s in left)
@@ -46,8 +53,8 @@ def stuck(flow: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic
     for fork, lost in open_forks.items():
         _, statuses, place = lost[0]
         blocks = [(node, left) for node, left, _ in lost]
-        way = flow.way(place, statuses[0])
-        gate = _gate(flow, found[fork])
+        way = (flow if place in flow.places else whole).way(place, statuses[0])
+        gate = _gate(whole, found[fork])
         diagnostics.append(errors.stuck_in_fork(flow.graph, fork, blocks, gate, way))
     return diagnostics
 
@@ -75,10 +82,10 @@ def implicit_ends(flow: Flow) -> tuple[tuple[str, Status], ...]:
     return tuple((name, s) for name in flow.graph.node for s in IN_GRAPH if (name, s) in left)
 
 
-def _left(flow: Flow, node: Node) -> dict[Status, Place]:
+def _left(loose: Iterable[tuple[Place, Status]], node: Node) -> dict[Status, Place]:
     """The places where missions get stuck at a block, by the status that no edge takes."""
     left: dict[Status, Place] = {}
-    for place, status in flow.loose:
+    for place, status in loose:
         if place.node == node.name and not is_final(status):
             left.setdefault(status, place)
     return left

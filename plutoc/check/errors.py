@@ -9,6 +9,7 @@ from plutoc.check.flow import Fork, Way, ordered
 from plutoc.check.phrases import (
     accepts,
     arrows,
+    before_allocation,
     emits_here,
     error,
     fork_of,
@@ -111,8 +112,14 @@ def starved(
             related_to(graph, edge.span, f"`{edge.source}` emits {listed(leaving[edge.source])}")
             for edge in edges
         ),
-        help=f"lead an arrow here from a block that emits what it accepts{there(way)}",
+        help=f"{_fed(graph, node, leaving)}{there(way)}",
     )
+
+
+def _fed(graph: Graph, node: Node, leaving: Mapping[str, Sequence[Status]]) -> str:
+    if node.block.holds and all(Status.RUNNING in statuses for statuses in leaving.values()):
+        return f"it cannot hold a mission in flight: put it {before_allocation(graph, node)}"
+    return "lead an arrow here from a block that emits what it accepts"
 
 
 def untaken(graph: Graph, edge: Edge, leaving: Sequence[Status], way: Way) -> Diagnostic:

@@ -6,21 +6,40 @@ from collections.abc import Sequence
 
 from plutoc.check.branches import Astray, Branch
 from plutoc.check.flow import Fork, Way
-from plutoc.check.phrases import error, fate, fork_of, is_flown, related_to, there
+from plutoc.check.phrases import (
+    before_allocation,
+    error,
+    fate,
+    fork_of,
+    is_flown,
+    related_to,
+    there,
+)
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Graph, Node
 from plutoc.graph.wording import all_of
 
 
 def astray(
-    graph: Graph, branches: Sequence[tuple[Branch, Astray]], gates: Sequence[str], way: Way
+    graph: Graph,
+    branches: Sequence[tuple[Branch, Astray]],
+    gates: Sequence[str],
+    way: Way,
+    beside: Branch | None,
 ) -> Diagnostic:
+    """`beside` is the branch in which a block holds the mission that others fly."""
     first, lost = branches[0]
     guard = f"only one of the arrows was meant to take {first.fork[1].value}, guard the others"
     if gates:
         mend = f"close the fork first, at `{gates[0]}`; or, if {guard} with `when`"
     else:
         mend = f"if {guard} with `when`; else let the branches meet at a gate"
+    if beside:
+        holds = graph.node[beside.edge.target]
+        mend = (
+            f"`{holds.name}` holds only what comes through it, and not the branch beside it: "
+            f"put it {before_allocation(graph, holds)}; or, if {guard} with `when`"
+        )
     to = "" if lost[0].node == first.edge.target else f" to `{first.edge.target}`"
     return error(
         "P2012" if is_flown(lost) else "P2011",

@@ -129,6 +129,18 @@ def fate(astray: Astray) -> str:
     return f"ends at `{place.node}`, where no arrow takes {leaving.value}"
 
 
+def before_allocation(graph: Graph, node: Node) -> str:
+    """Where a block stands that holds missions: "before a drone is allocated, as in `a -> b -> c`"."""
+    ways = (
+        f", as in `{edge.source} -> {node.name} -> {edge.target}`"
+        for edge in graph.edges
+        if edge.target in graph.node
+        and graph.node[edge.target].block.allocates
+        and edge.source != node.name
+    )
+    return f"before a drone is allocated{next(ways, '')}"
+
+
 def taken_by(node: Node, status: Status, taker: str | None) -> str:
     """The arrow to add if none takes a status."""
     if taker is None:
