@@ -8,16 +8,19 @@ from plutoc.check.branches import Astray, Branch
 from plutoc.check.flow import Fork, Way
 from plutoc.check.phrases import (
     before_allocation,
+    emits_nothing,
     error,
     fate,
     fork_of,
     is_flown,
     related_to,
     there,
+    with_emits,
 )
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Graph, Node
 from plutoc.graph.wording import all_of
+from plutoc_runtime.domain.status import Status
 
 
 def astray(
@@ -101,7 +104,11 @@ def waits_in_vain(graph: Graph, branch: Branch, gate: str, way: Way | None) -> D
     )
 
 
-def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
+def outside_fork(
+    graph: Graph, node: Node, way: Way, giver: Node | None, ends: Sequence[Status]
+) -> Diagnostic:
+    """`giver` is the block that brought a flight to the gate, which led on from there."""
+    mend = with_emits(giver, ends) if giver else "lead this way past the gate"
     return error(
         "P2016",
         (graph, node.name_span),
@@ -110,8 +117,9 @@ def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
             related_to(graph, edge.span, "it comes along here")
             for edge in graph.incoming[node.name]
             if edge.source == way[-2].node
-        ),
-        help=f"lead this way past the gate{there(way)}",
+        )
+        + (emits_nothing(graph, giver) if giver else ()),
+        help=f"{mend}{there(way)}",
     )
 
 

@@ -8,11 +8,12 @@ from plutoc.block import Gate
 from plutoc.check import fork_errors as errors
 from plutoc.check import model
 from plutoc.check.branches import Branch, Branches, nesting, within
-from plutoc.check.flow import Flow, Fork, Place
+from plutoc.check.flow import Flow, Fork, Hop, Place, Way, ordered
 from plutoc.check.phrases import is_flown
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.digraph import loops
-from plutoc.graph.model import Graph
+from plutoc.graph.model import Graph, Node
+from plutoc_runtime.domain.status import Status
 
 Branched = tuple[Branch, ...]
 MOST_NESTED = 100
@@ -123,6 +124,18 @@ def _holds(graph: Graph, branch: Branch) -> bool:
     return first is not None and first.block.holds
 
 
+def handed_on(graph: Graph, gate: str, way: Way) -> Node | None:
+    """Return the block by which a flight comes to a gate, though its hook could end it with `emits`."""
+    at = next((i for i, hop in enumerate(way) if hop == Hop(gate, Status.RUNNING)), 0)
+    for hop in reversed(way[:at]):
+        node = graph.node[hop.node]
+        if hop.leaving is not Status.RUNNING or node.block.launches:
+            return None
+        if node.block.emits_by_hook and node.hook and not node.hook.emits:
+            return node
+    return None
+
+
 def _sound(branches: Branched) -> bool:
     """Whether all branches close at one gate."""
     return len(gates_of(branches)) == 1 and all(
@@ -154,7 +167,9 @@ def idle_gates(flow: Flow, found: Branches, *, lacking: bool) -> dict[str, Diagn
         # behind a gate that closes nothing comes what was meant to be in a fork
         behind_another = any(hop.node in idle for hop in way)
         if name in closing:
-            idle[name] = errors.outside_fork(flow.graph, node, way)
+            giver = handed_on(flow.graph, name, way)
+            ends = ordered(flow.arrives[name] - {Status.RUNNING})
+            idle[name] = errors.outside_fork(flow.graph, node, way, giver, ends)
         elif not lacking and not behind_another:
             idle[name] = errors.closes_nothing(flow.graph, node, way)
     return idle

@@ -146,3 +146,25 @@ def taken_by(node: Node, status: Status, taker: str | None) -> str:
     if taker is None:
         return f"add a block that accepts {status.value}"
     return f"add `{node.name} -> {taker} when {status.value}`"
+
+
+def emits_nothing(graph: Graph, node: Node) -> tuple[Related, ...]:
+    """Notes on a block that hands a flight on, and on its hook."""
+    assert node.hook is not None
+    return (
+        related_to(graph, node.hook.span, "it has no `emits`"),
+        related_to(graph, node.name_span, "so the mission goes on as it came here, RUNNING"),
+    )
+
+
+def with_emits(node: Node, ends: Sequence[Status]) -> str:
+    """How to write the hook of a block, so that it says how the flight ended."""
+    hook = node.hook
+    assert hook is not None
+    takes = "(…)" if hook.parameters else ""
+    emits = ", ".join(status.value for status in ends)
+    writes = f" writes {', '.join(hook.writes)}" if hook.writes else ""
+    return (
+        f"`{hook.name}` has no `emits`: write `{hook.kind.value} {hook.name}{takes} emits {emits}"
+        f"{writes}`, and let it return one of them"
+    )
