@@ -14,6 +14,7 @@ from plutoc.lsp.places import Places
 from plutoc.project.hooks import HOOKS
 from plutoc.service.document import Document
 from plutoc.source import Source
+from plutoc.syntax.tree import File
 
 LANGUAGE = "pluto"
 
@@ -103,7 +104,8 @@ class Apps:
             return None
         app = self._apps.get(uri)
         if app is None or app.places is not file.places:
-            app = self._apps[uri] = self._read(uri, file.places, file.version)
+            sound = app.document.sound if app else None
+            app = self._apps[uri] = self._read(uri, file.places, file.version, sound)
         return app
 
     def app_of(self, uri: str) -> App | None:
@@ -135,7 +137,9 @@ class Apps:
         path = path_of(app.uri)
         return disk.hooks_places(app.document.graph, path) if path else ()
 
-    def _read(self, uri: str, places: Places, version: int | None) -> App:
+    def _read(
+        self, uri: str, places: Places, version: int | None, before: File | None = None
+    ) -> App:
         path = path_of(uri)
         found: list[Path] = []
         refused: list[Diagnostic] = []
@@ -154,7 +158,7 @@ class Apps:
             return source
 
         shown = str(path) if path else uri
-        document = Document(path=shown, text=places.text, find_hooks=find)
+        document = Document(path=shown, text=places.text, find_hooks=find, before=before)
         return App(
             uri=uri,
             places=places,
