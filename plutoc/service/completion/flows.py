@@ -65,7 +65,8 @@ def _to(known: Known, name: str, sources: Sequence[str]) -> int:
     """Rank a block by whether it lacks an arrow, and takes what the arrow can bring."""
     brings = frozenset().union(*(known.leaves(s) - known.taken_from(s) for s in sources))
     rank = 0 if brings & known.accepts(name) or not sources else _UNLIKELY
-    if name in sources:
+    there = (edge.target for s in sources for edge in known.graph.outgoing.get(s, ()))
+    if name in sources or name in there:
         rank += _UNLIKELY
     return rank + (_UNREACHED if not known.graph.incoming.get(name) else 0)
 
