@@ -11,6 +11,7 @@ from pathlib import Path
 from plutoc import __version__
 from plutoc.cli.endings import USAGE
 from plutoc_runtime import output
+from plutoc_runtime.command_line import CommandLine
 
 FORMATS = ("text", "json", "github", "sarif")
 CHANGES = ("text", "markdown", "json")
@@ -58,7 +59,7 @@ class Options:
 def parse(arguments: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
     parser = _plain(
-        ArgumentParser(
+        CommandLine(
             prog="plutoc",
             description="Turns graphs of drone missions into Python packages that fly them.",
             epilog="`plutoc COMMAND --help` says more about a command.",
