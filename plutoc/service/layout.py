@@ -35,7 +35,7 @@ def laid_out(names: Sequence[str], ways: Ways, moved: Positions) -> dict[str, Po
         within = [way for way in dict.fromkeys(ways) if way[0] in inside and way[0] != way[1]]
         placed, bottom = _placed(part, within, top)
         found |= placed
-        top = bottom + _BELOW
+        top = -(-(bottom + _BELOW) // GRID) * GRID
     boxes = [moved[name] for name in (START, *names, END) if name in moved]
     return {
         name: moved[name] if name in moved else _beside(spot, boxes) for name, spot in found.items()
