@@ -6,21 +6,42 @@ from collections.abc import Sequence
 
 from plutoc.check.branches import Astray, Branch
 from plutoc.check.flow import Fork, Way
-from plutoc.check.phrases import error, fate, fork_of, is_flown, related_to, there
+from plutoc.check.phrases import (
+    before_allocation,
+    emits_nothing,
+    error,
+    fate,
+    fork_of,
+    is_flown,
+    related_to,
+    with_emits,
+)
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Graph, Node
 from plutoc.graph.wording import all_of
+from plutoc_runtime.domain.status import Status
 
 
 def astray(
-    graph: Graph, branches: Sequence[tuple[Branch, Astray]], gates: Sequence[str], way: Way
+    graph: Graph,
+    branches: Sequence[tuple[Branch, Astray]],
+    gates: Sequence[str],
+    way: Way,
+    beside: Branch | None,
 ) -> Diagnostic:
+    """`beside` is the branch in which a block holds the mission that others fly."""
     first, lost = branches[0]
     guard = f"only one of the arrows was meant to take {first.fork[1].value}, guard the others"
     if gates:
         mend = f"close the fork first, at `{gates[0]}`; or, if {guard} with `when`"
     else:
         mend = f"if {guard} with `when`; else let the branches meet at a gate"
+    if beside:
+        holds = graph.node[beside.edge.target]
+        mend = (
+            f"`{holds.name}` holds only what comes through it, and not the branch beside it: "
+            f"put it {before_allocation(graph, holds)}; or, if {guard} with `when`"
+        )
     to = "" if lost[0].node == first.edge.target else f" to `{first.edge.target}`"
     return error(
         "P2012" if is_flown(lost) else "P2011",
@@ -33,7 +54,8 @@ def astray(
             )
             for branch, other in branches[1:]
         ),
-        help=f"{mend}{there(way)}",
+        help=f"{mend}",
+        ways=(way,),
     )
 
 
@@ -53,7 +75,8 @@ def different_gates(
         f"{fork_of(branches[0].fork)} closes at different gates: {all_of(gates)}",
         label=closing[0].label,
         related=tuple(closing[1:]),
-        help=f"lead all branches to one gate{there(*ways)}",
+        help="lead all branches to one gate",
+        ways=ways,
     )
 
 
@@ -63,8 +86,8 @@ def never_closes(graph: Graph, branch: Branch, gates: Sequence[str], way: Way | 
         (graph, branch.edge.span),
         f"the branch to `{branch.edge.target}` of {fork_of(branch.fork)} can go round for ever",
         label="it does not always close",
-        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}"
-        f"{there(way)}",
+        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}" f"",
+        ways=(way,),
     )
 
 
@@ -78,11 +101,16 @@ def waits_in_vain(graph: Graph, branch: Branch, gate: str, way: Way | None) -> D
                 graph, branch.edge.span, f"the branch to `{branch.edge.target}` never gets there"
             ),
         ),
-        help=f"lead the branch to `{gate}`{there(way)}",
+        help=f"lead the branch to `{gate}`",
+        ways=(way,),
     )
 
 
-def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
+def outside_fork(
+    graph: Graph, node: Node, way: Way, giver: Node | None, ends: Sequence[Status]
+) -> Diagnostic:
+    """`giver` is the block that brought a flight to the gate, which led on from there."""
+    mend = with_emits(giver, ends) if giver else "lead this way past the gate"
     return error(
         "P2016",
         (graph, node.name_span),
@@ -91,8 +119,10 @@ def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
             related_to(graph, edge.span, "it comes along here")
             for edge in graph.incoming[node.name]
             if edge.source == way[-2].node
-        ),
-        help=f"lead this way past the gate{there(way)}",
+        )
+        + (emits_nothing(graph, giver) if giver else ()),
+        help=f"{mend}",
+        ways=(way,),
     )
 
 
@@ -101,8 +131,8 @@ def closes_nothing(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2017",
         (graph, node.name_span),
         f"`{node.name}` closes no fork: a gate needs at least two branches",
-        help="fork before it (two arrows that take the same status), or remove the gate"
-        f"{there(way)}",
+        help="fork before it (two arrows that take the same status), or remove the gate" "",
+        ways=(way,),
     )
 
 
@@ -111,7 +141,8 @@ def breeds(graph: Graph, first: Branch, way: Way) -> Diagnostic:
         "P2018",
         (graph, first.edge.span),
         f"{fork_of(first.fork)} comes round to itself before it closes: its clones multiply without end",
-        help=f"close it at a gate before the way leads back{there(way)}",
+        help="close it at a gate before the way leads back",
+        ways=(way,),
     )
 
 
@@ -127,7 +158,8 @@ def shared_gate(
             related_to(graph, outer[0].edge.span, "the fork around it"),
             related_to(graph, graph.node[gate].name_span, "the gate of both"),
         ),
-        help=f"give the fork inside a gate of its own, and lead that gate to `{gate}`{there(way)}",
+        help=f"give the fork inside a gate of its own, and lead that gate to `{gate}`",
+        ways=(way,),
     )
 
 
@@ -144,7 +176,8 @@ def written_twice(
         ),
         label="who comes last would win",
         related=(related_to(graph, first.name_span, "written here"),) if first != second else (),
-        help=f"let one of them write it, or put one behind the other{there(*ways)}",
+        help="let one of them write it, or put one behind the other",
+        ways=ways,
     )
 
 
@@ -154,7 +187,8 @@ def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
         (graph, node.name_span),
         f"`{node.name}` sets a limit to a flight, but no block beside it watches the flight",
         help="put it on one branch of a fork, a block that only watches on another, and let both meet "
-        f"at a gate{there(way)}",
+        "at a gate",
+        ways=(way,),
     )
 
 

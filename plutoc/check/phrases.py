@@ -33,9 +33,8 @@ def arrows(blocks: Sequence[str]) -> str:
     return " → ".join(blocks)
 
 
-def there(*ways: Way | None) -> str:
+def _there(shown: Sequence[Way]) -> str:
     """The shortest paths that show it, on lines of their own, below the help."""
-    shown = [way for way in ways if way is not None]
     if not shown:
         return ""
     head = f"the shortest way{'s' if len(shown) > 1 else ''} there:"
@@ -79,11 +78,20 @@ def error(
     label: str = "",
     related: tuple[Related, ...] = (),
     help: str,
+    ways: Sequence[Way | None] = (),
 ) -> Diagnostic:
-    """An error of these facts."""
+    """An error of these facts; `ways` are shortest paths that show it."""
     source, span = at[0].source, at[1]
+    shown = [way for way in ways if way is not None]
     return diagnostic.error(
-        code, message, source, span, label=label, related=related, help=help.rstrip()
+        code,
+        message,
+        source,
+        span,
+        label=label,
+        related=related,
+        help=f"{help}{_there(shown)}".rstrip(),
+        path=_path(shown),
     )
 
 
@@ -95,13 +103,28 @@ def warning(
     label: str = "",
     related: tuple[Related, ...] = (),
     help: str,
+    ways: Sequence[Way | None] = (),
     fix: Fix | None = None,
 ) -> Diagnostic:
-    """A warning of these facts."""
+    """A warning of these facts; `ways` are shortest paths that show it."""
     source, span = at[0].source, at[1]
+    shown = [way for way in ways if way is not None]
     return diagnostic.warning(
-        code, message, source, span, label=label, related=related, help=help.rstrip(), fix=fix
+        code,
+        message,
+        source,
+        span,
+        label=label,
+        related=related,
+        help=f"{help}{_there(shown)}".rstrip(),
+        fix=fix,
+        path=_path(shown),
     )
+
+
+def _path(ways: Sequence[Way]) -> tuple[tuple[str, str | None], ...]:
+    """The first path, for a picture to walk."""
+    return tuple((hop.node, hop.leaving and hop.leaving.value) for hop in ways[0]) if ways else ()
 
 
 def related_to(graph: Graph, span: Span, label: str) -> Related:
@@ -129,8 +152,42 @@ def fate(astray: Astray) -> str:
     return f"ends at `{place.node}`, where no arrow takes {leaving.value}"
 
 
+def before_allocation(graph: Graph, node: Node) -> str:
+    """Where a block stands that holds missions: "before a drone is allocated, as in `a -> b -> c`"."""
+    ways = (
+        f", as in `{edge.source} -> {node.name} -> {edge.target}`"
+        for edge in graph.edges
+        if edge.target in graph.node
+        and graph.node[edge.target].block.allocates
+        and edge.source != node.name
+    )
+    return f"before a drone is allocated{next(ways, '')}"
+
+
 def taken_by(node: Node, status: Status, taker: str | None) -> str:
     """The arrow to add if none takes a status."""
     if taker is None:
         return f"add a block that accepts {status.value}"
     return f"add `{node.name} -> {taker} when {status.value}`"
+
+
+def emits_nothing(graph: Graph, node: Node) -> tuple[Related, ...]:
+    """Notes on a block that hands a flight on, and on its hook."""
+    assert node.hook is not None
+    return (
+        related_to(graph, node.hook.span, "it has no `emits`"),
+        related_to(graph, node.name_span, "so the mission goes on as it came here, RUNNING"),
+    )
+
+
+def with_emits(node: Node, ends: Sequence[Status]) -> str:
+    """How to write the hook of a block, so that it says how the flight ended."""
+    hook = node.hook
+    assert hook is not None
+    takes = "(…)" if hook.parameters else ""
+    emits = ", ".join(status.value for status in ends)
+    writes = f" writes {', '.join(hook.writes)}" if hook.writes else ""
+    return (
+        f"`{hook.name}` has no `emits`: write `{hook.kind.value} {hook.name}{takes} emits {emits}"
+        f"{writes}`, and let it return one of them"
+    )

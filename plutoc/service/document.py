@@ -20,7 +20,7 @@ from plutoc.syntax.parse import read
 from plutoc.syntax.tree import File
 from plutoc_runtime.domain.status import Status
 
-FindHooks = Callable[[Checked], Source | None]
+FindHooks = Callable[[Graph], Source | None]
 """Returns the hooks.py that counts for an app, if there is one."""
 
 
@@ -79,8 +79,8 @@ class Document:
 
     @cached_property
     def hooks(self) -> Source | None:
-        """The hooks.py that counts, if there is one; it can be told of a sound graph only."""
-        return None if self.checked is None else self.find_hooks(self.checked)
+        """The hooks.py that counts, if there is one: in whose package it is, any graph says."""
+        return self.find_hooks(self.graph)
 
     @cached_property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
