@@ -11,6 +11,7 @@ from pathlib import Path
 from plutoc import __version__
 from plutoc.cli.endings import USAGE
 from plutoc_runtime import output
+from plutoc_runtime.command_line import CommandLine
 
 FORMATS = ("text", "json", "github", "sarif")
 CHANGES = ("text", "markdown", "json")
@@ -71,7 +72,7 @@ def parse(arguments: Sequence[str]) -> Options:
 def all_commands() -> ArgumentParser:
     """Return what knows every command, and its flags."""
     parser = _plain(
-        ArgumentParser(
+        CommandLine(
             prog="plutoc",
             description="Turns graphs of drone missions into Python packages that fly them.",
             epilog="`plutoc COMMAND --help` says more about a command.",
@@ -342,6 +343,12 @@ def _explain(parser: ArgumentParser) -> None:
     )
 
 
+def _lsp(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--stdio", action="store_true", help="as it does anyway; some editors say so"
+    )
+
+
 def _shown(text: str) -> str:
     if text not in ("graph", "plan") and not text.startswith("plan="):
         raise ArgumentTypeError(f"{text!r} is neither graph nor plan nor plan=PASS")
@@ -400,5 +407,6 @@ _COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "edit": ("Edit an app's graph in a browser, beside its text.", _edit),
     "diff": ("Say in words what changed in meaning from one app to another.", _diff),
     "blocks": ("List the blocks that are installed, or explain one.", _blocks),
+    "lsp": ("Serve an editor: the language server, on standard input and output.", _lsp),
     "explain": ("Say what the code of an error or a warning means.", _explain),
 }

@@ -10,28 +10,65 @@ from plutoc.editor.asked import Asked, Refused
 from plutoc.editor.history import File
 from plutoc.editor.wire import Wire
 from plutoc.explain.pages import code_meant, codes, page
+from plutoc.service import hook_help
+from plutoc.service.complete import complete
+from plutoc.service.hover import hover
 from plutoc.service.ports import targets
-from plutoc.service.symbols import Occurrence, at, occurrences, same
+from plutoc.service.symbols import Occurrence, at, same
 from plutoc.source import Span
 
 Data = dict[str, object]
 
 
 def _complete(files: AppFiles, asked: Asked) -> Data:
-    return {"items": []}
+    file, wire, offset = _place(files, asked)
+    if file is File.APP:
+        items = complete(files.document, offset)
+    else:
+        items = hook_help.complete(files.document, wire.text, offset)
+    return {
+        "items": [
+            {
+                "label": one.label,
+                "insert": one.insert,
+                **_span(wire, one.span),
+                "kind": one.kind.value,
+                "detail": one.detail,
+                "doc": one.doc,
+            }
+            for one in items
+        ]
+    }
 
 
 def _hover(files: AppFiles, asked: Asked) -> Data:
-    return {"markdown": "", "from": 0, "to": 0}
+    file, wire, offset = _place(files, asked)
+    if file is File.APP:
+        found = hover(files.document, offset)
+    else:
+        found = hook_help.hover(files.document, wire.text, offset)
+    if found is None:
+        return {"markdown": ""} | _span(wire, Span(offset, offset))
+    return {"markdown": found.markdown} | _span(wire, found.span)
+
+
+def _place(files: AppFiles, asked: Asked) -> tuple[File, Wire, int]:
+    """Return which text is meant, and where in it; of hooks.py, as Python reads it."""
+    file, place = read.file(asked), read.number(asked, "offset")
+    hooks = files.hooks
+    if file is File.APP:
+        wire = Wire(files.document.text)
+    else:
+        wire = Wire(hooks.text if hooks else "", marked=False)
+    if not 0 <= place <= wire.length:
+        raise Refused("offset must be a place in the text")
+    return file, wire, wire.in_file(place)
 
 
 def _named(files: AppFiles, asked: Asked) -> tuple[tuple[Occurrence, ...], Occurrence | None]:
-    document = files.document
-    found = occurrences(document.file)
-    place = read.number(asked, "offset")
-    if place < 0:
-        raise Refused("offset must be a place in the text")
-    return found, at(found, Wire(document.text).in_file(place))
+    file, _, offset = _place(files, asked)
+    names = files.document.names
+    return names, at(names, offset) if file is File.APP else None
 
 
 def _definition(files: AppFiles, asked: Asked) -> Data:

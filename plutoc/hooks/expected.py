@@ -11,7 +11,7 @@ from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
 from plutoc_runtime.domain.status import Status
 
-_PASSED = {
+PASSED = {
     HookKind.ACTION: ("drone", "trip", "context"),
     HookKind.EVALUATOR: ("mission", "results"),
     HookKind.MODIFIER: ("mission", "context"),
@@ -87,7 +87,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
     return Expected(
         kind=kind,
         name=hook.name,
-        passed=_PASSED[kind],
+        passed=PASSED[kind],
         own=hook.parameters,
         returns=_returns(hook),
         emits=_emits(hook),

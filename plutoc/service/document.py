@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -15,13 +15,17 @@ from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.model import Edge, Graph
 from plutoc.graph.resolve import resolved
 from plutoc.registry import Blocks, blocks, standard
+from plutoc.service.symbols import Occurrence, occurrences
 from plutoc.source import Source
-from plutoc.syntax.parse import read
+from plutoc.syntax.again import is_sound, read_again
 from plutoc.syntax.tree import File
 from plutoc_runtime.domain.status import Status
 
 FindHooks = Callable[[Graph], Source | None]
 """Returns the hooks.py that counts for an app, if there is one."""
+
+_OF_HOOKS = frozenset({"hooks", "diagnostics"})
+"""What depends on hooks.py."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +40,8 @@ class Document:
     text: str
     find_hooks: FindHooks = lambda _: None
     """The only question that is asked of the world."""
+    before: File | None = field(default=None, repr=False, compare=False)
+    """The tree of an earlier text that was in order: what has not changed is not read again."""
 
     @cached_property
     def source(self) -> Source:
@@ -44,12 +50,22 @@ class Document:
 
     @cached_property
     def _read(self) -> tuple[File, tuple[Diagnostic, ...]]:
-        return read(self.source)
+        return read_again(self.source, self.before)
+
+    @property
+    def sound(self) -> File | None:
+        """The tree of the last text that was in order, which may be this one."""
+        return self.file if is_sound(*self._read) else self.before
 
     @property
     def file(self) -> File:
         """The tree."""
         return self._read[0]
+
+    @cached_property
+    def names(self) -> tuple[Occurrence, ...]:
+        """All names in it, with their places."""
+        return occurrences(self.file)
 
     @cached_property
     def installed(self) -> Blocks:
@@ -65,10 +81,15 @@ class Document:
         """As much of the graph as is clear."""
         return self._resolved[0]
 
+    @property
+    def of_names(self) -> tuple[Diagnostic, ...]:
+        """What is found about its syntax and its names."""
+        return (*self._read[1], *self._resolved[1])
+
     @cached_property
     def _checked(self) -> tuple[Checked | None, tuple[Diagnostic, ...]]:
         try:
-            return check_names_first(self.graph, (*self._read[1], *self._resolved[1]))
+            return check_names_first(self.graph, self.of_names)
         except Rejected as rejected:
             return None, rejected.diagnostics
 
@@ -81,6 +102,13 @@ class Document:
     def hooks(self) -> Source | None:
         """The hooks.py that counts, if there is one: in whose package it is, any graph says."""
         return self.find_hooks(self.graph)
+
+    def with_hooks_anew(self) -> Document:
+        """Return the same text, whose hooks.py is looked for once more."""
+        again = replace(self)
+        known = {name: value for name, value in vars(self).items() if name not in _OF_HOOKS}
+        vars(again).update(known)
+        return again
 
     @cached_property
     def diagnostics(self) -> tuple[Diagnostic, ...]:

@@ -253,3 +253,22 @@ def test_what_is_no_app_is_refused(tmp_path: Path, name: str) -> None:
     (tmp_path / "latin.pluto").write_bytes("app é".encode("latin-1"))
     with pytest.raises(UsageError):
         Session(tmp_path / name)
+
+
+async def test_what_may_stand_at_a_place_and_what_it_means(tmp_path: Path) -> None:
+    """In both texts, at the places that a browser counts."""
+    hooks = "\ufeff# 🚁\r\ndef judge(trip, candidates):\r\n    trip.\r\n"
+    page = Page(Session(app_in(tmp_path, "\ufeff" + HOOKED.replace("\n", "\r\n"), hooks)))
+    hello = await page.next()
+    before = HOOKED.index("STANDBY\n") + 1  # the helicopter before counts two
+    answer = await page.ask("complete", file="app", offset=before + 3)
+    (item,) = (one for one in answer["items"] if one["label"] == "STANDBY")
+    assert (item["from"], item["kind"]) == (before, "status")
+    answer = await page.ask("hover", file="app", offset=HOOKED.index("TripLauncher") + 2)
+    assert "TripLauncher" in answer["markdown"]
+    shown = hello["hooks"]["text"]
+    answer = await page.ask("complete", file="hooks", offset=shown.index("trip.\n") + 6)
+    assert "target" in {one["label"] for one in answer["items"]}
+    answer = await page.ask("hover", file="hooks", offset=0)
+    assert answer["markdown"] == ""
+    assert "error" in await page.ask("hover", file="hooks", offset=10_000)
