@@ -10,11 +10,13 @@ from plutoc.editor.asked import Asked, Refused
 from plutoc.editor.history import File
 from plutoc.editor.wire import Wire
 from plutoc.explain.pages import code_meant, codes, page
+from plutoc.hooks.module import read as read_hooks
+from plutoc.hooks.python import Unreadable
 from plutoc.service import hook_help
 from plutoc.service.complete import complete
 from plutoc.service.hover import hover
 from plutoc.service.ports import targets
-from plutoc.service.symbols import Occurrence, at, same
+from plutoc.service.symbols import HOOKS, Occurrence, at, same
 from plutoc.source import Span
 
 Data = dict[str, object]
@@ -72,10 +74,26 @@ def _named(files: AppFiles, asked: Asked) -> tuple[tuple[Occurrence, ...], Occur
 
 
 def _definition(files: AppFiles, asked: Asked) -> Data:
-    """Where a name is declared; a hook's function is told besides."""
+    """Say where a name is declared; of a hook, also where its function is."""
     found, one = _named(files, asked)
     declared = [each for each in same(found, one) if each.declares] if one else []
-    return {"places": _places(files, declared)}
+    function = hook_function(files, one.name) if one and one.role in HOOKS else None
+    return {"places": [*_places(files, declared), *([function] if function else [])]}
+
+
+def hook_function(files: AppFiles, name: str) -> Data | None:
+    """Return where hooks.py defines a function, if it does."""
+    hooks = files.hooks
+    try:
+        definition = read_hooks(hooks).defined.get(name) if hooks else None
+    except Unreadable:
+        return None
+    if hooks is None or definition is None:
+        return None
+    start = sum(len(one) + 1 for one in hooks.text.split("\n")[: definition.lineno - 1])
+    span = Span(start, start + len(hooks.line(definition.lineno)))
+    wire = Wire(hooks.text, marked=False)
+    return {"file": File.HOOKS.value, "line": definition.lineno, **_span(wire, span)}
 
 
 def _references(files: AppFiles, asked: Asked) -> Data:

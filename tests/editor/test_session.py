@@ -148,7 +148,7 @@ async def test_stubs_are_written_where_there_is_no_file_and_where_there_is_one(
     answer = await page.ask("stub", name="judge")
     hooks = session.files.hooks
     assert hooks is not None
-    assert hooks.text[answer["offset"] :].startswith("def judge(")
+    assert hooks.text[answer["from"] :].startswith("def judge(")
     push = await page.told("change", file="hooks")
     assert push["hooks"] == "hooks.py"
     assert push["view"]["hooks"][0]["defined"] is True
@@ -179,6 +179,17 @@ async def test_names_are_found_everywhere(tmp_path: Path) -> None:
     assert len(answer["places"]) == 4
     (place,) = (await page.ask("definition", offset=offset + 1))["places"]
     assert place["from"] == APP.index("watch = ") + 1
+
+
+async def test_a_hook_leads_to_its_function(tmp_path: Path) -> None:
+    hooks = "# 🚁\r\n\r\ndef judge(trip, candidates):\r\n    return 1\r\n"
+    page = Page(Session(app_in(tmp_path, HOOKED, hooks)))
+    shown = (await page.next())["hooks"]["text"]
+    answer = await page.ask("definition", offset=HOOKED.index("judge)"))
+    declared, function = answer["places"]
+    assert (declared["file"], declared["from"]) == ("app", HOOKED.index("judge\n"))
+    assert (function["file"], function["line"]) == ("hooks", 3)
+    assert function["from"] == shown.index("def") + 1  # the helicopter counts two
 
 
 async def test_where_an_edge_may_lead_and_why_not(tmp_path: Path) -> None:
