@@ -14,6 +14,7 @@ from plutoc.hooks.module import read as read_hooks
 from plutoc.hooks.python import Unreadable
 from plutoc.service import hook_help
 from plutoc.service.complete import complete
+from plutoc.service.hook_types import types_of
 from plutoc.service.hover import hover
 from plutoc.service.ports import targets
 from plutoc.service.symbols import HOOKS, Occurrence, at, same
@@ -93,7 +94,8 @@ def hook_function(files: AppFiles, name: str) -> Data | None:
     start = sum(len(one) + 1 for one in hooks.text.split("\n")[: definition.lineno - 1])
     span = Span(start, start + len(hooks.line(definition.lineno)))
     wire = Wire(hooks.text, marked=False)
-    return {"file": File.HOOKS.value, "line": definition.lineno, **_span(wire, span)}
+    at = _span(wire, span)
+    return {"file": File.HOOKS.value, "line": definition.lineno, "offset": at["from"], **at}
 
 
 def _references(files: AppFiles, asked: Asked) -> Data:
@@ -123,11 +125,43 @@ def _explain(files: AppFiles, asked: Asked) -> Data:
     return {"code": code, "title": found.title, "markdown": found.text}
 
 
+_GIVEN = {
+    "mission": "Mission",
+    "trip": "Trip",
+    "drone": "Drone",
+    "context": "Context",
+    "results": "Results",
+    "result": "Result",
+    "verdict": "Verdict",
+}
+"""What hooks are given or give, by the names that stubs have for it."""
+
+
+def _entities(files: AppFiles, asked: Asked) -> Data:
+    types = types_of(files.document.graph)
+    found = [(name, types[kind]) for name, kind in _GIVEN.items() if kind in types]
+    return {
+        "entities": [
+            {
+                "name": name,
+                "type": kind.name,
+                "doc": kind.doc.partition("\n")[0],
+                "attributes": [
+                    {"name": one.name, "type": one.signature or one.type, "doc": one.doc}
+                    for one in kind.members
+                ],
+            }
+            for name, kind in found
+        ]
+    }
+
+
 QUESTIONS: Mapping[str, Callable[[AppFiles, Asked], Data]] = {
     "complete": _complete,
     "hover": _hover,
     "definition": _definition,
     "references": _references,
     "ports": _ports,
+    "entities": _entities,
     "explain": _explain,
 }

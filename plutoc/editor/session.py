@@ -133,7 +133,7 @@ class Session:
         answer: Data = {}
         try:
             asked = read.parsed(message)
-            if isinstance(asked.get("id"), int | str):
+            if type(asked.get("id")) in (int, str):
                 answer["id"] = asked["id"]
             if asked.get("op") in _SLOW and not slow:
                 client.start(self.hear(client, message, slow=True), answer)
@@ -263,7 +263,11 @@ class Session:
         return self._do(client, gestures.fix(self.files, read.number(asked, "problem")))
 
     def _stub(self, client: Client, asked: Asked) -> Data:
+        """Say where a hook's function is; where there is none yet, its stub is written first."""
         name = read.text(asked, "name")
+        there = hook_function(self.files, name)
+        if there is not None:
+            return there
         answer = self._do(client, gestures.stub(self.files, name))
         return answer | (hook_function(self.files, name) or {"file": File.HOOKS.value})
 

@@ -155,8 +155,11 @@ async def test_stubs_are_written_where_there_is_no_file_and_where_there_is_one(
     end = len(hooks.text)
     where = hooks.text.index("def judge(")
     await page.type(where, "", end, file="hooks")
-    assert (await page.ask("stub", name="judge"))["line"] > 1
-    assert "error" in await page.ask("stub", name="judge")
+    again = await page.ask("stub", name="judge")
+    assert again["line"] > 1
+    version = session.files.history.version
+    there = await page.ask("stub", name="judge")  # it is there already
+    assert (there["line"], session.files.history.version) == (again["line"], version)
     for _ in range(3):
         await page.ask("undo")
     assert session.files.history.hooks is None
@@ -190,6 +193,17 @@ async def test_a_hook_leads_to_its_function(tmp_path: Path) -> None:
     assert (declared["file"], declared["from"]) == ("app", HOOKED.index("judge\n"))
     assert (function["file"], function["line"]) == ("hooks", 3)
     assert function["from"] == shown.index("def") + 1  # the helicopter counts two
+
+
+async def test_what_hooks_can_ask_is_told_with_the_fields_of_this_app(tmp_path: Path) -> None:
+    page = Page(
+        Session(app_in(tmp_path, HOOKED.replace("  launch =", "  wait = Clock\n  launch =")))
+    )
+    entities = {one["name"]: one for one in (await page.ask("entities"))["entities"]}
+    assert {"mission", "trip", "drone", "context"} <= entities.keys()
+    trip = {one["name"]: one["doc"] for one in entities["trip"]["attributes"]}
+    assert trip["delay"] == "Time to wait before the trip."
+    assert {"target", "action", "item"} <= trip.keys()
 
 
 async def test_where_an_edge_may_lead_and_why_not(tmp_path: Path) -> None:
