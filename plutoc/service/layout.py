@@ -9,6 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right, insort
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 
 from plutoc.graph.model import END, START
 from plutoc.service.positions import Point, Positions
@@ -20,6 +21,8 @@ _COLUMN, _ROW, _LANE = 320, 88, 40
 _BELOW = 48
 """Between parts of a graph that no edge joins."""
 _SWEEPS, _SETTLE = 8, 4
+_LONGEST = 6
+"""Layers that an edge passes in a lane of its own; a longer one goes around, as one that leads back."""
 
 Ways = Sequence[tuple[str, str]]
 _Spot = str | tuple[int, int]
@@ -28,6 +31,15 @@ _Spot = str | tuple[int, int]
 
 def laid_out(names: Sequence[str], ways: Ways, moved: Positions) -> dict[str, Point]:
     """Return the upper left corner of every block, and of `start` and `end`."""
+    found = _automatic(tuple(names), tuple(ways))
+    boxes = [moved[name] for name in found if name in moved]
+    return {
+        name: moved[name] if name in moved else _beside(spot, boxes) for name, spot in found.items()
+    }
+
+
+@lru_cache(maxsize=8)  # most changes of a text do not change its graph
+def _automatic(names: tuple[str, ...], ways: tuple[tuple[str, str], ...]) -> dict[str, Point]:
     found: dict[str, Point] = {}
     top = 0
     for part in _parts((START, *names, END), ways):
@@ -35,11 +47,8 @@ def laid_out(names: Sequence[str], ways: Ways, moved: Positions) -> dict[str, Po
         within = [way for way in dict.fromkeys(ways) if way[0] in inside and way[0] != way[1]]
         placed, bottom = _placed(part, within, top)
         found |= placed
-        top = bottom + _BELOW
-    boxes = [moved[name] for name in (START, *names, END) if name in moved]
-    return {
-        name: moved[name] if name in moved else _beside(spot, boxes) for name, spot in found.items()
-    }
+        top = -(-(bottom + _BELOW) // GRID) * GRID
+    return found
 
 
 def _beside(spot: Point, boxes: Iterable[Point]) -> Point:
@@ -152,8 +161,8 @@ def _with_passages(
     before: defaultdict[_Spot, list[_Spot]] = defaultdict(list)
     after: defaultdict[_Spot, list[_Spot]] = defaultdict(list)
     for number, (source, target) in enumerate(ways):
-        if layer[target] <= layer[source]:
-            continue  # it leads back, around all boxes
+        if not 0 < layer[target] - layer[source] <= _LONGEST:
+            continue
         spot: _Spot = source
         for between in range(layer[source] + 1, layer[target] + 1):
             following: _Spot = target if between == layer[target] else (number, between)
