@@ -2,15 +2,39 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from plutoc.diagnostic import Fix
+from plutoc.graph.model import END, START
+from plutoc.service import declaration_edits as declared
+from plutoc.service import flow_edits as edges
+from plutoc.service.copying import copied, pasted
 from plutoc.service.document import Document
-from plutoc.service.operations import Operation
+from plutoc.service.draft import Draft
+from plutoc.service.flow_edits import CannotEdit
+from plutoc.service.operations import (
+    AddBlock,
+    Bracket,
+    Connect,
+    Declare,
+    Disconnect,
+    Duplicate,
+    Move,
+    Operation,
+    Paste,
+    Redirect,
+    RemoveBlocks,
+    RemoveDeclaration,
+    Rename,
+    Rewrite,
+    SetArgument,
+    SetGuard,
+    SetTitle,
+)
+from plutoc.service.rename import renamed
+from plutoc.syntax.tree import ActionDecl, BlockDecl, CategoryDecl, HookDecl
 
-
-class CannotEdit(Exception):
-    """An operation cannot be done on this text. The message is a sentence for a person."""
+__all__ = ["CannotEdit", "Edited", "edit"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,5 +50,116 @@ class Edited:
 
 
 def edit(document: Document, operation: Operation) -> Edited:
-    """Return the edits that do an operation; raise `CannotEdit` where it cannot be done."""
-    raise NotImplementedError
+    """Return the edits that do an operation; raise `CannotEdit` where it cannot be done.
+
+    They change no statement but those that the operation names, and no comment is lost.
+    """
+    before = Draft.of(document.source)
+    if isinstance(operation, Rename):
+        change = renamed(document, operation.name, operation.new)
+        return Edited(edits=change.edits, hooks=change.hooks)
+    draft, names = _done(before, operation)
+    return Edited(edits=draft.edits(document.source), names=names)
+
+
+def _done(draft: Draft, operation: Operation) -> tuple[Draft, tuple[str, ...]]:
+    match operation:
+        case AddBlock():
+            draft, name = declared.new_block(
+                draft, operation.kind, operation.name, dict(operation.arguments)
+            )
+            return draft, (name,)
+        case Duplicate():
+            return pasted(draft, copied(draft, operation.names), fresh=True)
+        case Paste():
+            return pasted(draft, operation.text)
+        case _:
+            return _changed(draft, operation), ()
+
+
+def _changed(draft: Draft, operation: Operation) -> Draft:
+    match operation:
+        case RemoveBlocks(names=names):
+            blocks = [_block(draft, name).name.text for name in dict.fromkeys(names)]
+            draft = edges.without_blocks(draft, blocks)
+            for name in blocks:
+                draft = declared.without(draft, name)
+        case Connect(arrow=arrow):
+            _check_ends(draft, arrow.source, arrow.target)
+            draft = edges.connected(draft, arrow)
+        case Disconnect(arrow=arrow):
+            draft = edges.disconnected(draft, arrow)
+        case Redirect(arrow=arrow):
+            new = replace(
+                arrow,
+                source=operation.source or arrow.source,
+                target=operation.target or arrow.target,
+                otherwise=arrow.otherwise or (arrow.target == END and not arrow.when),
+            )
+            _check_ends(draft, new.source, new.target)
+            draft = edges.redirected(draft, arrow, new)
+        case SetGuard(arrow=arrow, when=when, otherwise=otherwise):
+            new = replace(arrow, when=when, otherwise=otherwise and not when)
+            draft = edges.guarded(draft, arrow, new)
+        case Bracket(source=source, targets=targets):
+            draft = edges.bracketed(draft, source, targets)
+        case SetArgument(owner=owner, parameter=parameter, value=value):
+            draft = declared.with_argument(draft, owner, parameter, value)
+        case SetTitle(title=title):
+            draft = declared.with_title(draft, title)
+        case Rewrite(name=name, text=text):
+            draft = declared.rewritten(draft, name, text)
+        case Move(name=name, before=before):
+            draft = declared.moved(draft, name, before)
+        case Declare(text=text):
+            draft = _declare(draft, text)
+        case RemoveDeclaration(name=name):
+            draft = _remove(draft, name)
+    return draft
+
+
+def _block(draft: Draft, name: str) -> BlockDecl:
+    one = declared.declared(draft.file, name)
+    if not isinstance(one, BlockDecl):
+        raise CannotEdit(f"`{name}` is not a block")
+    return one
+
+
+def _check_ends(draft: Draft, source: str, target: str) -> None:
+    if source != START:
+        _block(draft, source)
+    if target != END:
+        _block(draft, target)
+
+
+def _declare(draft: Draft, text: str) -> Draft:
+    _, statements = declared.statements_in(text)
+    one = statements[0] if len(statements) == 1 else None
+    if not isinstance(one, CategoryDecl | ActionDecl | HookDecl | BlockDecl):
+        raise CannotEdit("this is not one declaration")
+    if one.name.text.lower() in declared.taken(draft.file):
+        raise CannotEdit(f"`{one.name.text}` is declared already")
+    return declared.added(draft, text.strip(), type(one))
+
+
+def _remove(draft: Draft, name: str) -> Draft:
+    """Take a declaration out that nothing needs; an action goes from the categories' lists, too."""
+    one = declared.declared(draft.file, name)
+    if isinstance(one, BlockDecl):
+        raise CannotEdit(f"`{name}` is a block: it is removed with its edges")
+    for each in declared.declarations(draft.file):
+        given = each.arguments if isinstance(each, BlockDecl) else ()
+        if any(draft.source.quote(argument.value.span) == name for argument in given):
+            raise CannotEdit(f"`{each.name.text}` uses `{name}`: change or remove that first")
+    for each in declared.declarations(draft.file):
+        if isinstance(each, CategoryDecl) and any(can.text == name for can in each.can):
+            draft = _cannot_any_more(draft, each, name)
+    return declared.without(draft, name)
+
+
+def _cannot_any_more(draft: Draft, category: CategoryDecl, action: str) -> Draft:
+    left = [can.text for can in category.can if can.text != action]
+    if not left:
+        raise CannotEdit(f"`{category.name.text}` can do nothing but `{action}`: change it first")
+    listed = category.can[0].span.to(category.can[-1].span)
+    return draft.changed(Fix(span=listed, text=", ".join(left)))

@@ -7,9 +7,6 @@ from dataclasses import MISSING, dataclass, field, fields
 from types import MappingProxyType
 from typing import Any
 
-NOTHING: Mapping[str, str] = MappingProxyType({})
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrow:
     """An edge, by its two ends and its guard as written: no two of an app are the same."""
@@ -31,7 +28,7 @@ class AddBlock:
     kind: str
     """As an app writes it: `Clock`, `survey.GridScan`."""
     name: str = ""
-    arguments: Mapping[str, str] = field(default=NOTHING)
+    arguments: Mapping[str, str] = field(default_factory=dict)
     """Values as they are written: `{"default": "5 min"}`."""
 
 
@@ -172,9 +169,7 @@ Operation = (
     | Move
 )
 
-KINDS: Mapping[str, type] = MappingProxyType(
-    {kind.__name__: kind for kind in Operation.__args__}
-)
+KINDS: Mapping[str, type] = MappingProxyType({kind.__name__: kind for kind in Operation.__args__})
 
 
 class NotAnOperation(Exception):

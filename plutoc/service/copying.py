@@ -1,0 +1,85 @@
+"""Blocks copied as Pluto text, and Pluto text put into an app."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from plutoc.service.declaration_edits import (
+    Declaration,
+    added,
+    declarations,
+    declared,
+    free_name,
+    statements_in,
+    taken,
+)
+from plutoc.service.draft import Draft
+from plutoc.service.flow_edits import CannotEdit, among
+from plutoc.service.flow_edits import added as with_flow
+from plutoc.source import Source, Span
+from plutoc.syntax.tree import BlockDecl, FlowDecl, RequiresDecl, Statement, VersionDecl
+
+
+def copied(draft: Draft, names: Sequence[str]) -> str:
+    """Return blocks, and the edges among them, as Pluto text."""
+    blocks = [declared(draft.file, name) for name in dict.fromkeys(names)]
+    lines = [draft.text(block.span) for block in blocks if isinstance(block, BlockDecl)]
+    if len(lines) < len(blocks) or not lines:
+        raise CannotEdit("only blocks are copied")
+    return "\n".join([*lines, *among(draft.file, names, {})]) + "\n"
+
+
+def pasted(draft: Draft, text: str, *, fresh: bool = False) -> tuple[Draft, tuple[str, ...]]:
+    """Put statements into an app; return the names of the blocks that came in.
+
+    A block whose name is taken gets another one. What else is declared already stays as it is:
+    `fresh` or not, an app has one action of a name.
+    """
+    source, statements = statements_in(text)
+    if not statements:
+        raise CannotEdit("there is nothing to paste")
+    used = taken(draft.file)
+    called: dict[str, str] = {}
+    known = {each.name.text for each in declarations(draft.file)}
+    for one in statements:
+        if isinstance(one, BlockDecl):
+            called[one.name.text] = free_name(
+                re.sub(r"_\d+$", "", one.name.text) if fresh else one.name.text, used
+            )
+    last = ""
+    for one in statements:
+        if isinstance(one, VersionDecl | RequiresDecl) or (
+            isinstance(one, Declaration)
+            and not isinstance(one, BlockDecl)
+            and one.name.text in known
+        ):
+            continue
+        written = _renamed(source, one, called)
+        if isinstance(one, FlowDecl):
+            draft = with_flow(draft, written, last or _first_of(one, called))
+            last = _first_of(one, called)
+        else:
+            draft = added(draft, written, type(one))
+    return draft, tuple(called.values())
+
+
+def _first_of(flow: FlowDecl, called: dict[str, str]) -> str:
+    name = flow.stops[0].names[0].text
+    return called.get(name, name)
+
+
+def _renamed(source: Source, one: Statement, called: dict[str, str]) -> str:
+    """Return a statement's text with the names that its blocks have here."""
+    text, at = "", one.span.start
+    match one:
+        case BlockDecl():
+            names = [one.name]
+        case FlowDecl():
+            names = [name for stop in one.stops for name in stop.names]
+        case _:
+            names = []
+    for name in names:
+        text += source.quote(Span(at, name.span.start)) + called.get(name.text, name.text)
+        at = name.span.end
+    return text + source.quote(Span(at, one.span.end))

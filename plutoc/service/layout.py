@@ -1,0 +1,242 @@
+"""Where blocks stand that were not moved by hand: layers from left to right, with few crossings.
+
+The result depends on the graph alone, and ties keep the order of the source: so a further block moves
+those behind it, and leaves the rest where it was.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right, insort
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from plutoc.graph.model import END, START
+from plutoc.service.positions import Point, Positions
+
+WIDTH, HEIGHT, GRID = 176, 52, 8
+"""A block's size, and what positions are multiples of."""
+_COLUMN, _ROW, _LANE = 320, 88, 40
+"""From a layer to the next one; from a box to the one below; beside an edge that passes a layer."""
+_BELOW = 48
+"""Between parts of a graph that no edge joins."""
+_SWEEPS, _SETTLE = 8, 4
+
+Ways = Sequence[tuple[str, str]]
+_Spot = str | tuple[int, int]
+"""A box by its name, or where an edge passes a layer: the edge's number, and the layer's."""
+
+
+def laid_out(names: Sequence[str], ways: Ways, moved: Positions) -> dict[str, Point]:
+    """Return the upper left corner of every block, and of `start` and `end`."""
+    found: dict[str, Point] = {}
+    top = 0
+    for part in _parts((START, *names, END), ways):
+        inside = set(part)
+        within = [way for way in dict.fromkeys(ways) if way[0] in inside and way[0] != way[1]]
+        placed, bottom = _placed(part, within, top)
+        found |= placed
+        top = bottom + _BELOW
+    boxes = [moved[name] for name in (START, *names, END) if name in moved]
+    return {
+        name: moved[name] if name in moved else _beside(spot, boxes) for name, spot in found.items()
+    }
+
+
+def _beside(spot: Point, boxes: Iterable[Point]) -> Point:
+    """Return the first free place below, where boxes stand that were moved by hand."""
+    x, y = spot
+    for _, taken in sorted((b for b in boxes if abs(b[0] - x) < WIDTH), key=lambda b: b[1]):
+        if abs(taken - y) < HEIGHT:
+            y = taken + _ROW
+    return x, y
+
+
+def _parts(names: Sequence[str], ways: Ways) -> Iterator[list[str]]:
+    """Yield what edges join, `start` and `end` always together, in the order of the source.
+
+    What hangs on nothing comes last, all in one part.
+    """
+    joined: defaultdict[str, list[str]] = defaultdict(list)
+    for source, target in (*ways, (START, END)):
+        joined[source].append(target)
+        joined[target].append(source)
+    met: set[str] = set()
+    for first in names:
+        if first in met or first not in joined:
+            continue
+        part, waiting = {first}, [first]
+        while waiting:
+            new = [other for other in joined[waiting.pop()] if other not in part]
+            part.update(new)
+            waiting += new
+        met |= part
+        yield [name for name in names if name in part]
+    loose = [name for name in names if name not in met]
+    if loose:
+        yield loose
+
+
+def _placed(part: Sequence[str], ways: Ways, top: int) -> tuple[dict[str, Point], int]:
+    """Return the positions within one part, and where it ends."""
+    if not ways and START not in part:  # in rows
+        across = 6
+        spots = {
+            name: (_COLUMN + place % across * (WIDTH + GRID * 5), top + place // across * _ROW)
+            for place, name in enumerate(part)
+        }
+        return spots, max(y for _, y in spots.values()) + HEIGHT
+    layer = _layers(part, ways)
+    layers, above, below = _with_passages(layer, ways)
+    _untangle(layers, above, below)
+    at = _heights(layers, above, below)
+    least = min(at.values(), default=0.0)
+    spots = {
+        name: (layer[name] * _COLUMN, top + round((at[name] - least) / GRID) * GRID)
+        for name in part
+    }
+    return spots, max(y for _, y in spots.values()) + HEIGHT
+
+
+def _layers(part: Sequence[str], ways: Ways) -> dict[str, int]:
+    """Return each box's layer: every edge leads to a later one, but for those that lead back.
+
+    Deep graphs are walked without recursion.
+    """
+    leaving: defaultdict[str, list[str]] = defaultdict(list)
+    entered = {target for _, target in ways}
+    for source, target in ways:
+        leaving[source].append(target)
+    begun: set[str] = set()
+    done: dict[str, None] = {}
+    forward: defaultdict[str, list[str]] = defaultdict(list)
+    roots = [name for name in part if name not in entered and name != END]
+    for root in (*roots, *part):
+        if root in begun:
+            continue
+        begun.add(root)
+        stack = [(root, iter(leaving[root]))]
+        while stack:
+            box, targets = stack[-1]
+            for target in targets:
+                if target not in begun:
+                    begun.add(target)
+                    forward[box].append(target)
+                    stack.append((target, iter(leaving[target])))
+                    break
+                if target in done:
+                    forward[box].append(target)
+            else:
+                done[box] = None
+                stack.pop()
+    layer = dict.fromkeys(part, 0)
+    for box in reversed(done):
+        for target in forward[box]:
+            layer[target] = max(layer[target], layer[box] + 1)
+    if END in layer:  # nothing stands behind it
+        layer[END] = max(layer[END], max(layer.values()), 1)
+        if any(other == layer[END] for name, other in layer.items() if name != END):
+            layer[END] += 1
+    return layer
+
+
+_Near = Mapping[_Spot, Sequence[_Spot]]
+
+
+def _with_passages(
+    layer: Mapping[str, int], ways: Ways
+) -> tuple[list[list[_Spot]], dict[_Spot, list[_Spot]], dict[_Spot, list[_Spot]]]:
+    """Return the layers, with a spot for every edge that passes one, and each spot's neighbours."""
+    layers: list[list[_Spot]] = [[] for _ in range(max(layer.values()) + 1)]
+    for name, number in layer.items():
+        layers[number].append(name)
+    before: defaultdict[_Spot, list[_Spot]] = defaultdict(list)
+    after: defaultdict[_Spot, list[_Spot]] = defaultdict(list)
+    for number, (source, target) in enumerate(ways):
+        if layer[target] <= layer[source]:
+            continue  # it leads back, around all boxes
+        spot: _Spot = source
+        for between in range(layer[source] + 1, layer[target] + 1):
+            following: _Spot = target if between == layer[target] else (number, between)
+            if following != target:
+                layers[between].append(following)
+            after[spot].append(following)
+            before[following].append(spot)
+            spot = following
+    return layers, before, after
+
+
+def _untangle(layers: list[list[_Spot]], before: _Near, after: _Near) -> None:
+    """Sort each layer by the middle of its neighbours' places, forth and back."""
+    place = {spot: float(i) for layer in layers for i, spot in enumerate(layer)}
+    best, fewest = [list(layer) for layer in layers], _crossings(layers, after, place)
+    for sweep in range(_SWEEPS):
+        near, order = (before, layers) if sweep % 2 == 0 else (after, layers[::-1])
+        for layer in order:
+            middle = {
+                spot: _mean([place[one] for one in near.get(spot, ())], place[spot])
+                for spot in layer
+            }
+            layer.sort(key=middle.__getitem__)
+            place.update((spot, float(i)) for i, spot in enumerate(layer))
+        count = _crossings(layers, after, place)
+        if count < fewest:
+            best, fewest = [list(layer) for layer in layers], count
+    for layer, kept in zip(layers, best, strict=True):
+        layer[:] = kept
+
+
+def _crossings(layers: list[list[_Spot]], after: _Near, place: Mapping[_Spot, float]) -> int:
+    """Count the crossings between neighbouring layers."""
+    found = 0
+    for layer in layers:
+        passed: list[float] = []
+        for spot in layer:
+            targets = [place[one] for one in after.get(spot, ())]
+            found += sum(len(passed) - bisect_right(passed, target) for target in targets)
+            for target in targets:
+                insort(passed, target)
+    return found
+
+
+def _heights(layers: list[list[_Spot]], before: _Near, after: _Near) -> dict[_Spot, float]:
+    """Return how far down each spot is: as straight as may be, in the order of its layer."""
+    at: dict[_Spot, float] = {}
+    for layer in layers:
+        y = 0.0
+        for spot in layer:
+            at[spot] = y
+            y += _room(spot)
+    for sweep in range(_SETTLE * 2):
+        near, order = (before, layers) if sweep % 2 == 0 else (after, layers[::-1])
+        for layer in order:
+            wanted = [_mean([at[one] for one in near.get(spot, ())], at[spot]) for spot in layer]
+            at.update(zip(layer, _apart(layer, wanted), strict=True))
+    return at
+
+
+def _room(spot: _Spot) -> float:
+    return _ROW if isinstance(spot, str) else _LANE
+
+
+def _apart(layer: Sequence[_Spot], wanted: Sequence[float]) -> Iterator[float]:
+    """Yield the heights nearest to the wanted ones that leave every spot its room.
+
+    Neighbours that want to overlap are put in a block whose middle is where they want it on average.
+    """
+    offsets, sum_of = [], 0.0
+    for spot in layer:
+        offsets.append(sum_of)
+        sum_of += _room(spot)
+    blocks: list[tuple[float, int]] = []
+    for height, offset in zip(wanted, offsets, strict=True):
+        total, count = height - offset, 1
+        while blocks and blocks[-1][0] / blocks[-1][1] > total / count:
+            more, others = blocks.pop()
+            total, count = total + more, count + others
+        blocks.append((total, count))
+    starts = (total / count for total, count in blocks for _ in range(count))
+    return (start + offset for start, offset in zip(starts, offsets, strict=True))
+
+
+def _mean(values: Sequence[float], otherwise: float) -> float:
+    return sum(values) / len(values) if values else otherwise
