@@ -9,7 +9,7 @@ import {
 
 const GAP = 68; // to the block that is put behind another one
 
-// Several operations are one step of the history. A name "" in them is the block just added.
+// Several operations are one step of the history. The name "+" in them is that of the block just added.
 export async function edit(operations, positions = {}) {
   try {
     return await ask("edit", { operations, positions, version: app.version });
@@ -59,19 +59,19 @@ export function add(kind, { at = null, from = undefined, when = undefined, onto 
   const operations = [{ do: "AddBlock", kind }];
   let position = at;
   if (onto) {
-    operations.push({ do: "Redirect", arrow: arrowOf(onto), target: "" });
-    operations.push({ do: "Connect", arrow: arrow("", onto.target) });
+    operations.push({ do: "Redirect", arrow: arrowOf(onto), target: "+" });
+    operations.push({ do: "Connect", arrow: arrow("+", onto.target) });
   } else {
     const source = from === undefined ? origin(declared.accepts) : from;
     const guard = source && (when ?? guardTo(source, declared.accepts));
     if (source && guard) {
-      operations.push({ do: "Connect", arrow: arrow(source, "", guard) });
+      operations.push({ do: "Connect", arrow: arrow(source, "+", guard) });
       position ??= null; // the layout knows where it goes
     } else if (!at && only()) {
       position = placeBehind(only());
     }
   }
-  return edit(operations, position ? { "": position } : {});
+  return edit(operations, position ? { "+": position } : {});
 }
 
 export function connect(source, target, when = [], otherwise = false) {
