@@ -125,6 +125,10 @@ def _run(options: Options) -> int:
             from plutoc.cli.show import graph
 
             return graph(options)
+        case "edit":
+            from plutoc.cli.edit import edit
+
+            return edit(options)
         case "diff":
             from plutoc.cli.diff import diff
 

@@ -51,6 +51,9 @@ class Options:
     old: Path = field(default_factory=Path)
     new: Path = field(default_factory=Path)
     exit_code: bool = False
+    host: str = "127.0.0.1"
+    port: int = 0
+    no_open: bool = False
     kind: str | None = None
     code: str | None = None
 
@@ -258,6 +261,22 @@ def _graph(parser: ArgumentParser) -> None:
     )
 
 
+def _edit(parser: ArgumentParser) -> None:
+    _file(parser)
+    parser.add_argument(
+        "--port", metavar="N", type=_whole, default=0, help="the port (default: any that is free)"
+    )
+    parser.add_argument(
+        "--host",
+        metavar="H",
+        default="127.0.0.1",
+        help="the address to listen at (default: this machine alone reaches it)",
+    )
+    parser.add_argument(
+        "--no-open", action="store_true", help="print the address, and open no browser"
+    )
+
+
 def _diff(parser: ArgumentParser) -> None:
     parser.add_argument(
         "old",
@@ -341,6 +360,7 @@ _COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "test": ("Try an app under everything that can go wrong.", _test),
     "fmt": ("Write sources in canonical form; comments and meaning are kept.", _fmt),
     "graph": ("Print the picture of an app, with the statuses on every edge.", _graph),
+    "edit": ("Edit an app's graph in a browser, beside its text.", _edit),
     "diff": ("Say in words what changed in meaning from one app to another.", _diff),
     "blocks": ("List the blocks that are installed, or explain one.", _blocks),
     "explain": ("Say what the code of an error or a warning means.", _explain),

@@ -16,12 +16,12 @@ from plutoc.source import Source
 _BUILTINS = re.compile(r"\b(_?builtins)\.")
 
 
-def with_stubs(checked: Checked, hooks: Source) -> str:
-    """Return the file's text with a stub for each hook that it does not define.
+def with_stubs(checked: Checked, hooks: Source, *, only: str | None = None) -> str:
+    """Return the file's text with a stub for each hook that it does not define, or for one.
 
     What stands there stays as it is; only imports that the stubs need come in.
     """
-    names = missing(checked, hooks)
+    names = tuple(name for name in missing(checked, hooks) if only in (None, name))
     if not names:
         return hooks.text
     parts = [_with_imports(checked, hooks, names).rstrip("\n")]

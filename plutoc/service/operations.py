@@ -7,6 +7,7 @@ from dataclasses import MISSING, dataclass, field, fields
 from types import MappingProxyType
 from typing import Any
 
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrow:
     """An edge, by its two ends and its guard as written: no two of an app are the same."""
@@ -199,7 +200,7 @@ def _made(kind: type, data: Mapping[str, Any]) -> Any:
     for name, one in known.items():
         if name in data:
             values[name] = _value(f"{name} of {kind.__name__}", str(one.type), data[name])
-        elif one.default is MISSING:
+        elif one.default is MISSING and one.default_factory is MISSING:
             raise NotAnOperation(f"{kind.__name__} lacks {name!r}")
     return kind(**values)
 

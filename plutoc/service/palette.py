@@ -26,7 +26,7 @@ def _palette() -> Iterator[Data]:
             yield {"package": package, "broken": str(error)}
             continue
         for kind, block in declared.items():
-            yield _entry(package, kind if package == STD else f"{package}.{kind}", block)
+            yield _entry(package, kind, block)
 
 
 def _entry(package: str, kind: str, block: Block) -> Data:
@@ -34,7 +34,7 @@ def _entry(package: str, kind: str, block: Block) -> Data:
     return {
         "kind": kind,
         "package": package,
-        "doc": page(kind, block),
+        "doc": page(kind if package == STD else f"{package}.{kind}", block),
         "first": first_line(block),
         **kind_of(block),
         "gate": block.gate is not None,

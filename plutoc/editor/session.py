@@ -1,0 +1,295 @@
+"""One app being edited by its clients: what changes it, and what all are told of that."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from plutoc.editor import asked as read
+from plutoc.editor import gestures
+from plutoc.editor.app_files import AppFiles
+from plutoc.editor.asked import Asked, Refused
+from plutoc.editor.disk import CannotSave, ChangedOutside
+from plutoc.editor.gestures import Gesture
+from plutoc.editor.history import NOBODY, File, Made, Stale
+from plutoc.editor.questions import QUESTIONS
+from plutoc.editor.wire import Wire
+from plutoc.hooks.module import read as read_hooks
+from plutoc.service.edit import CannotEdit
+from plutoc.service.operations import NotAnOperation
+from plutoc.service.palette import palette
+from plutoc.service.view import view
+from plutoc_runtime import output
+from plutoc_runtime.domain.text import said
+
+SAVE_AFTER, LOOK_EVERY, AGAIN_AFTER = 0.3, 0.4, 2.0
+"""Seconds: from a change to its saving, between two looks at the disk, to the next try."""
+_BEHIND = 256
+"""Messages that a client may be behind; then it is let go, and comes back for the whole."""
+_OPERATIONS = 100
+
+Data = dict[str, object]
+
+
+class Client:
+    """A page that is connected."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self.outbox: asyncio.Queue[str | None] = asyncio.Queue()
+        """What it is to be sent; None: it is let go."""
+
+    def send(self, message: Data) -> None:
+        """Send a message."""
+        self.send_text(json.dumps(message, separators=(",", ":")))
+
+    def send_text(self, text: str) -> None:
+        """Send a message that is written already; a client that does not read is let go."""
+        if self.outbox.qsize() < _BEHIND:
+            self.outbox.put_nowait(text)
+        elif self.outbox.qsize() == _BEHIND:
+            self.outbox.put_nowait(None)
+
+
+class Session:
+    """The app and its clients."""
+
+    def __init__(self, path: Path) -> None:
+        self.files = AppFiles(path)
+        self._clients: dict[int, Client] = {}
+        self._last = NOBODY
+        self._changed = asyncio.Event()
+        self._cannot_save = ""
+        self._seen: tuple[object, object] | None = None
+        self._view: Data = {}
+        self._palette = palette()
+        self._changes: Mapping[str, Callable[[Client, Asked], Data]] = {
+            "edit": self._edit,
+            "type": self._type,
+            "undo": lambda client, _: self._done(self.files.history.undo(client.number)),
+            "redo": lambda client, _: self._done(self.files.history.redo(client.number)),
+            "place": self._place,
+            "tidy": self._tidy,
+            "fix": self._fix,
+            "format": lambda client, _: self._do(client, gestures.formatted(self.files)),
+            "stub": self._stub,
+            "resolve": self._resolve,
+        }
+
+    def join(self) -> Client:
+        """Take a client in, and tell it all there is."""
+        self._last += 1
+        client = Client(self._last)
+        self._clients[client.number] = client
+        client.send(self._hello(client))
+        for file in self.files.conflicts:
+            client.send(self._conflict(file))
+        if self._cannot_save:
+            client.send({"push": "cannot_save", "why": self._cannot_save})
+        return client
+
+    def leave(self, client: Client) -> None:
+        """Let a client go."""
+        self._clients.pop(client.number, None)
+
+    async def hear(self, client: Client, message: str) -> None:
+        """Do what a client asks, and answer: nothing that it sends does more than to be refused."""
+        answer: Data = {}
+        try:
+            asked = read.parsed(message)
+            if isinstance(asked.get("id"), int | str | None):
+                answer["id"] = asked.get("id")
+            answer |= await self._answer(client, asked)
+        except (Refused, CannotEdit, NotAnOperation) as error:
+            answer["error"] = str(error)
+        except Exception as error:  # noqa: BLE001 - a mistake of ours ends no one's work
+            output.tell(f"plutoc edit: internal error (P9001): {said(error)}")
+            answer["error"] = f"something went wrong inside the editor: {said(error)}"
+        client.send(answer)
+
+    async def _answer(self, client: Client, asked: Asked) -> Data:
+        op = asked.get("op")
+        if isinstance(op, str) and op in self._changes:
+            return self._changes[op](client, asked)
+        if isinstance(op, str) and op in QUESTIONS:
+            return QUESTIONS[op](self.files, asked)
+        raise Refused(f"op must be one of {', '.join((*self._changes, *QUESTIONS))}")
+
+    def _tell(self, message: Data) -> None:
+        text = json.dumps(message, separators=(",", ":"))
+        for client in self._clients.values():
+            client.send_text(text)
+
+    def _hello(self, client: Client) -> Data:
+        files = self.files
+        return {
+            "push": "hello",
+            "client": client.number,
+            "version": files.history.version,
+            "text": Wire(files.history.app).shown,
+            "hooks": self._hooks(),
+            "view": self.view(),
+            "palette": self._palette,
+            "history": files.history.depth,
+            "file": files.path.name,
+            "title": files.document.graph.title,
+        }
+
+    def _hooks(self) -> Data | None:
+        hooks = self.files.hooks
+        if hooks is None:
+            return None
+        path = self.files.hooks_path.relative_to(self.files.path.parent)
+        return {"path": path.as_posix(), "text": hooks.text}
+
+    def view(self) -> Data:
+        """Return the picture of the app as it is now."""
+        document, positions = self.files.document, self.files.history.positions
+        if self._seen is None or self._seen[0] is not document or self._seen[1] is not positions:
+            hooks = self.files.hooks
+            self._view = view(
+                document,
+                positions,
+                hooks=hooks,
+                offset=Wire(document.text).on_wire,
+                hooks_offset=Wire(hooks.text if hooks else "", marked=False).on_wire,
+            )
+            self._seen = (document, positions)
+        return self._view
+
+    def _do(self, client: Client, gesture: Gesture) -> Data:
+        made = self.files.history.change(gesture.changes, client.number)
+        return self._done(made, gesture.names)
+
+    def _done(self, made: Sequence[Made], names: Sequence[str] = ()) -> Data:
+        """Tell all what was changed, and have it saved."""
+        if made:
+            self.files.note(made)
+            self._tell_changes(made, names)
+            self._changed.set()
+        return {"version": self.files.history.version, "new": list(names)}
+
+    def _tell_changes(self, made: Sequence[Made], names: Sequence[str] = ()) -> None:
+        hooks = self._hooks()
+        for one in made:
+            self._tell(
+                {
+                    "push": "change",
+                    "version": one.version,
+                    "by": one.by,
+                    "file": one.file.value,
+                    "changes": [{"from": e.start, "to": e.end, "insert": e.text} for e in one.sent],
+                    "view": self.view(),
+                    "history": self.files.history.depth,
+                    "new": list(names),
+                    "hooks": hooks["path"] if hooks else None,
+                }
+            )
+
+    def _type(self, client: Client, asked: Asked) -> Data:
+        file, version, edits = read.file(asked), read.number(asked, "version"), read.edits(asked)
+        history = self.files.history
+        try:
+            made = history.type(file, edits, version, client.number, time.monotonic())
+        except Stale:
+            shown = Wire(history.text(file)).shown
+            return {"stale": True, "version": history.version, "text": shown}
+        return self._done([made] if made else [])
+
+    def _edit(self, client: Client, asked: Asked) -> Data:
+        given = asked.get("operations", [asked.get("operation")])
+        if not isinstance(given, list) or not 0 < len(given) <= _OPERATIONS:
+            raise Refused("operations must be a list of objects")
+        return self._do(client, gestures.operations(self.files, given, read.positions(asked)))
+
+    def _place(self, client: Client, asked: Asked) -> Data:
+        positions = read.positions(asked)
+        there = {name: at for name, at in positions.items() if name}
+        return self._do(client, Gesture(changes=[self.files.history.placed(there)]))
+
+    def _tidy(self, client: Client, asked: Asked) -> Data:
+        history = self.files.history
+        return self._do(client, Gesture(changes=[history.placed(dict.fromkeys(history.positions))]))
+
+    def _fix(self, client: Client, asked: Asked) -> Data:
+        return self._do(client, gestures.fix(self.files, read.number(asked, "problem")))
+
+    def _stub(self, client: Client, asked: Asked) -> Data:
+        name = read.text(asked, "name")
+        answer = self._do(client, gestures.stub(self.files, name))
+        hooks = self.files.hooks
+        assert hooks is not None  # it was just written
+        line = getattr(read_hooks(hooks).defined.get(name), "lineno", 1)
+        offset = sum(len(one) + 1 for one in hooks.text.split("\n")[: line - 1])
+        place = Wire(hooks.text, marked=False).on_wire(offset)
+        return answer | {"file": File.HOOKS.value, "line": line, "offset": place}
+
+    def _resolve(self, client: Client, asked: Asked) -> Data:
+        keep = asked.get("keep")
+        if keep not in ("ours", "theirs"):
+            raise Refused("keep must be ours or theirs")
+        found = [
+            file for file in self.files.conflicts if asked.get("file", file.value) == file.value
+        ]
+        if not found:
+            raise Refused("there is nothing to decide any more")
+        made = self.files.resolve(found[0], keep_ours=keep == "ours")
+        answer = self._done(made)
+        self._tell({"push": "disk", "what": "resolved", "file": found[0].value, "kept": keep})
+        self._changed.set()
+        return answer
+
+    def _conflict(self, file: File) -> Data:
+        return {
+            "push": "disk",
+            "what": "conflict",
+            "file": file.value,
+            "ours": Wire(self.files.history.text(file)).shown,
+            "theirs": Wire(self.files.conflicts[file]).shown,
+        }
+
+    async def keep_saving(self) -> None:
+        """Save what is changed, soon after each change, until cancelled."""
+        while True:
+            await self._changed.wait()
+            self._changed.clear()
+            await asyncio.sleep(SAVE_AFTER)
+            if not self.save():
+                asyncio.get_running_loop().call_later(AGAIN_AFTER, self._changed.set)
+
+    def save(self) -> bool:
+        """Save what is not saved yet; return whether that could be done, and tell where not."""
+        why, saved = "", False
+        for file in sorted(self.files.unsaved, key=lambda one: one.value):
+            try:
+                saved |= self.files.save(file)
+            except ChangedOutside:
+                self.look()
+            except CannotSave as error:
+                why = str(error)
+        if why and why != self._cannot_save:
+            self._tell({"push": "cannot_save", "why": why})
+        if saved and not why:
+            self._tell({"push": "disk", "what": "saved"})
+        self._cannot_save = why
+        return not why
+
+    async def keep_looking(self) -> None:
+        """Look whether others change the files, until cancelled."""
+        while True:
+            await asyncio.sleep(LOOK_EVERY)
+            self.look()
+
+    def look(self) -> None:
+        """Take in what others have changed, and tell it."""
+        for file, what, made in list(self.files.look()):
+            self._tell_changes(made)
+            if what == "conflict":
+                self._tell(self._conflict(file))
+            else:
+                self._tell({"push": "disk", "what": what, "file": file.value})
+        if self.files.unsaved:
+            self._changed.set()
