@@ -54,8 +54,8 @@ function run() {
 }
 
 define(
-  { id: "undo", title: "Undo", keys: ["Ctrl+Z"], where: "page", why: () => (app.history.undo === false ? "Nothing was changed yet." : ""), run: () => operations.undo("undo") },
-  { id: "redo", title: "Redo", keys: ["Ctrl+Y", "Ctrl+Shift+Z"], where: "page", why: () => (app.history.redo === false ? "Nothing was undone." : ""), run: () => operations.undo("redo") },
+  { id: "undo", title: "Undo", keys: ["Ctrl+Z"], where: "page", why: () => (app.history.undo ? "" : "Nothing was changed yet."), run: () => operations.undo("undo") },
+  { id: "redo", title: "Redo", keys: ["Ctrl+Y", "Ctrl+Shift+Z"], where: "page", why: () => (app.history.redo ? "" : "Nothing was undone."), run: () => operations.undo("redo") },
   { id: "add", title: "Add a block", keys: ["A"], run: () => quickAdd() },
   { id: "connect", title: "Connect to a block of a list", keys: ["C"], why: () => {
     if (!only()) return "Select the one block to connect from.";

@@ -3,13 +3,13 @@
 import { refused, say, tell } from "./announce.js";
 import { ask } from "./link.js";
 import {
-  END, HEIGHT, START, WIDTH, app, arrowOf, choose, chosenBlocks, free, isEnd, only, selection, takes,
+  END, HEIGHT, START, WIDTH, app, arrowOf, choose, chosenBlocks, free, isEnd, only, outOf, selection,
   widthOf,
 } from "./state.js";
 
 const GAP = 68; // to the block that is put behind another one
 
-// Several operations are one step of the history. The name "+" in them is that of the block just added.
+// Several operations are one step of the history. The name "" in them is that of the block just added.
 export async function edit(operations, positions = {}) {
   try {
     return await ask("edit", { operations, positions, version: app.version });
@@ -59,19 +59,19 @@ export function add(kind, { at = null, from = undefined, when = undefined, onto 
   const operations = [{ do: "AddBlock", kind }];
   let position = at;
   if (onto) {
-    operations.push({ do: "Redirect", arrow: arrowOf(onto), target: "+" });
-    operations.push({ do: "Connect", arrow: arrow("+", onto.target) });
+    operations.push({ do: "Redirect", arrow: arrowOf(onto), target: "" });
+    operations.push({ do: "Connect", arrow: arrow("", onto.target) });
   } else {
     const source = from === undefined ? origin(declared.accepts) : from;
     const guard = source && (when ?? guardTo(source, declared.accepts));
     if (source && guard) {
-      operations.push({ do: "Connect", arrow: arrow(source, "+", guard) });
+      operations.push({ do: "Connect", arrow: arrow(source, "", guard) });
       position ??= null; // the layout knows where it goes
     } else if (!at && only()) {
       position = placeBehind(only());
     }
   }
-  return edit(operations, position ? { "+": position } : {});
+  return edit(operations, position ? { "": position } : {});
 }
 
 export function connect(source, target, when = [], otherwise = false) {
@@ -81,9 +81,8 @@ export function connect(source, target, when = [], otherwise = false) {
 // What the port of all statuses means: those that are free, or all where none is.
 export function connectAll(source, target) {
   const accepts = target === END ? ["COMPLETED", "FAILED"] : app.nodes.get(target).accepts;
-  const wanted = guardTo(source, accepts) ?? [];
-  return target === END ? connect(source, END, [], source !== START && wanted.length > 0)
-    : connect(source, target, wanted);
+  if (target === END) return connect(source, END, [], outOf(source).length > 0);
+  return connect(source, target, guardTo(source, accepts) ?? []);
 }
 
 export const disconnect = (edge) => edit([{ do: "Disconnect", arrow: arrowOf(edge) }]);

@@ -3,12 +3,14 @@
 import { bell, framed, h } from "../dom.js";
 import { HEIGHT, widthOf } from "../state.js";
 
-const LEAST = 0.1;
+const LEAST = 0.04;
 const MOST = 2;
 const FAR = 0.45; // below, what is too small to be read is left out
+const FARTHER = 0.28;
 const MARGIN = 56;
+const READABLE = 0.42;
 
-export const camera = { x: 0, y: 0, k: 1 };
+export const camera = { x: 0, y: 0, k: 1, fitted: true }; // fitted: until it is moved by hand
 export const seen = bell(); // it has moved
 
 export const world = h("div", { class: "world" });
@@ -21,6 +23,7 @@ const apply = framed(() => {
   viewport.style.setProperty("--grid-x", `${x}px`);
   viewport.style.setProperty("--grid-y", `${y}px`);
   viewport.classList.toggle("far", k < FAR);
+  viewport.classList.toggle("farther", k < FARTHER);
   seen.ring();
 });
 
@@ -31,8 +34,9 @@ export function toWorld(clientX, clientY) {
   return [(clientX - left - camera.x) / camera.k, (clientY - top - camera.y) / camera.k];
 }
 
-export function look(x, y, k = camera.k) {
-  Object.assign(camera, { x, y, k });
+export function look(x, y, k = camera.k, fitted = false) {
+  Object.assign(camera, { x, y, k, fitted });
+  world.classList.toggle("glides", fitted);
   apply();
 }
 
@@ -59,13 +63,22 @@ export function bounds(nodes) {
   };
 }
 
-export function fit(nodes) {
+export function fit(nodes, all = false) {
   if (!nodes.length) return;
   const { width, height } = size();
   const { left, top, right, bottom } = bounds(nodes);
-  const k = Math.max(LEAST, Math.min(1.15, (width - 2 * MARGIN) / (right - left || 1),
+  const k = Math.max(LEAST, Math.min(1, (width - 2 * MARGIN) / (right - left || 1),
     (height - 2 * MARGIN) / (bottom - top || 1)));
-  look((width - (left + right) * k) / 2, (height - (top + bottom) * k) / 2, k);
+  look((width - (left + right) * k) / 2, (height - (top + bottom) * k) / 2, k, all);
+}
+
+// As opened: all of it, or, where that could not be read, the top of it.
+export function begin(nodes) {
+  fit(nodes, true);
+  if (camera.k >= READABLE || !nodes.length) return;
+  const { left, top, right } = bounds(nodes);
+  const { width } = size();
+  look((width - (left + right) * READABLE) / 2, MARGIN - top * READABLE, READABLE);
 }
 
 // Moves no further than is needed to see a block.

@@ -3,7 +3,7 @@
 import { h, icon, put, signButton } from "../dom.js";
 import { app, begun, changed, selected } from "../state.js";
 import { drawBlocks, focusBlock, layer, markBlocks } from "./blocks.js";
-import { camera, fit, reveal, seen, viewport, world, zoom, zoomTo } from "./camera.js";
+import { begin, camera, fit, reveal, seen, viewport, world, zoom, zoomTo } from "./camera.js";
 import * as keys from "./keys.js";
 import { drawMinimap, minimap } from "./minimap.js";
 import * as pointer from "./pointer.js";
@@ -24,7 +24,7 @@ const hint = h("div", { class: "first-steps", hidden: true }, icon("plus", 22),
   h("p", {}, "Drag one from the list, double-click here, or press A. A block that is added is "
     + "connected from the one that is selected."));
 
-export const fitAll = () => fit([...app.nodes.values()]);
+export const fitAll = () => fit([...app.nodes.values()], true);
 
 export function makeCanvas({ quick, properties }) {
   viewport.tabIndex = -1;
@@ -40,17 +40,19 @@ export function makeCanvas({ quick, properties }) {
   seen.heard(() => put(percent, `${Math.round(camera.k * 100)} %`));
   begun.heard(() => {
     draw();
-    requestAnimationFrame(fitAll);
+    requestAnimationFrame(() => begin([...app.nodes.values()]));
   });
   changed.heard(({ by, new: fresh }) => {
     draw();
+    if (camera.fitted) fitAll();
     if (by !== app.client || !fresh?.length) return;
     const node = app.nodes.get(fresh[0]);
-    if (node) reveal(node);
+    if (node && !camera.fitted) reveal(node);
     if (viewport.contains(document.activeElement) || document.activeElement === document.body) {
       focusBlock(fresh[0]);
     }
   });
+  new ResizeObserver(() => { if (camera.fitted) fitAll(); }).observe(viewport);
   selected.heard(() => {
     markBlocks();
     markEdges();

@@ -120,7 +120,7 @@ function dragging(event, name, clicked) {
     if (dropped) return insert(dropped, lone);
     const positions = [...starts.keys()].map((one) => [one, app.nodes.get(one)]);
     return operations.place(Object.fromEntries(positions.map(([one, { x, y }]) => [one, [x, y]])));
-  });
+  }, { rim: true });
 }
 
 // A block without edges that is dropped upon one goes in between.

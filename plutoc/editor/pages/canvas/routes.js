@@ -3,7 +3,7 @@
 
 import { HEIGHT, widthOf } from "../state.js";
 
-const CLEAR = 30; // between a wire and blocks
+const CLEAR = 46; // between a wire and blocks: half of what it says of statuses
 const LANE = 14; // between wires in one corridor
 const RADIUS = 12;
 const STUB = 20; // straight out of a block, and into one

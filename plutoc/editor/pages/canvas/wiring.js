@@ -64,7 +64,7 @@ export function drawWire(event, source, port, quick) {
     if (targets[over_]) tell(targets[over_], { kind: "bad", stays: true });
     else if (when.length) connect(source, over_, when);
     else connectAll(source, over_);
-  });
+  }, { rim: true });
 }
 
 function explain(reason, now) {

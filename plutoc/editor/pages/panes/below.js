@@ -12,7 +12,7 @@ export const showBelow = (name) => show(name);
 export function makeBelow(panels, aside) {
   const tabs = {};
   const fold = signButton("Fold", () => open(!body.hidden ? null : current), "chevron", { class: "button quiet sign small fold" });
-  let current = "problems";
+  let current = TABS[0];
   for (const name of TABS) {
     tabs[name] = h("button", {
       type: "button", role: "tab", class: "tab", id: `tab-${name}`, "aria-controls": `panel-${name}`,
@@ -54,7 +54,7 @@ export function makeBelow(panels, aside) {
   }
 
   show = open;
-  open("problems");
+  open(null);
   begun.heard(count);
   changed.heard(count);
   return element;

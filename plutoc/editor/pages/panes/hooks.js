@@ -10,7 +10,7 @@ import { showPlace, typeInHooks } from "../text/pane.js";
 export async function openHook(name) {
   try {
     const found = await ask("stub", { name });
-    showPlace("hooks", found.from ?? 0, found.to ?? found.from ?? 0);
+    showPlace("hooks", found.offset);
     say(`The function ${name} in hooks.py`);
   } catch (error) {
     refused(error);
@@ -30,7 +30,7 @@ export function makeHooksAside() {
   }
 
   async function drawNames() {
-    const { entities } = await ask("entities").catch(() => ({ entities: [] }));
+    const { entities = [] } = await ask("entities").catch(() => ({}));
     names.replaceChildren(...entities.map(({ name, doc, attributes }) => h("details", {},
       h("summary", {}, h("code", {}, name), h("span", { class: "hint" }, ` ${doc}`)),
       h("dl", {}, attributes.map((one) => [

@@ -45,15 +45,15 @@ export function makePalette() {
     const kind = one.kind;
     return h("li", {},
       h("button", {
-        type: "button", class: "kind-add", "data-kind": kind, title: `${one.first}\nDrag it onto the graph, or press Enter`,
+        type: "button", class: "kind-add", "data-kind": kind, title: `${one.first}\nClick or press Enter to add it, or drag it to its place`,
         "aria-label": `Add ${kind}: ${one.first}`,
         onpointerdown: (event) => drag(event, one), onkeydown: along,
-        onclick: (event) => { if (event.detail === 0 || event.detail === 2) add(kind); else explain(one); },
+        onclick: () => add(kind),
       }, h("span", { class: "grip" }, dots(one)), h("span", { class: "kind-name" }, one.kind)),
       h("button", {
-        type: "button", class: "button quiet sign add-sign", "aria-label": `Add ${kind}`, tabIndex: -1,
-        title: `Add ${kind}`, onclick: () => add(kind),
-      }, icon("plus", 16)));
+        type: "button", class: "button quiet sign about", "aria-label": `About ${kind}`, title: `About ${kind}`,
+        "aria-expanded": String(open === one), onclick: () => explain(one),
+      }, icon("info", 16)));
   }
 
   const dots = (one) => one.emits.map((name) => h("i", { "data-status": name }));
@@ -67,13 +67,11 @@ export function makePalette() {
   }
 
   function explain(one) {
-    if (open === one) {
-      doc.hidden = true;
-      open = null;
-      return;
-    }
-    open = one;
-    doc.hidden = false;
+    open = open === one ? null : one;
+    doc.hidden = !open;
+    draw();
+    list.querySelector(`[data-kind="${one.kind}"]`)?.focus();
+    if (!open) return;
     fill(doc, h("div", { class: "row" }, h("h3", {}, one.kind),
       h("button", {
         type: "button", class: "button quiet sign small spread", "aria-label": "Close", onclick: () => explain(one),

@@ -7,7 +7,7 @@ import { lightEdges } from "../canvas/wires.js";
 import { button, h, icon, put } from "../dom.js";
 import { ask } from "../link.js";
 import { app, begun, changed, choose, keyOf, outOf } from "../state.js";
-import { markdown } from "../text/markdown.js";
+import { markdown, words } from "../text/markdown.js";
 import { showPlace } from "../text/pane.js";
 import { showDialog } from "../dialogs/dialog.js";
 
@@ -29,8 +29,8 @@ export function problemRow(problem, index) {
     icon(severity === "error" ? "bad" : "warning", 16),
     h("div", { class: "problem-text" },
       h("button", { type: "button", class: "problem-title", onclick: () => showProblem(problem) },
-        h("span", { class: "unseen" }, `${severity}: `), message),
-      help && h("p", { class: "hint" }, help),
+        h("span", { class: "unseen" }, `${severity}: `), words(message)),
+      help && h("p", { class: "hint" }, words(help)),
       h("p", { class: "problem-tools" },
         h("span", { class: "hint" }, `${file === "hooks" ? "hooks.py" : app.file}, line ${line}`),
         fix && button("Mend it", () => ask("fix", { problem: index, version: app.version }).then(() => say("Mended."), refused), { kind: "small", sign: "fix" }),

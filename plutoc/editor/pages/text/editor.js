@@ -2,6 +2,7 @@
 // It lives in a shadow root, where styles need no exception from the page's policy.
 
 import { acceptCompletion, autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "../codemirror/codemirror-autocomplete.js";
+import { python } from "../codemirror/codemirror-lang-python.js";
 import { defaultKeymap, toggleComment } from "../codemirror/codemirror-commands.js";
 import { bracketMatching, foldGutter, foldKeymap, indentOnInput, indentUnit, syntaxHighlighting } from "../codemirror/codemirror-language.js";
 import { lintKeymap, setDiagnostics } from "../codemirror/codemirror-lint.js";
@@ -12,7 +13,7 @@ import { run } from "../commands.js";
 import { h } from "../dom.js";
 import { ask } from "../link.js";
 import { markdown } from "./markdown.js";
-import { colours } from "./pluto_mode.js";
+import { colours, plutoLanguage } from "./pluto_mode.js";
 import { Sync, fromServer } from "./sync.js";
 
 const mark = StateEffect.define();
@@ -106,8 +107,19 @@ function hover(file) {
   }, { hoverTime: 350 });
 }
 
-// host: the element that it fills. moved(offset): the cursor was moved by a person.
-export function makeEditor(host, { file, label, language, indent, moved }) {
+// hosts: the elements that they fill. moved(offset): a person moved the cursor in the app's text.
+export function makeEditors(hosts, moved) {
+  return {
+    app: makeEditor(hosts.app, {
+      file: "app", label: "The app as Pluto text", language: plutoLanguage(), indent: "  ", moved,
+    }),
+    hooks: makeEditor(hosts.hooks, {
+      file: "hooks", label: "hooks.py: your own code", language: python(), indent: "    ",
+    }),
+  };
+}
+
+function makeEditor(host, { file, label, language, indent, moved }) {
   const root = host.attachShadow({ mode: "open" });
   const inside = h("div", { class: "inside" });
   inside.style.height = "100%";
@@ -144,7 +156,12 @@ export function makeEditor(host, { file, label, language, indent, moved }) {
     }),
   });
   sync = new Sync(file, view);
-  return { view, sync, show, problems, mark: markRanges };
+  return { view, sync, show, problems, mark: markRanges, type };
+
+  function type(text) {
+    view.dispatch(view.state.replaceSelection(text));
+    view.focus();
+  }
 
   function show(from, to = from, focus = true) {
     const end = view.state.doc.length;

@@ -4,7 +4,7 @@ import { h, status } from "../dom.js";
 
 const STATUSES = ["UNEXECUTED", "RUNNING", "STANDBY", "COMPLETED", "FAILED"];
 
-function words(text) {
+export function words(text) {
   return text.split(/(`[^`]+`|\*\*[^*]+\*\*|\[[^\]]+\]\([^)]*\))/).map((part) => {
     if (part.startsWith("`")) return h("code", {}, part.slice(1, -1));
     if (part.startsWith("**")) return h("strong", {}, part.slice(2, -2));

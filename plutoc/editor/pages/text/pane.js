@@ -2,13 +2,12 @@
 
 import { say } from "../announce.js";
 import { reveal } from "../canvas/camera.js";
-import { python } from "../codemirror/codemirror-lang-python.js";
 import { h, put, shown } from "../dom.js";
 import { app, begun, changed, choose, isEnd, keyOf, selected, selection } from "../state.js";
-import { makeEditor } from "./editor.js";
-import { plutoLanguage } from "./pluto_mode.js";
 
-let editors = null;
+let editors = null; // their code is large: the graph is drawn before it is there
+let waiting = []; // what is to be done with them then
+const withEditors = (use) => (editors ? use(editors) : waiting.push(use));
 let turn = () => {};
 
 export function makeText(hooksAside) {
@@ -35,22 +34,17 @@ export function makeText(hooksAside) {
     return tabs[file];
   };
   turn("app");
-  editors = {
-    app: makeEditor(hosts.app, {
-      file: "app", label: "The app as Pluto text", language: plutoLanguage(), indent: "  ", moved: cursor,
-    }),
-    hooks: makeEditor(hosts.hooks, {
-      file: "hooks", label: "hooks.py: your own code", language: python(), indent: "    ",
-    }),
-  };
   begun.heard(({ text, hooks }) => {
     put(tabs.app.firstChild, app.file);
-    editors.app.sync.begin(text);
-    editors.hooks.sync.begin(hooks?.text ?? "");
+    if (!editors && !waiting.length) load(hosts);
+    withEditors(() => {
+      editors.app.sync.begin(text);
+      editors.hooks.sync.begin(hooks?.text ?? "");
+    });
     after(tabs);
   });
   changed.heard((push) => {
-    if (push.changes?.length) editors[push.file]?.sync.heard(push);
+    if (push.changes?.length) withEditors(() => editors[push.file]?.sync.heard(push));
     after(tabs);
   });
   selected.heard(markChosen);
@@ -59,10 +53,16 @@ export function makeText(hooksAside) {
     panels.app, panels.hooks);
 }
 
+async function load(hosts) {
+  const { makeEditors } = await import("./editor.js");
+  editors = makeEditors(hosts, cursor);
+  for (const use of waiting.splice(0)) use();
+}
+
 function after(tabs) {
   for (const file of ["app", "hooks"]) {
     const found = app.view.problems.filter((one) => one.file === file);
-    editors[file].problems(found);
+    withEditors(() => editors[file].problems(found));
     const count = tabs[file].lastChild;
     shown(count, found.length);
     put(count, found.length);
@@ -77,7 +77,7 @@ function markChosen() {
   const edge = app.edges.get(selection.edge);
   const nodes = [...selection.blocks].filter((name) => !isEnd(name)).map((name) => app.nodes.get(name));
   const ranges = [...nodes, ...(edge ? [edge] : [])].filter((one) => one?.to).map((one) => [one.from, one.to]);
-  editors.app.mark(ranges);
+  withEditors(() => editors.app.mark(ranges));
 }
 
 // The cursor in the text selects what it stands in.
@@ -97,27 +97,22 @@ function cursor(offset) {
 
 export function showPlace(file, from, to = from, focus = true) {
   turn(file);
-  editors[file].show(from, to, focus);
-}
-
-export function showHooks() {
-  turn("hooks");
-  editors.hooks.view.focus();
+  withEditors(() => editors[file].show(from, to, focus));
 }
 
 // Puts text where the cursor is, as if it were typed.
 export function typeInHooks(text) {
-  const { view } = editors.hooks;
-  view.dispatch(view.state.replaceSelection(text));
-  view.focus();
+  withEditors(() => editors.hooks.type(text));
 }
 
 export function focusText() {
   const file = document.getElementById("tab-app").getAttribute("aria-selected") === "true" ? "app" : "hooks";
-  editors[file].view.focus();
+  withEditors(() => editors[file].view.focus());
   say(`${file === "app" ? app.file : "hooks.py"}: press Escape and then Tab to leave`);
 }
 
 // Answers that come of the server's text wait until it has all that was typed.
-export const typedAll = () => Promise.all([editors.app.sync.atRest(), editors.hooks.sync.atRest()]);
+export async function typedAll() {
+  if (editors) await Promise.all([editors.app.sync.atRest(), editors.hooks.sync.atRest()]);
+}
 

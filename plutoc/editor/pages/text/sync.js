@@ -70,10 +70,10 @@ export class Sync {
   }
 
   // A change that the server tells of: our own comes back, or another's.
-  heard({ changes, re }) {
+  heard({ changes, by, asked }) {
     const theirs = ChangeSet.of(changes, this.base.length);
     this.base = theirs.apply(this.base);
-    if (this.under && re === this.id) {
+    if (this.under && by === app.client && asked === this.id) {
       this.under = null;
       const want = this.waiting ? this.waiting.apply(this.base) : this.base;
       if (!want.eq(this.view.state.doc)) this.replace(want.toString());
