@@ -132,10 +132,10 @@ function makeEditor(host, { file, label, language, indent, moved }) {
         lineNumbers(), foldGutter(), highlightActiveLineGutter(), highlightSpecialChars(), drawSelection(),
         dropCursor(), indentOnInput(), bracketMatching(), closeBrackets(), rectangularSelection(),
         highlightActiveLine(), highlightSelectionMatches(), search({ top: true }), marked,
-        language, syntaxHighlighting(colours), theme, indentUnit.of(indent),
+        EditorView.lineWrapping, language, syntaxHighlighting(colours), theme, indentUnit.of(indent),
         autocompletion({ override: [completion(file, () => sync)], icons: false, activateOnTypingDelay: 60 }),
         hover(file), tooltips({ position: "fixed" }),
-        EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false" }),
+        EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false", tabindex: "0" }),
         keymap.of([
           { key: "Mod-z", run: () => run("undo") ?? true, preventDefault: true },
           { key: "Mod-y", run: () => run("redo") ?? true, preventDefault: true },
