@@ -11,8 +11,8 @@ from io import StringIO
 from pathlib import Path
 
 from plutoc.cli.endings import UsageError
-from plutoc.cli.files import shown
 from plutoc.emit.write import CannotWrite, Change, Changes, write
+from plutoc.project.reading import shown
 from plutoc_runtime.domain.text import printable
 
 _NO_END = "\n\\ No newline at end of file"

@@ -7,17 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, UsageError
-from plutoc.cli.files import (
-    STANDARD_INPUT,
-    default_folder,
-    find_hooks,
-    read_app,
-    read_standard_input,
-)
+from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import analyse, check_hooks
 from plutoc.diagnostic import Diagnostic, Rejected, Severity
+from plutoc.project.hooks import default_folder, find_hooks
 from plutoc.source import Source
 from plutoc_runtime import output
 

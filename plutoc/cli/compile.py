@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plutoc.check.model import Checked
 from plutoc.cli.endings import CLEAN, ERRORS, REFUSED, UsageError
-from plutoc.cli.files import (
-    default_folder,
-    find_hooks,
-    hooks_path,
-    passed_over,
-    read_app,
-    shown,
-)
+from plutoc.cli.files import read_app
 from plutoc.cli.options import Options
 from plutoc.cli.say import say, speak, worded
 from plutoc.compile import Compiled, analyse, compile_source, planned
@@ -26,7 +19,10 @@ from plutoc.emit.embed import NoLibrary
 from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.lock import only_forgets
-from plutoc.emit.write import CannotWrite, Changes, Refused, compare, record_of, write
+from plutoc.emit.write import CannotWrite, Changes, Refused, write
+from plutoc.project.hooks import default_folder, find_hooks, hooks_path, passed_over
+from plutoc.project.package import changes_of, known_hooks
+from plutoc.project.reading import shown
 from plutoc.source import Source
 from plutoc_runtime.domain.text import counted, printable
 
@@ -74,11 +70,18 @@ def _compile(options: Options, said: _Messages) -> None:
             find_hooks=lambda checked: _hooks(options, checked),
             optimise=not options.plain,
             carry=options.carry is not None,
-            known_hooks=lambda checked: _known_hooks(options, checked),
+            known_hooks=lambda checked: known_hooks(
+                checked, _folder(options, checked), force=options.force
+            ),
         )
         said.found += compiled.warnings
         said.found += _of_hooks_beside(options, compiled)
-        changes = _changes(options, compiled)
+        changes = changes_of(
+            compiled,
+            _folder(options, compiled.checked),
+            asks_for_stubs=options.add_stubs,
+            force=options.force,
+        )
         if options.diff:
             from plutoc.cli.changes import patch
 
@@ -137,13 +140,6 @@ def _hooks(options: Options, checked: Checked) -> Source | None:
     return Source(hooks.path, with_stubs(checked, hooks))
 
 
-def _known_hooks(options: Options, checked: Checked) -> Mapping[str, str]:
-    """Return the hooks that the package remembers; refuse one that is not ours to compile."""
-    place = place_of(checked.graph)
-    record = record_of(checked.graph.name, _folder(options, checked), place, force=options.force)
-    return record.hooks if record is not None else {}
-
-
 def _of_hooks_beside(options: Options, compiled: Compiled) -> Iterator[Diagnostic]:
     """Warn of a hooks.py beside the app that looks like the code that counts, and is not."""
     folder, hooks = _folder(options, compiled.checked), compiled.hooks
@@ -152,18 +148,6 @@ def _of_hooks_beside(options: Options, compiled: Compiled) -> Iterator[Diagnosti
         from plutoc.hooks.errors import passed_over as not_read
 
         yield not_read(beside, hooks)
-
-
-def _changes(options: Options, compiled: Compiled) -> Changes:
-    """Say what would change. A hooks.py beside the app becomes the package's first one."""
-    folder, path = _folder(options, compiled.checked), hooks_path(compiled.checked)
-    package, asked = compiled.package, {}
-    if compiled.hooks is not None:
-        if options.add_stubs and (folder / path).is_file():
-            asked[path] = compiled.hooks.text
-        package = replace(package, once={**package.once, path: compiled.hooks.text})
-    place = place_of(compiled.checked.graph)
-    return compare(package, folder, place, asked=asked, force=options.force)
 
 
 def _drift(changes: Changes) -> Changes:

@@ -6,13 +6,14 @@ import sys
 from pathlib import Path
 
 from plutoc.cli.endings import CLEAN, ERRORS, UsageError
-from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input, shown
+from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input
 from plutoc.cli.options import Options
 from plutoc.cli.say import in_colour
 from plutoc.compile import analyse
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.diff.model import Difference, Version
 from plutoc.diff.run import compare
+from plutoc.project.reading import shown
 from plutoc.report.change_reports import json, markdown, text
 from plutoc.source import Source
 from plutoc_runtime import output

@@ -11,14 +11,23 @@ from contextlib import contextmanager
 from types import FrameType
 
 from plutoc.foreign_code import Terminated
+from plutoc.project.reading import UsageError
+
+__all__ = [
+    "CLEAN",
+    "CLOSED_PIPE",
+    "ERRORS",
+    "INTERNAL",
+    "INTERRUPTED",
+    "REFUSED",
+    "USAGE",
+    "UsageError",
+    "tidy_when_told_to_end",
+]
 
 CLEAN, ERRORS, USAGE, REFUSED, INTERNAL, INTERRUPTED, CLOSED_PIPE = 0, 1, 2, 3, 70, 130, 141
 
 _SIGNALS = tuple(one for one in signal.Signals if one.name in ("SIGTERM", "SIGHUP"))
-
-
-class UsageError(Exception):
-    """Wrong usage, or a file that cannot be read or written. The text says so to a person."""
 
 
 @contextmanager

@@ -1,36 +1,24 @@
-"""Reading what people wrote."""
+"""Reading the apps that the command line names."""
 
 from __future__ import annotations
 
-import os
-import stat
 import sys
-from contextlib import suppress
 from pathlib import Path
-from typing import NoReturn
 
-from plutoc.check.model import Checked
-from plutoc.cli.endings import UsageError
+from plutoc.project.reading import UsageError, decoded, shown, text_of, why
 from plutoc.source import Source
 from plutoc.syntax.parse import LARGEST
-from plutoc_runtime.domain.text import printable
 
-HOOKS = "hooks.py"
 STANDARD_INPUT = Path("-")
 _OTHER_FILES = (".toml", ".py")
 """What lies beside an app, and is easily given in its place."""
-
-
-def shown(path: Path) -> str:
-    """Return a path as a message can say it."""
-    return printable(os.fspath(path))
 
 
 def read_app(path: Path) -> Source:
     """Read a `.pluto` file; raise `UsageError` where there is nothing to parse."""
     if path.suffix.lower() in _OTHER_FILES:
         raise UsageError(f"{shown(path)} is no app: an app is a file whose name ends with .pluto")
-    return Source(shown(path), _text(path))
+    return Source(shown(path), text_of(path))
 
 
 def read_standard_input() -> Source:
@@ -41,119 +29,5 @@ def read_standard_input() -> Source:
     try:
         data = sys.stdin.buffer.read(LARGEST + 1)
     except (OSError, ValueError) as error:
-        raise UsageError(f"{name} cannot be read: {_why(error)}") from None
-    return Source("<stdin>", _decoded(data, name))
-
-
-def find_hooks(checked: Checked, file: Path, folder: Path) -> Source | None:
-    """Return the hooks.py that counts: the package's own, else the one beside the app."""
-    own = folder / hooks_path(checked)
-    for path, top in ((own, folder), (file.parent / HOOKS, file.parent / HOOKS)):
-        if _is_there(checked, path):
-            _refuse_links(checked, path, top)
-            return read_module(path)
-    return None
-
-
-def passed_over(checked: Checked, file: Path, folder: Path) -> Source | None:
-    """Return the hooks.py beside the app where the package has one of its own, which counts.
-
-    None where there is no such file. What is no plain text has none here: it is only told of, for
-    no command needs it any more, and a link could show any file of the user's.
-    """
-    own, beside = folder / hooks_path(checked), file.parent / HOOKS
-    if not own.is_file() or not beside.is_file() or os.path.samefile(own, beside):
-        return None
-    if not beside.is_symlink():
-        with suppress(UsageError):
-            return read_module(beside)
-    return Source(shown(beside), "")
-
-
-def _is_there(checked: Checked, path: Path) -> bool:
-    """Return whether there is a file, or a link; refuse what is neither, and has its name.
-
-    A pipe is not opened: it may never be written to.
-    """
-    try:
-        mode = os.lstat(path).st_mode
-    except (FileNotFoundError, NotADirectoryError):
-        return False
-    except (
-        OSError,
-        ValueError,
-    ) as error:  # a name that is too long, a folder that may not be entered
-        raise UsageError(f"{shown(path)} cannot be read: {_why(error)}") from None
-    if not (stat.S_ISREG(mode) or stat.S_ISLNK(mode)):
-        is_folder = stat.S_ISDIR(mode)
-        _refuse(
-            checked, path, "a folder" if is_folder else "a pipe, a socket or a device", "a file"
-        )
-    return True
-
-
-def _refuse_links(checked: Checked, path: Path, top: Path) -> None:
-    """Follow no link: a stranger's folder could show, or take along, any file of the user's."""
-    for one in reversed((path, *path.parents)):
-        if one.is_relative_to(top) and one.is_symlink():
-            _refuse(checked, one, "a symbolic link", "a file" if one == path else "a folder")
-
-
-def _refuse(checked: Checked, path: Path, what: str, wanted: str) -> NoReturn:
-    from plutoc.emit.errors import in_the_way, place_of
-    from plutoc.emit.write import Refused
-
-    raise Refused([in_the_way(place_of(checked.graph), shown(path), what, wanted)])
-
-
-def hooks_path(checked: Checked) -> str:
-    """Return where in its package an app keeps the developer's code."""
-    return f"src/{checked.graph.name}/{HOOKS}"
-
-
-def default_folder(file: Path, checked: Checked) -> Path:
-    """Return where a package goes if no folder is named."""
-    return file.parent / checked.graph.name
-
-
-def read_module(path: Path) -> Source:
-    """Read a module of the developer's, with the line ends that Python sees."""
-    text = _text(path).removeprefix("\ufeff")
-    return Source(shown(path), text.replace("\r\n", "\n").replace("\r", "\n"))
-
-
-def _text(path: Path) -> str:
-    """Return a file's text, its line ends untouched."""
-    try:
-        with open(path, "rb", opener=_opened) as file:
-            data = file.read(LARGEST + 1)
-    except IsADirectoryError:
-        raise UsageError(f"{shown(path)} is a folder, not a file") from None
-    except FileNotFoundError:
-        raise UsageError(f"there is no file {shown(path)}") from None
-    except (OSError, ValueError) as error:
-        raise UsageError(f"{shown(path)} cannot be read: {_why(error)}") from None
-    return _decoded(data, shown(path))
-
-
-def _opened(path: str, flags: int) -> int:
-    """Open a file without waiting: a pipe without a writer is empty."""
-    if not hasattr(os, "O_NONBLOCK"):
-        return os.open(path, flags)
-    descriptor = os.open(path, flags | os.O_NONBLOCK)
-    os.set_blocking(descriptor, True)  # one with a writer is read to its end
-    return descriptor
-
-
-def _decoded(data: bytes, name: str) -> str:
-    if len(data) > LARGEST:
-        raise UsageError(f"{name} is larger than {LARGEST // 1024} KiB (P0006)")
-    try:
-        return data.decode("utf-8")
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        raise UsageError(f"{name} is not UTF-8 text: see line {line}") from None
-
-
-def _why(error: OSError | ValueError) -> str:
-    return (isinstance(error, OSError) and error.strerror) or str(error)
+        raise UsageError(f"{name} cannot be read: {why(error)}") from None
+    return Source("<stdin>", decoded(data, name))

@@ -4,31 +4,28 @@ from __future__ import annotations
 
 import os
 import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from plutoc.check.model import Checked
 from plutoc.cli.endings import UsageError
-from plutoc.cli.files import default_folder, find_hooks, hooks_path, read_app, read_module, shown
+from plutoc.cli.files import read_app
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
-from plutoc.compile import Compiled, compile_source
+from plutoc.compile import compile_source
 from plutoc.emit.errors import place_of
-from plutoc.emit.lock import NAME as LOCK
-from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.foreign_code import Terminated
+from plutoc.project.hooks import default_folder, find_hooks
+from plutoc.project.package import FLEET, MISSIONS, called, with_own_code
+from plutoc.project.reading import shown
 from plutoc.source import Source
 from plutoc_runtime import output
 from plutoc_runtime.domain.text import printable
 
-FLEET = "fleet.toml"
-MISSIONS = "missions.toml"
 TRIALS = "pluto_fleet.trials"
 
 
@@ -74,7 +71,7 @@ def _compiled(file: Path, source: Source) -> Iterator[tuple[Path, str]]:
 
     compiled = compile_source(source, source_name=file.name, find_hooks=hooks)
     say(compiled.warnings)
-    package = _with_own_code(compiled, file)
+    package = with_own_code(compiled, file)
     with TemporaryDirectory(prefix="pluto-") as folder:
         try:
             write(compare(package, Path(folder), place_of(compiled.checked.graph)))
@@ -104,35 +101,10 @@ def _fleet_for(options: Options) -> Path | None:
     return None
 
 
-def _with_own_code(compiled: Compiled, file: Path) -> Package:
-    """Return a package of which every file is ours to write, the developer's code included."""
-    package, path = compiled.package, hooks_path(compiled.checked)
-    texts = {**package.once, **_own_modules(default_folder(file, compiled.checked), package)}
-    if compiled.hooks is not None:
-        texts[path] = compiled.hooks.text
-    return replace(package, owned={**package.owned, **texts}, once={})
-
-
-def _own_modules(folder: Path, package: Package) -> dict[str, str]:
-    """Return the modules that the developer put beside the hooks.py of a generated package."""
-    app = folder / "src" / package.name
-    if not (folder / LOCK).is_file() or not app.is_dir():
-        return {}
-    paths = {path.relative_to(folder).as_posix(): path for path in sorted(app.rglob("*.py"))}
-    return {
-        name: read_module(path).text
-        for name, path in paths.items()
-        if name not in (*package.owned, *package.once) and "_runtime" not in path.parts
-    }
-
-
 def _call(path: Path, module: str, arguments: list[str]) -> int:
     """Call a module of the package as its user would, and return the exit code."""
-    before = os.environ.get("PYTHONPATH")
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(path), before]))}
+    command, environment = called(path, module, arguments)
     output.flush()
-    # -P: nothing of the folder that we are in counts, the generated package least of all.
-    command = [sys.executable, "-P", "-m", module, *arguments]
     with subprocess.Popen(command, env=environment) as child:
         while True:
             try:

@@ -8,18 +8,19 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from plutoc.editor.changes import between
-from plutoc.editor.disk import CannotRead, Kept, shown
+from plutoc.editor.disk import Kept
 from plutoc.editor.history import NOBODY, File, History, Made
 from plutoc.editor.merge import Conflict, merged
 from plutoc.editor.wire import Wire
 from plutoc.graph.app_names import taken_app_name
 from plutoc.graph.names import is_well_formed, reserved
+from plutoc.project.hooks import HOOKS
+from plutoc.project.reading import UsageError, shown
 from plutoc.service.document import Document
 from plutoc.service.positions import Positions, positions_file, positions_in
 from plutoc.source import Source
 from plutoc.syntax.tree import BadStatement, BlockDecl
 
-HOOKS = "hooks.py"
 LAYOUT = ".layout"
 _OTHER = re.compile(r"[^a-z0-9]+")
 
@@ -99,7 +100,7 @@ class AppFiles:
             try:
                 if kept.is_changed():
                     yield file, *self._taken(file, kept)
-            except CannotRead as error:
+            except UsageError as error:
                 if self.conflicts.get(file) is None:
                     yield file, str(error), []
 
@@ -192,7 +193,7 @@ class AppFiles:
             return beside
         for folder in (package, *package.parents[:2]):
             if folder.is_symlink():
-                raise CannotRead(
+                raise UsageError(
                     f"{shown(folder)} is a symbolic link: hooks.py is not edited there"
                 )
         return own

@@ -11,14 +11,10 @@ import stat
 from contextlib import suppress
 from pathlib import Path
 
+from plutoc.project.reading import UsageError, decoded, shown
 from plutoc.syntax.parse import LARGEST
-from plutoc_runtime.domain.text import printable
 
 _ASIDE = ".plutoc-"
-
-
-class CannotRead(Exception):
-    """A file is there and cannot be edited. The message is a sentence for a person."""
 
 
 class CannotSave(Exception):
@@ -41,7 +37,7 @@ class Kept:
     def read(self) -> str | None:
         """Read the file afresh; None where there is none."""
         self.seen, self._mark = self._now()
-        return None if self.seen is None else decoded(self.seen, self.path)
+        return None if self.seen is None else decoded(self.seen, shown(self.path))
 
     def is_changed(self) -> bool:
         """Return whether others have changed, made or removed the file since it was last seen."""
@@ -67,7 +63,7 @@ class Kept:
                 self.path.unlink(missing_ok=True)
             else:
                 self._replace(data)
-        except CannotRead as error:
+        except UsageError as error:
             raise CannotSave(str(error)) from None
         except OSError as error:
             why = error.strerror or str(error)
@@ -103,7 +99,7 @@ class Kept:
         if mark is None:
             return None, None
         if not stat.S_ISREG(mark[0]):
-            raise CannotRead(f"{shown(self.path)} is {_kind(mark[0])}: only a file can be edited")
+            raise UsageError(f"{shown(self.path)} is {_kind(mark[0])}: only a file can be edited")
         flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
         try:
             with open(os.open(self.path, flags), "rb") as file:
@@ -112,23 +108,7 @@ class Kept:
             return None, None
         except OSError as error:
             why = error.strerror or str(error)
-            raise CannotRead(f"{shown(self.path)} cannot be read: {why}") from None
-
-
-def decoded(data: bytes, path: Path) -> str:
-    """Return a file's text, its line ends untouched."""
-    if len(data) > LARGEST:
-        raise CannotRead(f"{shown(path)} is larger than {LARGEST // 1024} KiB (P0006)")
-    try:
-        return data.decode("utf-8")
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        raise CannotRead(f"{shown(path)} is not UTF-8 text: see line {line}") from None
-
-
-def shown(path: Path) -> str:
-    """Return a path as a message can say it."""
-    return printable(os.fspath(path))
+            raise UsageError(f"{shown(self.path)} cannot be read: {why}") from None
 
 
 def _mark_of(path: Path) -> tuple[int, ...] | None:
@@ -139,7 +119,7 @@ def _mark_of(path: Path) -> tuple[int, ...] | None:
         return None
     except OSError as error:
         why = error.strerror or str(error)
-        raise CannotRead(f"{shown(path)} cannot be read: {why}") from None
+        raise UsageError(f"{shown(path)} cannot be read: {why}") from None
     return now.st_mode, now.st_ino, now.st_size, now.st_mtime_ns
 
 

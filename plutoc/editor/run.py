@@ -8,18 +8,14 @@ import webbrowser
 from errno import EACCES, EADDRINUSE, EADDRNOTAVAIL
 from pathlib import Path
 
-from plutoc.editor.disk import shown
 from plutoc.editor.guard import Guard
 from plutoc.editor.server import serve
 from plutoc.editor.session import Session
+from plutoc.project.reading import UsageError, shown
 from plutoc_runtime import output
 from plutoc_runtime.domain.text import quoted
 
 _PORTS = 65536
-
-
-class CannotServe(Exception):
-    """It cannot listen there. The message is a sentence for a person."""
 
 
 def run(path: Path, *, host: str, port: int, opens: bool) -> None:
@@ -41,21 +37,21 @@ def run(path: Path, *, host: str, port: int, opens: bool) -> None:
 
 def _listening(host: str, port: int) -> socket.socket:
     if not 0 <= port < _PORTS:
-        raise CannotServe(f"--port {port}: a port is a number from 0 to {_PORTS - 1}")
+        raise UsageError(f"--port {port}: a port is a number from 0 to {_PORTS - 1}")
     try:
         family, kind, protocol, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
         listener = socket.socket(family, kind, protocol)
     except (OSError, ValueError):  # ValueError: an invalid host name
-        raise CannotServe(f"--host {quoted(host)}: there is no such address") from None
+        raise UsageError(f"--host {quoted(host)}: there is no such address") from None
     try:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind(address)
         listener.listen()
     except OSError as error:
         listener.close()
-        raise CannotServe(_why(error, host, port)) from None
+        raise UsageError(_why(error, host, port)) from None
     listener.setblocking(False)
     return listener
 
