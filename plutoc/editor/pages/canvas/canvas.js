@@ -7,7 +7,7 @@ import { begin, camera, fit, reveal, seen, viewport, world, zoom, zoomTo } from 
 import * as keys from "./keys.js";
 import { drawMinimap, minimap } from "./minimap.js";
 import * as pointer from "./pointer.js";
-import { chips, drawWires, markEdges, wires } from "./wires.js";
+import { chips, drawWires, grips, markEdges, wires } from "./wires.js";
 import { prepare } from "./wiring.js";
 
 const percent = h("button", {
@@ -32,7 +32,7 @@ export function makeCanvas({ quick, properties }) {
   viewport.setAttribute("aria-label", "Graph");
   viewport.setAttribute("aria-roledescription", "graph of blocks");
   viewport.id = "graph";
-  world.append(wires, chips, layer);
+  world.append(wires, chips, layer, grips);
   viewport.append(hint, minimap, zoomer);
   prepare();
   pointer.listen(quick, properties);

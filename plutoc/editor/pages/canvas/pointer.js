@@ -8,7 +8,7 @@ import { elementOf, focusBlock, moveBlock } from "./blocks.js";
 import { camera, pan, toWorld, viewport, zoom } from "./camera.js";
 import { follow } from "./follow.js";
 import { chipOf, edgeAt, moveWires } from "./wires.js";
-import { drawWire } from "./wiring.js";
+import { drawWire, leadEdge } from "./wiring.js";
 
 const snap = (value) => Math.round(value / GRID) * GRID;
 const band = h("div", { class: "band", hidden: true });
@@ -50,6 +50,7 @@ function down(event) {
   const block = target.closest(".block");
   const edge = edgeAt(target);
   event.preventDefault();
+  if (target.closest(".handle")) return leadEdge(event, app.edges.get(selection.edge), target.dataset.end);
   if (port) return drawWire(event, block.dataset.block, port.dataset.port, quick);
   if (block) return onBlock(event, block.dataset.block);
   if (edge) {

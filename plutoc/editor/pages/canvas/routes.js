@@ -29,7 +29,7 @@ const portOf = ({ when, otherwise, statuses }) => {
   return otherwise && statuses.length === 1 ? statuses[0] : "all";
 };
 
-// → { d, middle: [x, y] }; lane: how many wires of this way are there already.
+// → { d, middle, ends: [[x, y], [x, y]] }; lane: how many wires of this way are there already.
 export function route(source, target, edge, nodes, lane = 0) {
   const [sx, sy] = portAt(source, portOf(edge));
   const [tx, ty] = inPort(target);
@@ -96,6 +96,7 @@ function curved(curve) {
   return {
     d: `M${r(a[0])} ${r(a[1])}C${r(b[0])} ${r(b[1])} ${r(c[0])} ${r(c[1])} ${r(d[0])} ${r(d[1])}`,
     middle: at(curve, 0.5),
+    ends: [a, d],
   };
 }
 
@@ -119,7 +120,7 @@ function angled(points) {
     const [before, behind] = [toward(here, length), toward(next, after)];
     d += `L${r(before[0])} ${r(before[1])}Q${r(to[0])} ${r(to[1])} ${r(behind[0])} ${r(behind[1])}`;
   }
-  return { d, middle: longest[1] };
+  return { d, middle: longest[1], ends: [points[0], points.at(-1)] };
 }
 
 export const loose = ([ax, ay], [bx, by]) => {

@@ -2,7 +2,7 @@
 
 import { h, keyed, set, status, svg } from "../dom.js";
 import { edgeSaid } from "../operations.js";
-import { app, keyOf, selection, takes, worst } from "../state.js";
+import { START, app, keyOf, selection, takes, worst } from "../state.js";
 import { route } from "./routes.js";
 
 const TONES = ["UNEXECUTED", "RUNNING", "STANDBY", "COMPLETED", "FAILED", "many", "none", "chosen"];
@@ -14,6 +14,12 @@ const heads = svg("defs", {}, TONES.map((tone) => svg("marker", {
 }, svg("path", { d: "M0.5 0.8L9.2 5L0.5 9.2z" }))));
 const paths = svg("g");
 export const chips = h("div", { class: "chips" });
+
+// What the ends of the selected edge are led elsewhere by.
+const handles = ["source", "target"].map((end) => h("span", {
+  class: "handle", "data-end": end, hidden: true, title: `Drag to another block: the edge’s ${end}`,
+}));
+export const grips = h("div", { class: "chips" }, handles);
 export const wires = svg("svg", { class: "wires", "aria-hidden": "true" }, heads, paths);
 
 const parts = new Map(); // key → { path, hit, chip, edge, lane }
@@ -80,13 +86,14 @@ export function moveWires(names = null) {
   const keys = names ? new Set([...names].flatMap((name) => byNode.get(name) ?? [])) : parts.keys();
   for (const key of keys) {
     const { path, hit, chip, edge, lane } = parts.get(key);
-    const { d, middle: [x, y] } = route(
+    const { d, middle: [x, y], ends } = route(
       app.nodes.get(edge.source), app.nodes.get(edge.target), edge, nodes, lane);
     path.setAttribute("d", d);
     hit.setAttribute("d", d);
     chip.style.transform = `translate(-50%, -50%) translate(${Math.round(x)}px, ${Math.round(y)}px)`;
-    parts.get(key).middle = [x, y];
+    Object.assign(parts.get(key), { middle: [x, y], ends });
   }
+  placeHandles();
   if (!names) apart();
 }
 
@@ -106,6 +113,17 @@ function apart() {
   }
 }
 
+function placeHandles() {
+  const part = parts.get(selection.edge);
+  handles.forEach((handle, i) => {
+    const there = part && !part.edge.implicit && !(i === 0 && part.edge.source === START);
+    handle.hidden = !there;
+    if (!there) return;
+    const [x, y] = part.ends[i];
+    handle.style.transform = `translate(${x - 9}px, ${y - 9}px)`;
+  });
+}
+
 export function markEdges() {
   for (const [key, { path, chip, edge }] of parts) {
     const chosen = selection.edge === key;
@@ -115,6 +133,7 @@ export function markEdges() {
     chip.classList.toggle("chosen", chosen);
     set(chip, "aria-pressed", String(chosen));
   }
+  placeHandles();
 }
 
 export const edgeAt = (element) => app.edges.get(element?.closest?.("[data-edge]")?.dataset.edge);

@@ -3,12 +3,12 @@
 import { say, tell } from "../announce.js";
 import { h, put, shown, svg } from "../dom.js";
 import { ask } from "../link.js";
-import { connect, connectAll } from "../operations.js";
+import { connect, connectAll, redirect } from "../operations.js";
 import { START, app, free } from "../state.js";
 import { showTargets } from "./blocks.js";
 import { toWorld, viewport, world } from "./camera.js";
 import { follow } from "./follow.js";
-import { loose, portAt } from "./routes.js";
+import { inPort, loose, portAt } from "./routes.js";
 
 const line = svg("path", { class: "loose" });
 const over = svg("svg", { class: "wires over", "aria-hidden": "true" }, line);
@@ -26,23 +26,46 @@ export async function targetsOf(source, when) {
 }
 
 export function drawWire(event, source, port, quick) {
-  const node = app.nodes.get(source);
   const when = port === "all" ? [] : [port];
-  const from = portAt(node, port);
-  let targets = null;
-  let over_ = null;
-  line.classList.remove("ends");
-  targetsOf(source, when).then((found) => {
+  const from = portAt(app.nodes.get(source), port);
+  line.dataset.status = port === "all" ? "many" : port;
+  drawing(event, targetsOf(source, when), (to) => loose(from, to), (block, end) => {
+    if (!end) say("Drag from here to a block, or press C to choose one from a list.");
+    else if (block && when.length) connect(source, block, when);
+    else if (block) connectAll(source, block);
+    else {
+      const at = toWorld(end.clientX, end.clientY);
+      const statuses = when.length ? when : source === START ? ["UNEXECUTED"] : free(source);
+      quick({ at, clientX: end.clientX, clientY: end.clientY, from: source, when, statuses });
+    }
+  });
+}
+
+// One end of an edge is taken to another block.
+export function leadEdge(event, edge, which) {
+  const start = portAt(app.nodes.get(edge.source), edge.when.length === 1 ? edge.when[0] : "all");
+  const end = inPort(app.nodes.get(edge.target));
+  line.dataset.status = "many";
+  const way = which === "target" ? (to) => loose(start, to) : (to) => loose(to, end);
+  const targets = which === "target" ? targetsOf(edge.source, edge.when) : Promise.resolve({});
+  drawing(event, targets, way, (block) => {
+    if (block && block !== edge[which]) redirect(edge, { [which]: block });
+  });
+}
+
+// asked: the answer to which blocks are legal; done(block or null, the last event or null: not moved).
+function drawing(event, asked, way, done) {
+  let [targets, block] = [null, null];
+  asked.then((found) => {
     targets = found;
     if (line.classList.contains("drawn")) showTargets(targets);
-  }, () => {});
-  line.dataset.status = port === "all" ? "many" : port;
+  }, () => { targets = {}; });
   follow(event, (now) => {
+    if (!line.classList.contains("drawn") && targets) showTargets(targets);
     line.classList.add("drawn");
-    if (targets) showTargets(targets);
-    line.setAttribute("d", loose(from, toWorld(now.clientX, now.clientY)));
-    over_ = document.elementFromPoint(now.clientX, now.clientY)?.closest(".block")?.dataset.block ?? null;
-    const reason = over_ && targets?.[over_];
+    line.setAttribute("d", way(toWorld(now.clientX, now.clientY)));
+    block = document.elementFromPoint(now.clientX, now.clientY)?.closest(".block")?.dataset.block ?? null;
+    const reason = block && targets?.[block];
     line.classList.toggle("refused", Boolean(reason));
     explain(reason, now);
   }, async (end, moved) => {
@@ -50,20 +73,10 @@ export function drawWire(event, source, port, quick) {
     line.removeAttribute("d");
     showTargets(null);
     explain(null);
-    if (!moved) {
-      if (end.type === "pointerup") say("Drag from here to a block, or press C to choose one from a list.");
-      return;
-    }
-    if (!over_) {
-      const at = toWorld(end.clientX, end.clientY);
-      const statuses = when.length ? when : source === START ? ["UNEXECUTED"] : free(source);
-      quick({ at, clientX: end.clientX, clientY: end.clientY, from: source, when, statuses });
-      return;
-    }
-    targets ??= await targetsOf(source, when).catch(() => ({}));
-    if (targets[over_]) tell(targets[over_], { kind: "bad", stays: true });
-    else if (when.length) connect(source, over_, when);
-    else connectAll(source, over_);
+    if (end.type !== "pointerup") return;
+    const why = moved && block && (targets ?? await asked.catch(() => ({})))[block];
+    if (why) tell(why, { kind: "bad", stays: true });
+    else done(moved ? block : null, moved ? end : null);
   }, { rim: true });
 }
 
