@@ -83,7 +83,7 @@ def _compile(options: Options, said: _Messages) -> None:
             force=options.force,
         )
         if options.diff:
-            from plutoc.cli.changes import patch
+            from plutoc.project.patch import patch
 
             said.lines += patch(changes)
         if options.check:

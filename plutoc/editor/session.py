@@ -5,13 +5,15 @@ from __future__ import annotations
 import asyncio
 import json
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from plutoc.editor import asked as read
-from plutoc.editor import gestures
+from plutoc.editor import compiling, gestures, running
 from plutoc.editor.app_files import AppFiles
 from plutoc.editor.asked import Asked, Refused
+from plutoc.editor.compiling import Snapshot
 from plutoc.editor.disk import CannotSave, ChangedOutside
 from plutoc.editor.gestures import Gesture
 from plutoc.editor.history import NOBODY, File, Made, Stale
@@ -30,6 +32,8 @@ SAVE_AFTER, LOOK_EVERY, AGAIN_AFTER = 0.3, 0.4, 2.0
 _BEHIND = 256
 """Messages that a client may be behind; then it is let go, and comes back for the whole."""
 _OPERATIONS = 100
+_SLOW = ("compile", "run")
+"""What takes its time: a client has one of them at a time, and a new one ends the one before."""
 
 Data = dict[str, object]
 
@@ -41,6 +45,17 @@ class Client:
         self.number = number
         self.outbox: asyncio.Queue[str | None] = asyncio.Queue()
         """What it is to be sent; None: it is let go."""
+        self._task: asyncio.Task[None] | None = None
+
+    def start(self, work: Coroutine[object, object, None]) -> None:
+        """Begin work that takes its time."""
+        self.end()
+        self._task = asyncio.create_task(work)
+
+    def end(self) -> None:
+        """End that work, if it is not done."""
+        if self._task is not None:
+            self._task.cancel()
 
     def send(self, message: Data) -> None:
         """Send a message."""
@@ -68,6 +83,9 @@ class Session:
         self._seen: tuple[object, object] | None = None
         self._view: Data = {}
         self._palette = palette()
+        self._opened = self.files.history.app
+        self._package_text: str | None = None
+        """What the package was made of, where that is known."""
         self._changes: Mapping[str, Callable[[Client, Asked], Data]] = {
             "edit": self._edit,
             "type": self._type,
@@ -95,15 +113,22 @@ class Session:
 
     def leave(self, client: Client) -> None:
         """Let a client go."""
+        client.end()
         self._clients.pop(client.number, None)
 
-    async def hear(self, client: Client, message: str) -> None:
-        """Do what a client asks, and answer: nothing that it sends does more than to be refused."""
+    async def hear(self, client: Client, message: str, *, slow: bool = False) -> None:
+        """Do what a client asks, and answer: nothing that it sends does more than to be refused.
+
+        What takes its time goes on beside, and is answered when it is done.
+        """
         answer: Data = {}
         try:
             asked = read.parsed(message)
-            if isinstance(asked.get("id"), int | str | None):
-                answer["id"] = asked.get("id")
+            if isinstance(asked.get("id"), int | str):
+                answer["id"] = asked["id"]
+            if asked.get("op") in _SLOW and not slow:
+                client.start(self.hear(client, message, slow=True))
+                return
             answer |= await self._answer(client, asked)
         except (Refused, CannotEdit, NotAnOperation) as error:
             answer["error"] = str(error)
@@ -114,12 +139,16 @@ class Session:
 
     async def _answer(self, client: Client, asked: Asked) -> Data:
         op = asked.get("op")
+        if op == "compile":
+            return await self._compile(client, asked)
+        if op == "run":
+            return await self._run(asked)
         if isinstance(op, str) and op in self._changes:
             self._asked = asked.get("id")
             return self._changes[op](client, asked)
         if isinstance(op, str) and op in QUESTIONS:
             return QUESTIONS[op](self.files, asked)
-        raise Refused(f"op must be one of {', '.join((*self._changes, *QUESTIONS))}")
+        raise Refused(f"op must be one of {', '.join((*self._changes, *QUESTIONS, *_SLOW))}")
 
     def _tell(self, message: Data) -> None:
         text = json.dumps(message, separators=(",", ":"))
@@ -245,6 +274,37 @@ class Session:
         self._tell({"push": "disk", "what": "resolved", "file": found[0].value, "kept": keep})
         self._changed.set()
         return answer
+
+    async def _compile(self, client: Client, asked: Asked) -> Data:
+        """Say what compiling would change, or do it; a package is made of what is saved."""
+        self.save()
+        app = self._snapshot()
+        if asked.get("write") is not True:
+            if self._package_text is None:
+                opened = replace(app, text=self._opened)
+                self._package_text = (
+                    self._opened if await asyncio.to_thread(compiling.is_of, opened) else None
+                )
+            return await asyncio.to_thread(compiling.preview, app, self._package_text)
+        answer = await asyncio.to_thread(compiling.written, app)
+        self._package_text = app.text
+        self._done(self.files.after_compile())
+        return answer
+
+    async def _run(self, asked: Asked) -> Data:
+        missions = asked.get("missions")
+        if missions is not None:
+            missions = read.text(asked, "missions")
+        return await running.run(self._snapshot(), missions, read.number(asked, "seed", 0))
+
+    def _snapshot(self) -> Snapshot:
+        files = self.files
+        return Snapshot(
+            path=files.path,
+            text=files.history.app,
+            hooks=files.hooks,
+            hooks_path=files.hooks_path,
+        )
 
     def _conflict(self, file: File) -> Data:
         return {

@@ -33,44 +33,42 @@ def copied(draft: Draft, names: Sequence[str]) -> str:
 def pasted(draft: Draft, text: str, *, fresh: bool = False) -> tuple[Draft, tuple[str, ...]]:
     """Put statements into an app; return the names of the blocks that came in.
 
-    A block whose name is taken gets another one. What else is declared already stays as it is:
-    `fresh` or not, an app has one action of a name.
+    A block whose name is taken gets another one; of a copy, `fresh`, the number that it has counts
+    on. What else is declared already stays as it is: an app has one action of a name.
     """
     source, statements = statements_in(text)
     if not statements:
         raise CannotEdit("there is nothing to paste")
-    used = taken(draft.file)
-    called: dict[str, str] = {}
-    known = {each.name.text for each in declarations(draft.file)}
-    for one in statements:
-        if isinstance(one, BlockDecl):
-            called[one.name.text] = free_name(
-                re.sub(r"_\d+$", "", one.name.text) if fresh else one.name.text, used
-            )
+    blocks = [one.name.text for one in statements if isinstance(one, BlockDecl)]
+    twice = next((name for name in blocks if blocks.count(name) > 1), None)
+    if twice:
+        raise CannotEdit(f"what is to be pasted declares `{twice}` twice")
+    used, known = taken(draft.file), {each.name.text for each in declarations(draft.file)}
+    wanted = {name: re.sub(r"_\d+$", "", name) if fresh else name for name in blocks}
+    called = {name: free_name(wanted[name], used) for name in blocks}
     last = ""
     for one in statements:
-        if isinstance(one, VersionDecl | RequiresDecl) or (
-            isinstance(one, Declaration)
-            and not isinstance(one, BlockDecl)
-            and one.name.text in known
-        ):
+        if isinstance(one, VersionDecl | RequiresDecl) or _is_known(one, known):
             continue
         written = _renamed(source, one, called)
         if isinstance(one, FlowDecl):
-            draft = with_flow(draft, written, last or _first_of(one, called))
-            last = _first_of(one, called)
+            name = one.stops[0].names[0].text
+            draft = with_flow(draft, written, last or called.get(name, name))
+            last = called.get(name, name)
         else:
             draft = added(draft, written, type(one))
     return draft, tuple(called.values())
 
 
-def _first_of(flow: FlowDecl, called: dict[str, str]) -> str:
-    name = flow.stops[0].names[0].text
-    return called.get(name, name)
+def _is_known(one: Statement, known: set[str]) -> bool:
+    """Whether it declares, and is no block, what the app declares already."""
+    return (
+        isinstance(one, Declaration) and not isinstance(one, BlockDecl) and one.name.text in known
+    )
 
 
 def _renamed(source: Source, one: Statement, called: dict[str, str]) -> str:
-    """Return a statement's text with the names that its blocks have here."""
+    """Return a statement's text with the names that its blocks have here, and the comment beside it."""
     text, at = "", one.span.start
     match one:
         case BlockDecl():
@@ -82,4 +80,5 @@ def _renamed(source: Source, one: Statement, called: dict[str, str]) -> str:
     for name in names:
         text += source.quote(Span(at, name.span.start)) + called.get(name.text, name.text)
         at = name.span.end
-    return text + source.quote(Span(at, one.span.end))
+    line_end = source.text.find("\n", one.span.end)
+    return text + source.quote(Span(at, line_end)).rstrip()

@@ -14,6 +14,7 @@ from plutoc.service.draft import Draft
 from plutoc.service.flow_edits import CannotEdit
 from plutoc.service.operations import (
     AddBlock,
+    Arrow,
     Bracket,
     Connect,
     Declare,
@@ -85,7 +86,7 @@ def _changed(draft: Draft, operation: Operation) -> Draft:
             for name in blocks:
                 draft = declared.without(draft, name)
         case Connect(arrow=arrow):
-            _check_ends(draft, arrow.source, arrow.target)
+            _check_ends(draft, arrow)
             draft = edges.connected(draft, arrow)
         case Disconnect(arrow=arrow):
             draft = edges.disconnected(draft, arrow)
@@ -96,10 +97,11 @@ def _changed(draft: Draft, operation: Operation) -> Draft:
                 target=operation.target or arrow.target,
                 otherwise=arrow.otherwise or (arrow.target == END and not arrow.when),
             )
-            _check_ends(draft, new.source, new.target)
+            _check_ends(draft, new)
             draft = edges.redirected(draft, arrow, new)
         case SetGuard(arrow=arrow, when=when, otherwise=otherwise):
             new = replace(arrow, when=when, otherwise=otherwise and not when)
+            _check_ends(draft, new)
             draft = edges.guarded(draft, arrow, new)
         case Bracket(source=source, targets=targets):
             draft = edges.bracketed(draft, source, targets)
@@ -125,11 +127,18 @@ def _block(draft: Draft, name: str) -> BlockDecl:
     return one
 
 
-def _check_ends(draft: Draft, source: str, target: str) -> None:
-    if source != START:
-        _block(draft, source)
-    if target != END:
-        _block(draft, target)
+def _check_ends(draft: Draft, arrow: Arrow) -> None:
+    """Raise `CannotEdit` where an edge cannot be, in any app."""
+    if arrow.target == START:
+        raise CannotEdit("no edge leads to `start`: every mission begins there once")
+    if arrow.source == END:
+        raise CannotEdit("no edge leaves `end`: missions are over there")
+    if arrow.source == START and edges.guard_text(arrow):
+        raise CannotEdit("an edge from `start` has no guard: nothing has happened there yet")
+    if arrow.source != START:
+        _block(draft, arrow.source)
+    if arrow.target != END:
+        _block(draft, arrow.target)
 
 
 def _declare(draft: Draft, text: str) -> Draft:
@@ -151,7 +160,7 @@ def _remove(draft: Draft, name: str) -> Draft:
         given = each.arguments if isinstance(each, BlockDecl) else ()
         if any(draft.source.quote(argument.value.span) == name for argument in given):
             raise CannotEdit(f"`{each.name.text}` uses `{name}`: change or remove that first")
-    for each in declared.declarations(draft.file):
+    for each in reversed(declared.declarations(draft.file)):
         if isinstance(each, CategoryDecl) and any(can.text == name for can in each.can):
             draft = _cannot_any_more(draft, each, name)
     return declared.without(draft, name)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise, product
 
 from plutoc.diagnostic import Fix
-from plutoc.graph.model import END, START
+from plutoc.graph.model import END
 from plutoc.service.draft import Draft
 from plutoc.service.operations import Arrow
 from plutoc.source import Span
@@ -79,13 +79,7 @@ def connected(draft: Draft, arrow: Arrow) -> Draft:
     """Draw an edge: at the end of the flow that ends at its source, else on a line of its own."""
     if is_there(draft, arrow):
         raise CannotEdit(f"the edge from `{arrow.source}` to `{arrow.target}` is there already")
-    if arrow.target == START:
-        raise CannotEdit("no edge leads to `start`: every mission begins there once")
-    if arrow.source == END:
-        raise CannotEdit("no edge leaves `end`: missions are over there")
     guard = guard_text(arrow)
-    if arrow.source == START and guard:
-        raise CannotEdit("an edge from `start` has no guard: nothing has happened there yet")
     return extended(draft, arrow.source, f"{arrow.target}{guard}", chains=not guard)
 
 
@@ -123,14 +117,12 @@ def disconnected(draft: Draft, arrow: Arrow) -> Draft:
 
 def guarded(draft: Draft, arrow: Arrow, new: Arrow) -> Draft:
     """Give an edge another guard."""
+    written = _find(draft, arrow)
     if _is_same(arrow, new):
         return draft
-    written = _find(draft, arrow)
     if is_there(draft, new):
         raise CannotEdit(f"there is such an edge from `{arrow.source}` to `{arrow.target}` already")
     guard = guard_text(new)
-    if arrow.source == START and guard:
-        raise CannotEdit("an edge from `start` has no guard: nothing has happened there yet")
     if written.is_last and written.is_alone:
         flow = written.flow
         end = flow.guard.span.end if flow.guard else flow.stops[-1].span.end
@@ -140,13 +132,9 @@ def guarded(draft: Draft, arrow: Arrow, new: Arrow) -> Draft:
 
 def redirected(draft: Draft, arrow: Arrow, new: Arrow) -> Draft:
     """Lead an edge from or to another block."""
+    written = _find(draft, arrow)
     if (arrow.source, arrow.target) == (new.source, new.target):
         return draft
-    written = _find(draft, arrow)
-    if new.target == START or new.source == END:
-        raise CannotEdit("no edge leads to `start`, and none leaves `end`")
-    if new.source == START and guard_text(new):
-        raise CannotEdit("an edge from `start` has no guard: nothing has happened there yet")
     if is_there(draft, new):
         raise CannotEdit(f"there is such an edge from `{new.source}` to `{new.target}` already")
     source, target = written.ends

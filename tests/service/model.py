@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 
 from plutoc.service.operations import (
@@ -61,7 +62,12 @@ def app_of(text: str) -> App:
                 guard = one.guard if i == len(one.stops) - 2 else None
                 when = frozenset(n.text for n in guard.statuses) if guard else frozenset()
                 edges += [
-                    (a.text, b.text, when, b.text == "end" and not when or bool(guard and guard.otherwise))
+                    (
+                        a.text,
+                        b.text,
+                        when,
+                        (b.text == "end" and not when) or bool(guard and guard.otherwise),
+                    )
                     for a in left.names
                     for b in right.names
                 ]
@@ -99,14 +105,18 @@ def after(app: App, operation: Operation, names: tuple[str, ...], now: App) -> A
             assert arguments.items() <= values.items()
             added = now.others - app.others
             assert len(added) <= 1 and app.others <= now.others
-            return replace(app, blocks={**blocks, name: (kind, values)}, others=now.others, uses=now.uses)
+            return replace(
+                app, blocks={**blocks, name: (kind, values)}, others=now.others, uses=now.uses
+            )
         case RemoveBlocks(names=gone):
             blocks = {name: one for name, one in blocks.items() if name not in gone}
             edges = {one for one in edges if one[0] not in gone and one[1] not in gone}
         case Duplicate(names=some):
             called = dict(zip(dict.fromkeys(some), names, strict=True))
             blocks |= {called[name]: blocks[name] for name in called}
-            edges |= {(called[a], called[b], w, o) for a, b, w, o in edges if {a, b} <= called.keys()}
+            edges |= {
+                (called[a], called[b], w, o) for a, b, w, o in edges if {a, b} <= called.keys()
+            }
         case Paste(text=text):
             came = app_of(f"pluto 1\napp p {{\n{text}\n}}\n")
             called = dict(zip(came.blocks, names, strict=True))
@@ -118,7 +128,9 @@ def after(app: App, operation: Operation, names: tuple[str, ...], now: App) -> A
             edges.remove(edge(arrow))
         case Redirect(arrow=arrow, source=source, target=target):
             edges.remove(edge(arrow))
-            edges.add(edge(replace(arrow, source=source or arrow.source, target=target or arrow.target)))
+            edges.add(
+                edge(replace(arrow, source=source or arrow.source, target=target or arrow.target))
+            )
         case SetGuard(arrow=arrow, when=when, otherwise=otherwise):
             edges.remove(edge(arrow))
             edges.add(edge(replace(arrow, when=when, otherwise=otherwise and not when)))
@@ -164,7 +176,11 @@ def _renamed(app: App, name: str, new: str) -> App:
             )
             for b, (kind, values) in app.blocks.items()
         },
-        edges=frozenset((called(a), called(b), w, o) for a, b, w, o in app.edges) if is_block else app.edges,
+        edges=(
+            frozenset((called(a), called(b), w, o) for a, b, w, o in app.edges)
+            if is_block
+            else app.edges
+        ),
         others=app.others if is_block else frozenset(tuple(map(called, one)) for one in app.others),
     )
 
@@ -181,17 +197,13 @@ def _without(words: tuple[str, ...], action: str) -> tuple[str, ...]:
 
 def _bare(source: Source, span: Span) -> str:
     """Return a text without comments, its blanks as the formatter writes them."""
-    from plutoc.service.draft import Draft
-
     text = source.quote(span)
-    for comment in Draft.of(source).comments(span):
+    for comment in comments(text):
         text = text.replace(comment, "", 1)
     return " ".join(text.split())
 
 
 def _words(text: str) -> tuple[str, ...]:
-    import re
-
     words = re.findall(r'"(?:[^"\\]|\\.)*"|[^\s,():]+|[,():]', text)
     while words and words[-1] == ",":
         words.pop()
@@ -200,7 +212,5 @@ def _words(text: str) -> tuple[str, ...]:
 
 def comments(text: str) -> list[str]:
     """Return the comments of a text: what stands behind `#` outside of quotes."""
-    import re
-
     found = re.findall(r'"(?:[^"\\\n]|\\[^\n])*"|(#[^\n]*)', text)
     return sorted(one.rstrip() for one in found if one)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 
-from plutoc.block import HookKind
 from plutoc.diagnostic import Fix
 from plutoc.edits import applied
 from plutoc.service.document import Document
@@ -37,7 +36,7 @@ from plutoc.source import Source, Span
 from tests.equivalence.graphs import random_source
 from tests.service.model import App, after, app_of, comments
 
-EXAMPLES = sorted(Path("examples").glob("*/app.pluto"))
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/app.pluto"))
 KINDS = (
     *("MissionCreator", "Clock", "DroneAllocator", "TripLauncher", "TripMonitor", "TimerMonitor"),
     *("GateFIFO", "GateFunnel", "MissionRepeater", "MissionEvaluator", "MissionModifier"),
@@ -71,6 +70,8 @@ def beginning(rng: Random) -> str:
         text = rng.choice(EXAMPLES).read_text(encoding="utf-8")
     else:
         text = random_source(rng)
+        while not is_sound(text):
+            text = random_source(rng)
     text = _dressed(text, rng)
     if rng.random() < 0.15:
         text = text.replace("\n", "\r\n")
@@ -96,11 +97,16 @@ def _dressed(text: str, rng: Random) -> str:
         if rng.random() < 0.05 and line.startswith("  "):
             lines.append("")
     dressed = "\n".join(lines)
+    return dressed if is_sound(dressed) else text
+
+
+def is_sound(text: str) -> bool:
+    """Return whether a text can be read, and has no edge twice."""
     try:
-        app_of(dressed)
-    except AssertionError:  # a comment in brackets of a list of names, say
-        return text
-    return dressed
+        app_of(text)
+    except AssertionError:
+        return False
+    return True
 
 
 def run(seed: int, tally: Tally) -> None:
@@ -200,14 +206,16 @@ def _put(text: str, changes: list[tuple[int, int, str]]) -> str:
 def draw(rng: Random, app: App, text: str) -> Operation:
     """Draw an operation; some of them cannot be done."""
     blocks = list(app.blocks) or ["none"]
-    others = [words[1] for words in app.others if words[0] not in ("version", "requires")]
+    others = [words[1] for words in sorted(app.others) if words[0] not in ("version", "requires")]
     edges = sorted(app.edges, key=lambda one: (one[0], one[1], sorted(one[2]), one[3]))
     arrow = _arrow(rng, blocks)
     old = _of(rng.choice(edges)) if edges else arrow
     some = tuple(rng.sample(blocks, min(len(blocks), rng.choice((1, 1, 1, 2, 3)))))
     match rng.randrange(16):
         case 0:
-            return AddBlock(kind=rng.choice(KINDS), name=rng.choice(("", "", f"b{rng.randrange(99)}")))
+            return AddBlock(
+                kind=rng.choice(KINDS), name=rng.choice(("", "", f"b{rng.randrange(99)}"))
+            )
         case 1:
             return RemoveBlocks(names=some)
         case 2:
@@ -227,7 +235,9 @@ def draw(rng: Random, app: App, text: str) -> Operation:
             when = tuple(rng.sample(STATUSES, rng.choice((0, 1, 1, 2))))
             return SetGuard(arrow=old, when=when, otherwise=rng.random() < 0.3)
         case 9:
-            value = rng.choice(("5 min", "3", '"a # b"', "nearest", "[a, b]", ") x", "yes # no", None, None))
+            value = rng.choice(
+                ("5 min", "3", '"a # b"', "nearest", "[a, b]", ") x", "yes # no", None, None)
+            )
             owners = [*blocks, *others]
             given = app.blocks.get(owner := rng.choice(owners), ("", {}))[1]
             parameter = rng.choice([*given, "default", "policy"])
@@ -239,7 +249,9 @@ def draw(rng: Random, app: App, text: str) -> Operation:
             return Declare(text=rng.choice(DECLARATIONS).format(name))
         case 12:
             name = rng.choice([*blocks, *others])
-            return Rewrite(name=name, text=rng.choice(DECLARATIONS).format(name))
+            word = next((words[0] for words in sorted(app.others) if words[1] == name), "{}")
+            fitting = [text for text in DECLARATIONS if text.startswith(word)]
+            return Rewrite(name=name, text=rng.choice(fitting or DECLARATIONS).format(name))
         case 13:
             if others and rng.random() < 0.4:
                 return RemoveDeclaration(name=rng.choice(others))
@@ -254,7 +266,9 @@ def draw(rng: Random, app: App, text: str) -> Operation:
             source, targets = rng.choice(forks) if forks else (blocks[0], some)
             return Bracket(source=source, targets=targets)
         case _:
-            return Move(name=rng.choice([*blocks, *others]), before=rng.choice(["", *blocks, *others]))
+            return Move(
+                name=rng.choice([*blocks, *others]), before=rng.choice(["", *blocks, *others])
+            )
 
 
 def _arrow(rng: Random, blocks: list[str]) -> Arrow:
@@ -269,6 +283,3 @@ def _arrow(rng: Random, blocks: list[str]) -> Arrow:
 
 def _of(one: tuple[str, str, frozenset[str], bool]) -> Arrow:
     return Arrow(source=one[0], target=one[1], when=tuple(sorted(one[2])), otherwise=one[3])
-
-
-assert {kind.value for kind in HookKind} <= {text.split()[0] for text in DECLARATIONS}

@@ -1,0 +1,212 @@
+"""Edits of an app by operations: what is meant, no more, and back again."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from plutoc.edits import applied
+from plutoc.service.document import Document
+from plutoc.service.edit import CannotEdit, edit
+from plutoc.service.operations import (
+    KINDS,
+    AddBlock,
+    Arrow,
+    Bracket,
+    Connect,
+    Declare,
+    Disconnect,
+    NotAnOperation,
+    Operation,
+    RemoveBlocks,
+    Rename,
+    SetArgument,
+    SetGuard,
+    SetTitle,
+    operation,
+)
+from plutoc.source import Source
+from tests.service.model import app_of
+from tests.service.sequences import EXAMPLES, Tally, run
+
+EMPTY = "pluto 1\n\napp ward {\n}\n"
+
+
+def done(text: str, *operations: Operation) -> str:
+    for each in operations:
+        edits = edit(Document(path="a.pluto", text=text), each).edits
+        text = applied(Source("a.pluto", text), edits)
+    return text
+
+
+def test_random_sequences_of_edits_do_what_was_meant() -> None:
+    """A share of `python -m tests.service`; every operation turns up."""
+    tally = Tally()
+    for seed in range(60):
+        run(seed, tally)
+    assert set(tally.done) == set(KINDS)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.parent.name)
+def test_what_a_picture_shows_can_be_drawn_again(path: Path) -> None:
+    """From an empty canvas, block by block and edge by edge, an example comes out as it is."""
+    written = path.read_text(encoding="utf-8")
+    app, text = app_of(written), EMPTY
+    for words in sorted(app.others):
+        text = done(text, Declare(text=_written(words)))
+    for name, (kind, arguments) in app.blocks.items():
+        text = done(text, AddBlock(kind=kind, name=name, arguments=arguments))
+    for source, target, when, otherwise in sorted(app.edges, key=str):
+        arrow = Arrow(source=source, target=target, when=tuple(when), otherwise=otherwise)
+        text = done(text, Connect(arrow=arrow))
+    text = done(text, SetTitle(title=app.title or ""))
+    assert app_of(text) == app
+    assert told(text) == told(written)
+
+
+def told(text: str) -> list[str]:
+    return sorted(one.code for one in Document(path="a.pluto", text=text).diagnostics)
+
+
+def _written(words: tuple[str, ...]) -> str:
+    """A declaration's words as a text: a quantity is one word here."""
+    return " ".join(words)
+
+
+def test_a_graph_that_is_drawn_reads_as_one_writes_it() -> None:
+    text = done(
+        EMPTY,
+        SetTitle(title="The ward"),
+        AddBlock(kind="MissionCreator", name="create"),
+        AddBlock(kind="DroneAllocator", name="allocate"),
+        AddBlock(kind="TripLauncher"),
+        AddBlock(kind="TripMonitor", name="watch"),
+        AddBlock(kind="TimerMonitor", arguments={"default": "5 min"}),
+        AddBlock(kind="GateFIFO", name="first"),
+        Connect(arrow=Arrow(source="start", target="create")),
+        Connect(arrow=Arrow(source="create", target="allocate")),
+        Connect(arrow=Arrow(source="allocate", target="launcher")),
+        Connect(arrow=Arrow(source="launcher", target="watch")),
+        Connect(arrow=Arrow(source="launcher", target="monitor")),
+        Connect(arrow=Arrow(source="watch", target="first")),
+        Connect(arrow=Arrow(source="monitor", target="first")),
+        Bracket(source="launcher", targets=("watch", "monitor")),
+        Connect(arrow=Arrow(source="first", target="allocate", when=("STANDBY",))),
+        Connect(arrow=Arrow(source="first", target="end", otherwise=True)),
+        Rename(name="launcher", new="launch"),
+        SetArgument(owner="allocate", parameter="policy", value="least_used"),
+    )
+    assert text == (
+        "pluto 1\n\n"
+        'app ward "The ward" {\n'
+        "  create = MissionCreator\n"
+        "  allocate = DroneAllocator(policy: least_used)\n"
+        "  launch = TripLauncher\n"
+        "  watch = TripMonitor\n"
+        "  monitor = TimerMonitor(default: 5 min)\n"
+        "  first = GateFIFO\n\n"
+        "  start -> create -> allocate -> launch -> [watch, monitor] -> first\n"
+        "  first -> allocate when STANDBY\n"
+        "  first -> end\n"
+        "}\n"
+    )
+
+
+def test_comments_of_what_is_taken_out_stay() -> None:
+    text = (
+        "pluto 1\napp a {\n  # why\n  one = Clock  # beside\n  two = Clock\n"
+        "  start -> one  # amid\n    -> two\n  # behind\n}\n"
+    )
+    assert done(text, RemoveBlocks(names=("one",))) == (
+        "pluto 1\napp a {\n  # why\n  # beside\n  two = Clock\n  # amid\n  # behind\n}\n"
+    )
+
+
+def test_a_kind_that_needs_a_hook_brings_one() -> None:
+    text = done(EMPTY, AddBlock(kind="MissionEvaluator", name="judge"))
+    assert "evaluator my_evaluator\n" in text
+    assert "judge = MissionEvaluator(hook: my_evaluator)" in text
+
+
+FORK = "pluto 1\napp a {\n  x = Clock\n  y = Clock\n  z = Clock\n  x -> [y, z]\n}\n"
+
+
+@pytest.mark.parametrize(
+    ("wanted", "why"),
+    [
+        (Connect(arrow=Arrow(source="x", target="y")), "there already"),
+        (Connect(arrow=Arrow(source="x", target="start")), "no edge leads to `start`"),
+        (Connect(arrow=Arrow(source="end", target="x")), "no edge leaves `end`"),
+        (Connect(arrow=Arrow(source="x", target="nowhere")), "declares no `nowhere`"),
+        (Disconnect(arrow=Arrow(source="y", target="x")), "no edge from `y` to `x`"),
+        (Rename(name="x", new="start"), "where every mission begins"),
+        (Rename(name="x", new="Y"), "snake_case"),
+        (SetGuard(arrow=Arrow(source="z", target="x")), "no edge from `z`"),
+        (SetArgument(owner="x", parameter="p", value="1) -> y"), "no Pluto text"),
+        (SetArgument(owner="x", parameter="p", value="1 # no"), "no Pluto text"),
+        (AddBlock(kind="Nothing"), "no kind of block `Nothing`"),
+        (AddBlock(kind="survey.Grid"), "no package of blocks named survey"),
+        (Declare(text="x -> y"), "not one declaration"),
+        (SetTitle(title="two\nlines"), "one line"),
+    ],
+    ids=str,
+)
+def test_what_cannot_be_done_is_said(wanted: Operation, why: str) -> None:
+    with pytest.raises(CannotEdit, match=why):
+        edit(Document(path="a.pluto", text=FORK), wanted)
+
+
+HOOKS = """from . import Mission, Results, Verdict
+
+
+def judge(mission: Mission, results: Results) -> Verdict:
+    return Verdict()
+
+
+def again(judge: int) -> int:
+    return judge
+
+
+def twice(mission: Mission, results: Results) -> Verdict:
+    return judge(mission, results)
+"""
+
+
+def test_a_hook_is_renamed_in_its_module_too() -> None:
+    text = "pluto 1\napp a {\n  evaluator judge\n  j = MissionEvaluator(hook: judge)\n  c = MissionCreator\n  start -> c\n}\n"
+    found = Document(path="a.pluto", text=text)
+    hooks = Source("hooks.py", HOOKS)
+    object.__setattr__(found, "hooks", hooks)
+    edited = edit(found, Rename(name="judge", new="assess"))
+    renamed = applied(hooks, edited.hooks)
+    assert "def assess(mission" in renamed and "return assess(mission" in renamed
+    assert "def again(judge: int) -> int:\n    return judge\n" in renamed
+    assert "hook: assess" in applied(found.source, edited.edits)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_operations_come_as_plain_data(name: str) -> None:
+    samples = {
+        "str": "x",
+        "str | None": None,
+        "bool": False,
+        "tuple[str, ...]": ["x"],
+        "Mapping[str, str]": {"a": "b"},
+        "Arrow": {"source": "x", "target": "y"},
+    }
+    kind = KINDS[name]
+    data = {one.name: samples[str(one.type)] for one in fields(kind)}
+    assert isinstance(operation({"do": name, **data}), kind)
+    for field in data:
+        with pytest.raises(NotAnOperation, match=field):
+            operation({"do": name, **data, field: 7.5})
+    with pytest.raises(NotAnOperation, match="strange"):
+        operation({"do": name, **data, "strange": 1})
+
+
+@pytest.mark.parametrize("data", [None, [], {}, {"do": "Fly"}, {"do": "Connect"}, {"do": 3}])
+def test_what_is_no_operation_is_refused(data: object) -> None:
+    with pytest.raises(NotAnOperation):
+        operation(data)
