@@ -8,6 +8,15 @@ import { showDialog } from "./dialog.js";
 
 const SIGNS = { new: "new", changed: "changed", deleted: "deleted", same: "as it was" };
 
+// What will change comes first, and the app's own code before what every package carries.
+const rank = ({ path, status }) =>
+  4 * (status === "same") + 2 * path.includes("/_runtime/") + !/\/(flow|model|hooks)\.py$/.test(path);
+
+const toneOf = (line) => {
+  if (/^(diff|index|new file|deleted file|---|\+\+\+)/.test(line)) return "about";
+  return { "+": "plus", "-": "minus", "@": "about" }[line[0]] ?? "";
+};
+
 export async function compile() {
   say("Compiling …");
   try {
@@ -24,7 +33,7 @@ function show({ files, meaning, folder }) {
   const view = h("pre", { class: "diff", tabIndex: 0, "aria-label": "Difference" });
   const list = h("ul", { class: "files", role: "listbox", tabIndex: 0, "aria-label": "Files of the package", onkeydown: keys });
   let at = 0;
-  files.sort((a, b) => (a.status === "same") - (b.status === "same") || a.path.localeCompare(b.path));
+  files.sort((a, b) => rank(a) - rank(b) || a.path.localeCompare(b.path));
   list.append(...files.map((file, i) => h("li", { role: "option", id: `file-${i}`, onclick: () => open(i), "data-what": file.status },
     h("span", { class: "file-name" }, file.path), h("span", { class: "file-status" }, SIGNS[file.status] ?? file.status))));
   const write = button(changed.length ? `Write ${many(changed.length, "file")}` : "Nothing to write", async () => {
@@ -56,7 +65,7 @@ function show({ files, meaning, folder }) {
     list.children[i]?.scrollIntoView({ block: "nearest" });
     const lines = (files[i]?.diff || "No difference.").split("\n");
     view.replaceChildren(...lines.map((line) => h("span", {
-      class: line.startsWith("+") ? "plus" : line.startsWith("-") ? "minus" : line.startsWith("@@") ? "place" : "",
+      class: toneOf(line),
     }, `${line}\n`)));
   }
 

@@ -3,19 +3,22 @@
 import { refused, say } from "../announce.js";
 import { elementOf, light } from "../canvas/blocks.js";
 import { lightEdges } from "../canvas/wires.js";
-import { fill, h, icon, keyed, put, set, shown, signButton, status } from "../dom.js";
+import { fill, h, icon, keyed, many, put, set, shown, signButton, status } from "../dom.js";
+import { showDialog } from "../dialogs/dialog.js";
 import { ask } from "../link.js";
-import { app, changed, isEnd, keyOf, outOf } from "../state.js";
+import { END, app, changed, isEnd, keyOf, outOf } from "../state.js";
 import { typedAll } from "../text/pane.js";
 
-const SHOWS = 12; // seconds in which a whole run is played at speed 1
-const FRESH = 0.04; // the part of a run for which an edge stays lit
+const SHOWS = 12; // seconds in which a whole run is played
+const FRESH = 0.03; // the part of a run for which an edge stays lit
+const HOPS = 0.5; // the part of it that is for moves, of which many are at one instant; the rest is for time
+const LINES = 60; // of what happened, up to now
 
-let run = null; // { events, missions, duration_s, … }
-let time = 0;
+let run = null; // { events: [[time, mission, block, status, branch]], missions, duration_s, plan, log, exit }
+let place = 0; // in the run, from 0 to 1
 let playing = 0;
 
-const slider = h("input", { type: "range", min: 0, max: 1000, value: 0, "aria-label": "Time of the run", oninput: () => { stop(); seek(slider.value / 1000 * run.duration_s); } });
+const slider = h("input", { type: "range", min: 0, max: 1000, value: 0, "aria-label": "Time of the run", oninput: () => { stop(); seek(slider.value / 1000); } });
 const clock = h("output", { class: "clock" }, "0 s");
 const play = h("button", { type: "button", class: "button primary", onclick: () => (playing ? stop() : start()) }, icon("play"), h("span", {}, "Play"));
 const list = h("ul", { class: "run-missions", "aria-label": "Missions" });
@@ -62,12 +65,20 @@ export async function simulate() {
   }
   shown(empty, false);
   shown(controls, true);
-  const names = run.missions.map((one) => one.name ?? one);
-  const done = run.missions.filter((one) => one.status === "COMPLETED").length;
-  put(result, `${done} of ${names.length} missions completed in ${minutes(run.duration_s)}. ${run.made_up ? "There is no missions.toml beside the app: these missions were made up." : ""}`);
-  say(result.textContent);
+  if (!run.events.length) {
+    fill(result, "It was not flown.", h("pre", { tabIndex: 0 }, run.log));
+    shown(controls, false);
+    return say("It was not flown.");
+  }
+  const done = run.events.filter(([, , block, status_]) => block === END && status_ === "COMPLETED").length;
+  const words = `${done} of ${many(run.missions.length, "mission")} completed in ${minutes(run.duration_s)}.`;
+  fill(result, h("span", {}, words), run.cut && " Only its first part is shown.",
+    run.plan ? h("button", { type: "button", class: "link", onclick: showPlan }, "The missions were made up") : ` From ${run.file}.`,
+    h("button", { type: "button", class: "link", onclick: showLog }, "What it printed"));
+  say(words);
+  run.places = placesOf(run);
   seek(0);
-  if (matchMedia("(prefers-reduced-motion: reduce)").matches) seek(run.duration_s);
+  if (matchMedia("(prefers-reduced-motion: reduce)").matches) seek(1);
   else start();
   play.focus();
   return run;
@@ -75,14 +86,14 @@ export async function simulate() {
 
 function start() {
   if (!run) return;
-  if (time >= run.duration_s) seek(0);
+  if (place >= 1) seek(0);
   put(play.lastChild, "Pause");
   play.firstChild.replaceWith(icon("pause"));
   let last = performance.now();
   const step = (now) => {
-    seek(Math.min(run.duration_s, time + (now - last) / 1000 * run.duration_s / SHOWS));
+    seek(Math.min(1, place + (now - last) / 1000 / SHOWS));
     last = now;
-    if (time >= run.duration_s) stop();
+    if (place >= 1) stop();
     else playing = requestAnimationFrame(step);
   };
   playing = requestAnimationFrame(step);
@@ -95,46 +106,72 @@ function stop() {
   play.firstChild.replaceWith(icon("play"));
 }
 
-// Where every mission is at a time: in the block that it entered last.
+const showPlan = () => showDialog({ title: "Missions made up for this run", kind: "wide", content: [
+  h("p", { class: "hint" }, "There is no missions.toml beside the app: with one, its missions are flown."),
+  h("pre", {}, run.plan)] });
+const showLog = () => showDialog({ title: "What the run printed", kind: "wide", content: h("pre", {}, run.log) });
+
+// Where in the run each event is: moves at one instant are one after the other.
+function placesOf({ events, duration_s: all }) {
+  let [here, before] = [0, 0];
+  return events.map(([t]) => {
+    here += HOPS / events.length + (1 - HOPS) * (t - before) / (all || 1);
+    before = t;
+    return here;
+  });
+}
+
+function timeAt(to, passed) {
+  const before = passed ? run.events[passed - 1][0] : 0;
+  const next = run.events[passed]?.[0] ?? run.duration_s;
+  const since = (to - (passed ? run.places[passed - 1] : 0)) / (1 - HOPS) * run.duration_s;
+  return Math.min(next, before + since);
+}
+
+// Where every mission is then. A fork's branches are shown one by one, until their gate.
 function seek(to) {
-  time = to;
-  slider.value = run.duration_s ? Math.round(to / run.duration_s * 1000) : 0;
-  set(slider, "aria-valuetext", minutes(to));
-  put(clock, `${minutes(to)} of ${minutes(run.duration_s)}`);
-  const at = new Map();
+  place = to;
+  slider.value = Math.round(to * 1000);
+  const at = new Map(run.missions.map((name) => [name, new Map()]));
   const keys = new Set();
   let passed = 0;
-  for (const [t, mission, block, status_] of run.events) {
-    if (t > to) break;
+  for (const [, mission, block, status_, branch] of run.events) {
+    if (run.places[passed] > to + 1e-9) break;
+    const branches = at.get(mission);
+    const fresh = to - run.places[passed] <= FRESH;
     passed += 1;
-    const before = at.get(mission);
-    if (before && to - t <= FRESH * run.duration_s) {
-      const edge = outOf(before.block).find((one) => one.target === block);
-      if (edge) keys.add(keyOf(edge));
+    for (const [other, there] of branches) {
+      const edge = other <= branch && (fresh || other < branch)
+        && outOf(there.block).find((one) => one.target === block);
+      if (edge && fresh) keys.add(keyOf(edge));
+      if (edge && other < branch) there.forked = true;
+      if (other > branch && (app.nodes.get(block)?.gate || block === END)) branches.delete(other);
     }
-    at.set(mission, { block, status: status_ });
+    branches.set(branch, { block, status: status_, forked: false });
   }
+  const now = minutes(timeAt(to, passed));
+  set(slider, "aria-valuetext", now);
+  put(clock, `${now} of ${minutes(run.duration_s)}`);
   lightEdges(keys);
   drawTokens(at);
   drawMissions(at);
   drawLog(passed);
 }
 
-function nameList() {
-  return run.missions.map((one) => one.name ?? one);
-}
+const shownOf = (branches) => [...branches.values()].filter((one) => !one.forked);
 
 function clearTokens() {
   for (const token of document.querySelectorAll(".block .token")) token.remove();
 }
 
 function drawTokens(at) {
-  const names = nameList();
   const tokens = new Map();
-  for (const [mission, { block, status: status_ }] of at) {
-    if (!tokens.has(block)) tokens.set(block, []);
-    tokens.get(block).push([names.indexOf(mission) + 1, status_, mission]);
-  }
+  run.missions.forEach((mission, i) => {
+    for (const { block, status: status_ } of shownOf(at.get(mission))) {
+      if (!tokens.has(block)) tokens.set(block, []);
+      tokens.get(block).push([i + 1, status_, mission]);
+    }
+  });
   for (const name of app.nodes.keys()) {
     const host = elementOf(name).querySelector(".tokens");
     const own = tokens.get(name) ?? [];
@@ -142,33 +179,31 @@ function drawTokens(at) {
     if (host.dataset.shown === key && host.childElementCount === own.length) continue;
     host.dataset.shown = key;
     host.replaceChildren(...own.map(([number, status_, mission]) =>
-      h("span", { class: "token", "data-status": status_, title: mission }, number)));
+      h("span", { class: "token", "data-status": status_, title: `${mission}: ${status_}` }, number)));
   }
 }
 
 function drawMissions(at) {
-  keyed(list, nameList(), (name) => name, (name) => h("li", {},
-    h("span", { class: "token" }, nameList().indexOf(name) + 1), h("strong", {}, name), h("span", { class: "hint where" }), h("span", { class: "now" })),
+  keyed(list, run.missions, (name) => name, (name) => h("li", {},
+    h("span", { class: "token" }, run.missions.indexOf(name) + 1), h("strong", {}, name), h("span", { class: "hint where" }), h("span", { class: "now" })),
   (item, name) => {
-    const here = at.get(name);
-    put(item.querySelector(".where"), here ? isEnd(here.block) ? `at ${here.block}` : `in ${here.block}` : "not begun");
+    const here = shownOf(at.get(name));
+    const blocks = here.map(({ block }) => block).join(" and ");
+    put(item.querySelector(".where"), !here.length ? "not begun" : isEnd(blocks) ? "at the end" : `in ${blocks}`);
     const now = item.querySelector(".now");
-    if (now.dataset.status === here?.status) return;
-    fill(now, here?.status && status(here.status));
-    if (here?.status) now.dataset.status = here.status;
-    set(item.firstChild, "data-status", here?.status);
+    const standing = here[0]?.status ?? "";
+    if (now.dataset.status === standing) return;
+    now.dataset.status = standing;
+    fill(now, standing && status(standing));
+    set(item.firstChild, "data-status", standing || null);
   });
 }
 
 function drawLog(passed) {
-  if (log.childElementCount !== run.events.length) {
-    fill(log, run.events.map(([t, mission, block, status_]) => h("li", {},
-      h("button", { type: "button", class: "log-line", tabIndex: -1, onclick: () => { stop(); seek(t); } },
-        h("span", { class: "when" }, minutes(t)), h("strong", {}, mission), `${block}`, status_ && status(status_)))));
-  }
-  log.querySelector("[aria-current]")?.removeAttribute("aria-current");
-  const here = log.children[passed - 1];
-  here?.setAttribute("aria-current", "true");
-  if (here) log.scrollTop = here.offsetTop - log.clientHeight + here.offsetHeight + 8;
+  const from = Math.max(0, passed - LINES);
+  keyed(log, run.events.slice(from, passed).map((event, i) => ({ event, i: from + i })), ({ i }) => i,
+    ({ event: [t, mission, block, status_], i }) => h("li", {},
+      h("button", { type: "button", class: "log-line", tabIndex: -1, onclick: () => { stop(); seek(run.places[i]); } },
+        h("span", { class: "when" }, minutes(t)), h("strong", {}, mission), block, status(status_))));
+  log.scrollTop = log.scrollHeight;
 }
-
