@@ -94,7 +94,14 @@ export const setArgument = (owner, parameter, value) =>
 export const rename = (name, to) => edit([{ do: "Rename", name, new: to }]);
 export const setTitle = (title) => edit([{ do: "SetTitle", title }]);
 export const declare = (text) => edit([{ do: "Declare", text }]);
-export const rewrite = (name, text) => edit([{ do: "Rewrite", name, text }]);
+
+// A declaration under another name is renamed everywhere first.
+export function rewrite(name, text) {
+  const now = /^\w+\s+(\w+)/.exec(text)?.[1] ?? name;
+  const renamed = now === name ? [] : [{ do: "Rename", name, new: now }];
+  return edit([...renamed, { do: "Rewrite", name: now, text }]);
+}
+
 export const removeDeclaration = (name) => edit([{ do: "RemoveDeclaration", name }]);
 
 export async function removeSelected() {

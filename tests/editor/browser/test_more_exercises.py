@@ -125,13 +125,13 @@ def test_a_timer_of_ones_own(edit: Edit, visit: Visit) -> None:
     with_retry_and_delay(page)
     # a gate behind the monitor, a modifier beside it
     put_between(page, "GateFIFO", "watch", "wait")
-    rename(page, "gate", "first")
+    rename(page, "fifo", "first")
     lead(page, "watch", "retry", "source", "first")
     lead(page, "watch", "end", "source", "first")
     edge(page, "watch", "first").click()
     page.get_by_role("radio", name="all that fits").check()
-    add_from_port(page, "launch", "RUNNING", "MissionModifier", "modifier")
-    rename(page, "modifier", "limit")
+    add_from_port(page, "launch", "RUNNING", "MissionModifier", "mission_modifier")
+    rename(page, "mission_modifier", "limit")
     Hand(page).drag(port(page, "limit"), block(page, "first"))
     expect(edge(page, "limit", "first")).to_be_visible()
     # its hook: what it takes and gives
