@@ -1,4 +1,4 @@
-"""What object_finder does with its photos, and how a drone takes along what it finds."""
+"""What the app does with its photos, and how a drone takes along what it finds."""
 
 from __future__ import annotations
 

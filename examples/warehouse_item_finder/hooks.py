@@ -1,4 +1,4 @@
-"""How warehouse_item_finder chooses who carries what."""
+"""How the app chooses who carries what."""
 
 from __future__ import annotations
 

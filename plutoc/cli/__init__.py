@@ -19,7 +19,7 @@ from plutoc.cli.endings import (
     UsageError,
     tidy_when_told_to_end,
 )
-from plutoc.cli.options import Options, parse
+from plutoc.cli.options import Options, all_commands, parse
 from plutoc.cli.say import say
 from plutoc.diagnostic import Rejected
 from plutoc.foreign_code import Terminated
@@ -80,6 +80,8 @@ class _ExitCode:
 
 
 def _command(arguments: Sequence[str]) -> int:
+    if "_ARGCOMPLETE" in os.environ:  # a shell asks which words can come next
+        _complete()
     try:
         options = parse(arguments)
     except SystemExit as end:  # the help or the version is printed, or what is wrong
@@ -92,6 +94,16 @@ def _command(arguments: Sequence[str]) -> int:
 
         say(rejected.diagnostics, options.format)
         return REFUSED if isinstance(rejected, Refused) else ERRORS
+
+
+def _complete() -> None:
+    """Answer, and end; or do nothing, where argcomplete is installed for other programs only."""
+    from importlib.util import find_spec
+
+    if find_spec("argcomplete") is not None:
+        from plutoc.cli.completion import complete
+
+        complete(all_commands())
 
 
 def _run(options: Options) -> int:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, UsageError
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input
+from plutoc.cli.folders import apps_of
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.compile import analyse, check_hooks
@@ -18,10 +19,10 @@ from plutoc_runtime import output
 
 
 def check(options: Options) -> int:
-    """Check every file, and say what was found in all of them."""
+    """Check every file, and those in every folder, and say what was found in all of them."""
     found: list[Diagnostic] = []
     troubles: list[str] = []
-    for file in dict.fromkeys(options.files):
+    for file in apps_of(options.files, troubles):
         try:
             found += _check(file, options, troubles)
         except UsageError as error:

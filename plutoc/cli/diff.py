@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -25,10 +26,21 @@ def diff(options: Options) -> int:
     """Say what changed; whether something did is the exit code only where that is asked for."""
     if options.old == options.new == STANDARD_INPUT:
         raise UsageError("`-`, standard input, can be one of the two apps, not both")
-    old, new = _versions(_read(options.old), _read(options.new))
+    old, new = _versions(*_sources(options.old, options.new))
     found = compare(old, new)
     output.line(_report(found, options.format).rstrip("\n"))
     return ERRORS if options.exit_code and found.changes else CLEAN
+
+
+def _sources(old: Path, new: Path) -> tuple[Source, Source]:
+    """Read both; what is no file may be the revision at which the second one is compared."""
+    if STANDARD_INPUT in (old, new) or os.path.lexists(old):
+        return _read(old), _read(new)
+    from plutoc.cli.revisions import read_at
+
+    file = _file(new)
+    now = read_app(file)
+    return read_at(os.fspath(old), file), now
 
 
 def _read(path: Path) -> Source:
@@ -37,7 +49,11 @@ def _read(path: Path) -> Source:
         if not source.text:  # as of a `git show` outside a repository
             raise UsageError("standard input is empty: the command before the `|` gave no app")
         return source
-    return read_app(_app_in(path) if path.is_dir() else path)
+    return read_app(_file(path))
+
+
+def _file(path: Path) -> Path:
+    return _app_in(path) if path.is_dir() else path
 
 
 def _app_in(folder: Path) -> Path:

@@ -8,6 +8,7 @@ from pathlib import Path
 from plutoc.cli.changes import rewrite
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, UsageError
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input
+from plutoc.cli.folders import apps_of
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.diagnostic import Diagnostic, Rejected
@@ -21,22 +22,24 @@ from plutoc_runtime import output
 
 
 def fmt(options: Options) -> int:
-    """Format every file; what is wrong with one does not stop the others."""
+    """Format every file, and those in every folder; what is wrong with one does not stop the others."""
     if STANDARD_INPUT in options.files and len(options.files) > 1:
         raise UsageError("`-`, standard input, cannot be formatted together with files")
     found: list[Diagnostic] = []
+    troubles: list[str] = []
     code = CLEAN
-    for file in options.files:
+    for file in apps_of(options.files, troubles):
         try:
             code = max(code, _format(file, options))
         except UsageError as error:
-            output.tell(f"plutoc: {error}")
-            code = USAGE
+            troubles.append(str(error))
         except Rejected as rejected:
             found += rejected.diagnostics
             code = max(code, ERRORS)
+    for sentence in troubles:
+        output.tell(f"plutoc: {sentence}")
     say(found)
-    return code
+    return USAGE if troubles else code
 
 
 def _format(file: Path, options: Options) -> int:

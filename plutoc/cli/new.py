@@ -1,4 +1,4 @@
-"""`new`: a folder with a small app, to begin with."""
+"""`new`: a folder with a small app, or with one of the examples, to begin with."""
 
 from __future__ import annotations
 
@@ -21,20 +21,21 @@ _IN_STARTER = "my_app"
 
 
 def new(options: Options) -> int:
-    """Write the starter into a folder of its own, and say how to go on."""
+    """Write a first app into a folder of its own, and say how to go on."""
     name = options.name
     _check_name(name)
+    texts, what = _first_app(name, options.example)
     folder = Path(name)
     if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
         raise UsageError(f"{name} is there already, and is no folder: choose another name")
     try:
         if folder.exists() and os.listdir(folder):
             raise UsageError(f"the folder {name} is not empty: choose another name")
-        create(folder, _starter(name))
+        create(folder, texts)
     except CannotWrite as error:
         raise UsageError(f"{printable(str(error))}; nothing was changed") from None
     output.line(
-        f"{name}/ is ready: an app, its missions and a fleet.\n\n"
+        f"{name}/ is ready: {what}.\n\n"
         f"  cd {name}\n"
         f"  plutoc check {name}.pluto    # is the app sound?\n"
         f"  plutoc run {name}.pluto      # fly the missions, simulated\n"
@@ -52,6 +53,19 @@ def _check_name(name: str) -> None:
     if found:
         first = found[0]
         raise UsageError(first.message + (f"\nhelp: {first.help}" if first.help else ""))
+
+
+def _first_app(name: str, example: str | None) -> tuple[dict[str, str], str]:
+    """Return the files, and what they are in words."""
+    if example is None:
+        return _starter(name), "an app, its missions and a fleet"
+    from plutoc.cli.examples import copied, has_hooks, title
+
+    texts = copied(example, name)
+    own = (
+        "its missions, a fleet and its hooks" if has_hooks(example) else "its missions and a fleet"
+    )
+    return texts, f"{title(example)}, {own}"
 
 
 def _starter(name: str) -> dict[str, str]:

@@ -25,6 +25,7 @@ class Options:
 
     command: str = ""
     name: str = ""
+    example: str | None = None
     file: Path = field(default_factory=Path)
     files: list[Path] = field(default_factory=list)
     format: str = "text"
@@ -60,6 +61,15 @@ class Options:
 
 def parse(arguments: Sequence[str]) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
+    parser = all_commands()
+    if not arguments:
+        parser.print_help(sys.stderr)
+        raise SystemExit(USAGE)
+    return parser.parse_args(arguments, namespace=Options())
+
+
+def all_commands() -> ArgumentParser:
+    """Return what knows every command, and its flags."""
     parser = _plain(
         ArgumentParser(
             prog="plutoc",
@@ -74,21 +84,33 @@ def parse(arguments: Sequence[str]) -> Options:
     )
     for name, (what, describe) in _COMMANDS.items():
         describe(_plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False)))
-    if not arguments:
-        parser.print_help(sys.stderr)
-        raise SystemExit(USAGE)
-    return parser.parse_args(arguments, namespace=Options())
+    return parser
 
 
-class _Version(Action):
-    """Not argparse's own: that one says nothing of a full disk."""
+class _Printing(Action):
+    """What is printed in the place of a command. Not argparse's own: that says nothing of a full disk."""
 
     def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
         super().__init__(option_strings, SUPPRESS, nargs=0, default=SUPPRESS, help=help)
 
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
-        output.line(f"plutoc {__version__}")
+        output.line(self.text())
         parser.exit()
+
+    def text(self) -> str:
+        raise NotImplementedError
+
+
+class _Version(_Printing):
+    def text(self) -> str:
+        return f"plutoc {__version__}"
+
+
+class _Examples(_Printing):
+    def text(self) -> str:
+        from plutoc.cli.examples import listing
+
+        return listing()
 
 
 def _plain(parser: ArgumentParser) -> ArgumentParser:
@@ -129,6 +151,13 @@ def _writes_nothing(parser: ArgumentParser) -> None:
 
 def _new(parser: ArgumentParser) -> None:
     parser.add_argument("name", metavar="NAME", help="the app's name, such as crop_watch")
+    parser.add_argument(
+        "--from",
+        dest="example",
+        metavar="EXAMPLE",
+        help="begin with one of the examples, its missions, its fleet and its hooks",
+    )
+    parser.add_argument("--list", action=_Examples, help="print the examples, and end")
 
 
 def _check(parser: ArgumentParser) -> None:
@@ -137,7 +166,7 @@ def _check(parser: ArgumentParser) -> None:
         metavar="FILE",
         type=Path,
         nargs="+",
-        help="apps, .pluto files; - for standard input",
+        help="apps, .pluto files, or folders of them; - for standard input",
     )
     parser.add_argument(
         "--fix", action="store_true", help="change what can be mended for certain, then check"
@@ -245,7 +274,7 @@ def _fmt(parser: ArgumentParser) -> None:
         metavar="FILE",
         type=Path,
         nargs="+",
-        help="apps, .pluto files; - for standard input, with the result on standard output",
+        help="apps, .pluto files, or folders of them; - for standard input, with the result on standard output",
     )
     _writes_nothing(parser)
 
@@ -282,9 +311,12 @@ def _diff(parser: ArgumentParser) -> None:
         "old",
         metavar="OLD",
         type=Path,
-        help="the app as it was: a .pluto file, the folder of one, or - for standard input",
+        help="the app as it was: a .pluto file, the folder of one, - for standard input, or a revision"
+        " of NEW that Git knows, such as HEAD~1",
     )
-    parser.add_argument("new", metavar="NEW", type=Path, help="the app as it is now: the same")
+    parser.add_argument(
+        "new", metavar="NEW", type=Path, help="the app as it is now: a file, a folder or -"
+    )
     parser.add_argument(
         "--format",
         choices=CHANGES,
@@ -353,7 +385,7 @@ def _whole(text: str) -> int:
 
 
 _COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
-    "new": ("Make a folder with a small app to begin with.", _new),
+    "new": ("Make a folder with a small app, or an example, to begin with.", _new),
     "check": ("Say what is wrong with apps; with --fix, mend what is certain.", _check),
     "compile": ("Write the Python package of an app.", _compile),
     "run": ("Compile an app and simulate its missions at once.", _run),

@@ -47,7 +47,7 @@ def _drawn(checked: Checked, picture: str) -> str:
 def blocks(options: Options) -> int:
     """List the blocks, or print one's page."""
     broken: list[str] = []
-    found = dict(_installed(broken))
+    found = dict(installed(broken))
     for sentence in broken:
         output.tell(f"plutoc: {sentence}")
     if options.kind is not None:
@@ -59,8 +59,8 @@ def blocks(options: Options) -> int:
     return ERRORS if broken else CLEAN
 
 
-def _installed(broken: list[str]) -> Iterator[tuple[str, Block]]:
-    """Yield every block with its name as an app writes it."""
+def installed(broken: list[str]) -> Iterator[tuple[str, Block]]:
+    """Yield every block with its name as an app writes it; packages that are `broken` are told there."""
     for package in installed_packages():
         try:
             declared = blocks_of(package)

@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from plutoc.cli.examples import names
 from tests.cli.conftest import Call, tree
+from tests.flying import EXAMPLES, NAMES
 
 
 def test_a_new_app_compiles_and_flies(
@@ -77,3 +79,54 @@ def test_a_folder_with_something_in_it_is_refused(plutoc: Call, here: Path) -> N
     assert tree(here) == before
     Path("empty").mkdir()
     assert plutoc("new", "empty").code == 0
+
+
+@pytest.mark.parametrize("example", NAMES)
+def test_an_example_is_begun_with_under_another_name(
+    plutoc: Call, here: Path, monkeypatch: pytest.MonkeyPatch, example: str
+) -> None:
+    """It checks, flies and compiles as the example does; only its app's name is another."""
+    said = plutoc("new", "greenhouse", "--from", example)
+    assert (said.code, said.err) == (0, "")
+    assert ("its hooks" in said.out) == (EXAMPLES / example / "hooks.py").is_file()
+    files = {path: text.decode() for path, text in tree(here / "greenhouse").items()}
+    source = files.pop("greenhouse.pluto")
+    assert source != (EXAMPLES / example / "app.pluto").read_text("utf-8")
+    assert source.replace("app greenhouse ", f"app {example} ") == (
+        EXAMPLES / example / "app.pluto"
+    ).read_text("utf-8")
+    assert files == {path: (EXAMPLES / example / path).read_text("utf-8") for path in files}
+    monkeypatch.chdir("greenhouse")
+    assert "no errors" in plutoc("check", "greenhouse.pluto").out
+    assert plutoc("fmt", "--check", "greenhouse.pluto").code == 0
+    flown = plutoc("run", "greenhouse.pluto")
+    assert flown.code == 0, flown.out + flown.err
+    assert plutoc("compile", "greenhouse.pluto").code == 0
+    assert (here / "greenhouse/greenhouse/src/greenhouse/flow.py").is_file()
+
+
+def test_the_examples_are_listed_with_their_titles(plutoc: Call) -> None:
+    """No name is needed for that."""
+    assert names() == NAMES
+    said = plutoc("new", "--list")
+    assert said.code == 0
+    assert [line.split()[0] for line in said.out.splitlines()] == NAMES
+    assert "alfalfa                   Alfalfa crop monitoring\n" in said.out
+
+
+@pytest.mark.parametrize(
+    ("example", "why"),
+    [
+        ("alfafa", "did you mean alfalfa?"),
+        ("../alfalfa", "there is no example"),
+        ("", "no example"),
+    ],
+)
+def test_an_example_that_is_none_is_refused(
+    plutoc: Call, here: Path, example: str, why: str
+) -> None:
+    """With what is meant, or with how to find it."""
+    said = plutoc("new", "greenhouse", "--from", example)
+    assert said.code == 2
+    assert why in said.err and "`plutoc new --list` lists them" in said.err
+    assert not list(here.iterdir())

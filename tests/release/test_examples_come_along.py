@@ -1,0 +1,31 @@
+"""The examples that an app can begin with are in the wheel."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from zipfile import ZipFile
+
+from tests.flying import EXAMPLES, NAMES
+from tests.release.environments import ROOT, run, succeed
+
+
+def test_an_installed_compiler_brings_the_examples(tmp_path: Path) -> None:
+    """Byte for byte, and a new app begins with one where there is no checkout."""
+    wheels, there = tmp_path / "wheels", tmp_path / "there"
+    succeed(sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "-w", wheels, ROOT)
+    (wheel,) = wheels.iterdir()
+    with ZipFile(wheel) as packed:
+        packed.extractall(there)
+    for name in NAMES:
+        for path in (EXAMPLES / name).glob("*.*"):
+            assert (there / "plutoc/examples" / name / path.name).read_bytes() == path.read_bytes()
+    # what the wheel needs is installed beside these tests; itself it comes first
+    program = [sys.executable, "-P", "-m", "plutoc"]
+    where = run(*program[:2], "-c", "import plutoc; print(plutoc.__file__)", PYTHONPATH=str(there))
+    assert where.out.strip() == os.fspath(there / "plutoc/__init__.py")
+    made = run(*program, "new", "mine", "--from", "pm10", cwd=tmp_path, PYTHONPATH=str(there))
+    assert made.code == 0, made.err
+    checked = run(*program, "check", "mine/mine.pluto", cwd=tmp_path, PYTHONPATH=str(there))
+    assert "no errors" in checked.out, checked.err
