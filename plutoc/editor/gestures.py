@@ -20,7 +20,6 @@ from plutoc.service.edit import edit
 from plutoc.service.operations import AddBlock, Operation, RemoveBlocks, Rename, operation
 from plutoc.service.positions import Point
 from plutoc.source import Source
-from plutoc.syntax.parse import LARGEST
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,7 +70,6 @@ def _do(drawn: _Drawn, meant: Operation, files: AppFiles) -> None:
         source = drawn.document.source
         drawn.app_edits.append(own_edits(source.text, edited.edits))
         text = applied(source, edited.edits)
-        _check_size(text)
         drawn.document = files.document_of(text, drawn.hooks)
     if edited.hooks and drawn.hooks is not None:
         drawn.hooks_edits.append(own_edits(drawn.hooks.text, edited.hooks))
@@ -174,8 +172,3 @@ def _change(files: AppFiles, file: File, steps: Sequence[Edits], after: str) -> 
             for one in edits
         ),
     )
-
-
-def _check_size(text: str) -> None:
-    if len(text.encode()) > LARGEST:
-        raise Refused(f"an app can have at most {LARGEST // 1024} KiB")

@@ -32,7 +32,13 @@ def run(path: Path, *, host: str, port: int, opens: bool) -> None:
             webbrowser.open(guard.address)
 
     with listener:
-        asyncio.run(serve(session, guard, listener, ready))
+        try:
+            asyncio.run(serve(session, guard, listener.dup(), ready))
+        except KeyboardInterrupt:
+            if not session.lost:
+                return
+            output.tell(f"not ended: {session.lost}; Ctrl-C again ends it, and loses that")
+            asyncio.run(serve(session, guard, listener, lambda: None))
 
 
 def _listening(host: str, port: int) -> socket.socket:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import json
+import os
 import time
+import traceback
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -16,21 +18,24 @@ from plutoc.editor.asked import Asked, Refused
 from plutoc.editor.compiling import Snapshot
 from plutoc.editor.disk import CannotSave, ChangedOutside
 from plutoc.editor.gestures import Gesture
-from plutoc.editor.history import NOBODY, File, Made, Stale
+from plutoc.editor.history import NOBODY, File, Made, Stale, TooLarge
 from plutoc.editor.questions import QUESTIONS
 from plutoc.editor.wire import Wire
 from plutoc.hooks.module import read as read_hooks
+from plutoc.project.reading import UsageError
+from plutoc.service.document import Document
 from plutoc.service.edit import CannotEdit
 from plutoc.service.operations import NotAnOperation
 from plutoc.service.palette import palette
+from plutoc.service.positions import Positions
 from plutoc.service.view import view
 from plutoc_runtime import output
 from plutoc_runtime.domain.text import said
 
 SAVE_AFTER, LOOK_EVERY, AGAIN_AFTER = 0.3, 0.4, 2.0
 """Seconds: from a change to its saving, between two looks at the disk, to the next try."""
-_BEHIND = 256
-"""Messages that a client may be behind; then it is let go, and comes back for the whole."""
+_BEHIND = 64 * 1024 * 1024
+"""Characters that a client may be behind; then it is let go, and comes back for the whole."""
 _OPERATIONS = 100
 _SLOW = ("compile", "run")
 """What takes its time: a client has one of them at a time, and a new one ends the one before."""
@@ -43,8 +48,8 @@ class Client:
 
     def __init__(self, number: int) -> None:
         self.number = number
-        self.outbox: asyncio.Queue[str | None] = asyncio.Queue()
-        """What it is to be sent; None: it is let go."""
+        self._outbox: asyncio.Queue[str | None] = asyncio.Queue()
+        self._behind = 0
         self._task: asyncio.Task[None] | None = None
 
     def start(self, work: Coroutine[object, object, None]) -> None:
@@ -63,10 +68,15 @@ class Client:
 
     def send_text(self, text: str) -> None:
         """Send a message that is written already; a client that does not read is let go."""
-        if self.outbox.qsize() < _BEHIND:
-            self.outbox.put_nowait(text)
-        elif self.outbox.qsize() == _BEHIND:
-            self.outbox.put_nowait(None)
+        if self._behind <= _BEHIND:
+            self._behind += len(text)
+            self._outbox.put_nowait(text if self._behind <= _BEHIND else None)
+
+    async def next(self) -> str | None:
+        """Return the next message that it is to be sent; None: it is let go."""
+        text = await self._outbox.get()
+        self._behind -= len(text or "")
+        return text
 
 
 class Session:
@@ -130,11 +140,13 @@ class Session:
                 client.start(self.hear(client, message, slow=True))
                 return
             answer |= await self._answer(client, asked)
-        except (Refused, CannotEdit, NotAnOperation) as error:
+        except (Refused, CannotEdit, NotAnOperation, TooLarge, UsageError) as error:
             answer["error"] = str(error)
+        except asyncio.CancelledError:
+            client.send(answer | {"error": "this was ended, as another one was begun"})
+            raise
         except Exception as error:  # noqa: BLE001 - a mistake of ours ends no one's work
-            output.tell(f"plutoc edit: internal error (P9001): {said(error)}")
-            answer["error"] = f"something went wrong inside the editor: {said(error)}"
+            answer["error"] = _internal(error)
         client.send(answer)
 
     async def _answer(self, client: Client, asked: Asked) -> Data:
@@ -181,16 +193,22 @@ class Session:
         """Return the picture of the app as it is now."""
         document, positions = self.files.document, self.files.history.positions
         if self._seen is None or self._seen[0] is not document or self._seen[1] is not positions:
-            hooks = self.files.hooks
-            self._view = view(
-                document,
-                positions,
-                hooks=hooks,
-                offset=Wire(document.text).on_wire,
-                hooks_offset=Wire(hooks.text if hooks else "", marked=False).on_wire,
-            )
+            try:
+                self._view = self._drawn(document, positions)
+            except Exception as error:  # noqa: BLE001 - the text must be told all the same
+                self._view = _without_view(self._view, _internal(error))
             self._seen = (document, positions)
         return self._view
+
+    def _drawn(self, document: Document, positions: Positions) -> Data:
+        hooks = self.files.hooks
+        return view(
+            document,
+            positions,
+            hooks=hooks,
+            offset=Wire(document.text).on_wire,
+            hooks_offset=Wire(hooks.text if hooks else "", marked=False).on_wire,
+        )
 
     def _do(self, client: Client, gesture: Gesture) -> Data:
         made = self.files.history.change(gesture.changes, client.number)
@@ -286,6 +304,8 @@ class Session:
                     self._opened if await asyncio.to_thread(compiling.is_of, opened) else None
                 )
             return await asyncio.to_thread(compiling.preview, app, self._package_text)
+        if self.files.conflicts:
+            raise Refused("others have changed this app: decide first which text is to be kept")
         answer = await asyncio.to_thread(compiling.written, app)
         self._package_text = app.text
         self._done(self.files.after_compile())
@@ -307,16 +327,28 @@ class Session:
         )
 
     def _conflict(self, file: File) -> Data:
+        theirs = self.files.conflicts[file]
         return {
             "push": "disk",
             "what": "conflict",
             "file": file.value,
             "ours": Wire(self.files.history.text(file)).shown,
-            "theirs": Wire(self.files.conflicts[file]).shown,
+            "theirs": None if theirs.text is None else Wire(theirs.text).shown,
+            "why": theirs.why,
         }
+
+    @property
+    def lost(self) -> str:
+        """Why something would be lost if it ended now; empty: nothing would."""
+        if self.files.conflicts:
+            return "others have changed the app, and it is not decided which text is to be kept"
+        return self._cannot_save if self.files.unsaved else ""
 
     async def keep_saving(self) -> None:
         """Save what is changed, soon after each change, until cancelled."""
+        self._changed = asyncio.Event()  # of this loop
+        if self.files.unsaved:
+            self._changed.set()
         while True:
             await self._changed.wait()
             self._changed.clear()
@@ -357,3 +389,22 @@ class Session:
                 self._tell({"push": "disk", "what": what, "file": file.value})
         if self.files.unsaved:
             self._changed.set()
+
+
+def _internal(error: Exception) -> str:
+    """Tell of a mistake of ours, and return the sentence."""
+    text = f"something went wrong inside the editor (P9001): {said(error)}"
+    output.tell(f"plutoc edit: {text}")
+    if os.environ.get("PLUTO_DEBUG") == "1":
+        output.tell("".join(traceback.format_exception(error)).rstrip())
+    return text
+
+
+def _without_view(last: Data, why: str) -> Data:
+    """Return the last picture there was, with what keeps the new one from being drawn."""
+    empty: Data = {"app": "", "title": "", "ends": {"start": [0, 0], "end": [320, 0]}}
+    empty |= {name: [] for name in ("blocks", "edges", "hooks", "categories", "unreadable")}
+    problem: Data = {"code": "P9001", "severity": "error", "message": why, "help": None}
+    problem |= {"label": "", "file": "app", "from": 0, "to": 0, "line": 1, "fix": False}
+    problem |= {"blocks": [], "path": [], "related": []}
+    return {**empty, **last, "problems": [problem]}
