@@ -50,6 +50,9 @@ function take(view) {
   if (blocks.length !== selection.blocks.size || edge !== selection.edge) choose(blocks, edge);
 }
 
+const applied = (text, changes) => changes.toReversed().reduce(
+  (before, { from, to, insert }) => before.slice(0, from) + insert + before.slice(to), text);
+
 pushes.heard((push) => {
   if (push.push === "hello") {
     const { client, version, file, text, hooks, palette, history } = push;
@@ -58,6 +61,7 @@ pushes.heard((push) => {
     begun.ring(push);
   } else if (push.push === "change") {
     app.version = push.version;
+    if (push.file === "app") app.text = applied(app.text, push.changes);
     app.history = push.history ?? {};
     take(push.view);
     if (push.by === app.client && push.new?.length) choose(push.new);

@@ -51,8 +51,8 @@ export function drawWires() {
     set(group, "data-problem", worst(edge.problems ?? []));
     write(chip, edge);
   }
-  markEdges();
   moveWires();
+  markEdges();
 }
 
 // Wires that would lie upon each other: between the same two blocks, or back into the same one.
