@@ -145,6 +145,10 @@ def _run(options: Options) -> int:
             from plutoc.cli.diff import diff
 
             return diff(options)
+        case "lsp":
+            from plutoc.cli.lsp import lsp
+
+            return lsp(options)
         case "explain":
             from plutoc.cli.show import explain
 

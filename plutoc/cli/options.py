@@ -338,6 +338,12 @@ def _explain(parser: ArgumentParser) -> None:
     )
 
 
+def _lsp(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--stdio", action="store_true", help="as it does anyway; some editors say so"
+    )
+
+
 def _shown(text: str) -> str:
     if text not in ("graph", "plan") and not text.startswith("plan="):
         raise ArgumentTypeError(f"{text!r} is neither graph nor plan nor plan=PASS")
@@ -395,5 +401,6 @@ _COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "edit": ("Edit an app's graph in a browser, beside its text.", _edit),
     "diff": ("Say in words what changed in meaning from one app to another.", _diff),
     "blocks": ("List the blocks that are installed, or explain one.", _blocks),
+    "lsp": ("Serve an editor: the language server, on standard input and output.", _lsp),
     "explain": ("Say what the code of an error or a warning means.", _explain),
 }

@@ -10,7 +10,7 @@ from plutoc.emit.stubs import Stub, stubs
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
 
-_PASSED = {
+PASSED = {
     HookKind.ACTION: ("drone", "trip", "context"),
     HookKind.EVALUATOR: ("mission", "results"),
     HookKind.MODIFIER: ("mission", "context"),
@@ -83,7 +83,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
     return Expected(
         kind=kind,
         name=hook.name,
-        passed=_PASSED[kind],
+        passed=PASSED[kind],
         own=hook.parameters,
         returns=_returns(hook),
         may_wait=kind is not HookKind.POLICY,

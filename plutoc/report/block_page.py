@@ -19,7 +19,7 @@ def first_line(block: Block) -> str:
 def page(name: str, block: Block) -> str:
     """Return a block's page in Markdown; `name` is how an app writes its kind."""
     sections = [f"# {name}", cleandoc(block.doc), *_statuses(block)]
-    sections += _section("Parameters", [_param(param) for param in block.params])
+    sections += _section("Parameters", [param_line(param) for param in block.params])
     sections += _section("Fields it brings", [_field(field) for field in block.needs])
     if block.uses:
         used = _all(f"`{field}`" for field in block.uses)
@@ -49,7 +49,8 @@ def _statuses(block: Block) -> Iterator[str]:
         yield "If its hook declares `emits`, it emits exactly those."
 
 
-def _param(param: AnyParam) -> str:
+def param_line(param: AnyParam) -> str:
+    """Return a line about a parameter, as a page has it."""
     match param:
         case Param():
             return f"- `{param.name}`: {_type(param)}{_default(param)}. {param.doc}"

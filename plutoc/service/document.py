@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -15,6 +15,7 @@ from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.model import Edge, Graph
 from plutoc.graph.resolve import resolved
 from plutoc.registry import Blocks, blocks, standard
+from plutoc.service.symbols import Occurrence, occurrences
 from plutoc.source import Source
 from plutoc.syntax.parse import read
 from plutoc.syntax.tree import File
@@ -22,6 +23,9 @@ from plutoc_runtime.domain.status import Status
 
 FindHooks = Callable[[Checked], Source | None]
 """Returns the hooks.py that counts for an app, if there is one."""
+
+_OF_HOOKS = frozenset({"hooks", "diagnostics"})
+"""What depends on hooks.py."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,6 +56,11 @@ class Document:
         return self._read[0]
 
     @cached_property
+    def names(self) -> tuple[Occurrence, ...]:
+        """All names in it, with their places."""
+        return occurrences(self.file)
+
+    @cached_property
     def installed(self) -> Blocks:
         """The packages of blocks that it can use."""
         return blocks() if self.file.uses else standard()
@@ -65,10 +74,15 @@ class Document:
         """As much of the graph as is clear."""
         return self._resolved[0]
 
+    @property
+    def of_names(self) -> tuple[Diagnostic, ...]:
+        """What is found about its syntax and its names."""
+        return (*self._read[1], *self._resolved[1])
+
     @cached_property
     def _checked(self) -> tuple[Checked | None, tuple[Diagnostic, ...]]:
         try:
-            return check_names_first(self.graph, (*self._read[1], *self._resolved[1]))
+            return check_names_first(self.graph, self.of_names)
         except Rejected as rejected:
             return None, rejected.diagnostics
 
@@ -81,6 +95,13 @@ class Document:
     def hooks(self) -> Source | None:
         """The hooks.py that counts, if there is one; it can be told of a sound graph only."""
         return None if self.checked is None else self.find_hooks(self.checked)
+
+    def with_hooks_anew(self) -> Document:
+        """Return the same text, whose hooks.py is looked for once more."""
+        again = replace(self)
+        known = {name: value for name, value in vars(self).items() if name not in _OF_HOOKS}
+        vars(again).update(known)
+        return again
 
     @cached_property
     def diagnostics(self) -> tuple[Diagnostic, ...]:

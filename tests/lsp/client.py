@@ -1,0 +1,113 @@
+"""A real client of the protocol, with a real server behind a pipe."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from lsprotocol import types
+from pygls.lsp.client import LanguageClient
+from pygls.uris import from_fs_path
+
+
+def uri_of(path: Path) -> str:
+    """Return how the protocol names a file."""
+    uri = from_fs_path(str(path))
+    assert uri is not None
+    return uri
+
+
+class Client(LanguageClient):
+    """Starts a server, and keeps what it publishes and asks for."""
+
+    def __init__(self) -> None:
+        super().__init__("tests", "v1")
+        self.published: dict[str, types.PublishDiagnosticsParams] = {}
+        self.logged: list[str] = []
+        self.shown: list[str] = []
+        self.registered: list[str] = []
+        self._news = asyncio.Event()
+        self._on(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, self._hear)
+        self._on(types.WINDOW_LOG_MESSAGE, self._log)
+        self._on(types.WINDOW_SHOW_DOCUMENT, self._show)
+        self._on(types.CLIENT_REGISTER_CAPABILITY, self._register)
+
+    def _on(self, method: str, act: Callable[[Any], object]) -> None:
+        @self.feature(method)  # type: ignore[untyped-decorator]
+        def heard(params: Any) -> object:
+            return act(params)
+
+    def _hear(self, params: types.PublishDiagnosticsParams) -> None:
+        self.published[params.uri] = params
+        self._news.set()
+
+    def _log(self, params: types.LogMessageParams) -> None:
+        self.logged.append(params.message)
+
+    def _show(self, params: types.ShowDocumentParams) -> types.ShowDocumentResult:
+        self.shown.append(params.uri)
+        return types.ShowDocumentResult(success=True)
+
+    def _register(self, params: types.RegistrationParams) -> None:
+        self.registered += [one.method for one in params.registrations]
+
+    async def begin(
+        self, encodings: Iterable[types.PositionEncodingKind] = (), **more: Any
+    ) -> types.InitializeResult:
+        """Start the server and greet it."""
+        await self.start_io(sys.executable, "-m", "plutoc", "lsp")
+        known = list(encodings) or None
+        watching = types.DidChangeWatchedFilesClientCapabilities(dynamic_registration=True)
+        answer = await self.initialize_async(
+            types.InitializeParams(
+                capabilities=types.ClientCapabilities(
+                    general=types.GeneralClientCapabilities(position_encodings=known),
+                    window=types.WindowClientCapabilities(
+                        show_document=types.ShowDocumentClientCapabilities(support=True)
+                    ),
+                    workspace=types.WorkspaceClientCapabilities(did_change_watched_files=watching),
+                ),
+                **more,
+            )
+        )
+        self.initialized(types.InitializedParams())
+        return answer
+
+    async def end(self) -> None:
+        """Take leave as editors do."""
+        await self.shutdown_async(None)
+        self.exit(None)
+        await self.stop()  # type: ignore[no-untyped-call]
+
+    def open(self, uri: str, text: str, version: int = 0) -> None:
+        """Open a file with a text, whatever is on the disk."""
+        language = "python" if uri.endswith(".py") else "pluto"
+        item = types.TextDocumentItem(uri=uri, language_id=language, version=version, text=text)
+        self.text_document_did_open(types.DidOpenTextDocumentParams(text_document=item))
+
+    def change(self, uri: str, version: int, range: types.Range | None, text: str) -> None:
+        """Change a part of a file, or all of it."""
+        change: types.TextDocumentContentChangeEvent = (
+            types.TextDocumentContentChangeWholeDocument(text=text)
+            if range is None
+            else types.TextDocumentContentChangePartial(range=range, text=text)
+        )
+        self.text_document_did_change(
+            types.DidChangeTextDocumentParams(
+                text_document=types.VersionedTextDocumentIdentifier(uri=uri, version=version),
+                content_changes=[change],
+            )
+        )
+
+    async def findings(self, uri: str, version: int | None = 0) -> list[types.Diagnostic]:
+        """Wait for what is published of a version of a file."""
+        while True:
+            found = self.published.get(uri)
+            if found is not None and (version is None or found.version == version):
+                return list(found.diagnostics)
+            self._news.clear()
+            async with asyncio.timeout(60):
+                await self._news.wait()
