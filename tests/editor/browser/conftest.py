@@ -37,7 +37,7 @@ expect.set_options(timeout=A_STEP)
 class Edit(Protocol):
     """Starts the editor of an example, of a text, or of a file that is not there yet."""
 
-    def __call__(self, example: str = "", *, text: str = "") -> Editor: ...
+    def __call__(self, example: str = "", *, text: str = "", without: str = "") -> Editor: ...
 
 
 class Visit(Protocol):
@@ -77,7 +77,7 @@ def edit(tmp_path: Path) -> Iterator[Edit]:
     """Start editors; none of their processes is left behind."""
     editors: list[Editor] = []
 
-    def edit(example: str = "", *, text: str = "") -> Editor:
+    def edit(example: str = "", *, text: str = "", without: str = "") -> Editor:
         folder = tmp_path / f"app{len(editors)}"
         if example:
             shutil.copytree(ROOT / "examples" / example, folder)
@@ -86,6 +86,8 @@ def edit(tmp_path: Path) -> Iterator[Edit]:
         file = folder / ("app.pluto" if example else NAME)
         if text:
             file.write_text(text, encoding="utf-8")
+        if without:
+            (folder / without).unlink()
         editor = Editor(file=file)
         editors.append(editor)
         editor.start()

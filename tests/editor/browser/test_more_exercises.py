@@ -160,3 +160,44 @@ def test_a_timer_of_ones_own(edit: Edit, visit: Visit) -> None:
     }
     until(lambda: ways(editor) == third, lambda: editor.text)
     assert "limit: 2 min" in editor.text
+
+
+def test_its_hook_is_written_in_the_editor(edit: Edit, visit: Visit) -> None:
+    editor = edit("drugs_distribution_timer", without="hooks.py")
+    page = visit(editor)
+    block(page, "limit").locator(".face").click()
+    page.get_by_role("button", name="Write its code: limit_trip").click()
+    code = page.get_by_role("textbox", name="hooks.py: your own code")
+    expect(code).to_contain_text("def limit_trip(")
+    # what is at hand is told beside it
+    given = page.get_by_role("region", name="What you can use in a hook")
+    given.get_by_text("context", exact=True).click()
+    expect(given.get_by_role("button", name="context.trip_ended")).to_be_visible()
+    expect(code).to_be_visible()
+    for line in ("does nothing yet", "await context.trip_ended"):  # what the stub does
+        code.locator(".cm-line", has_text=line).last.click()
+        page.keyboard.press("Control+Shift+K")
+    code.locator(".cm-line", has_text="return mission.status").last.click()
+    page.keyboard.press("Home")
+    page.keyboard.press("Enter")
+    page.keyboard.press("ArrowUp")
+    complete(page, "if not await context.trip_", "trip_ended")
+    complete(page, "(mission.curr", "current")
+    page.keyboard.insert_text(", within=limit):")
+    page.keyboard.press("Enter")  # goes in by itself
+    complete(page, "return Status.FAI", "FAILED")
+    wanted = """\
+    if not await context.trip_ended(mission.current, within=limit):
+        return Status.FAILED
+    return mission.status
+"""
+    until(lambda: wanted in editor.hooks, lambda: editor.hooks)
+
+
+def complete(page: Page, begun: str, whole: str) -> None:
+    """Type the beginning of a name, and take it from the list."""
+    page.keyboard.insert_text(begun[:-1])
+    page.keyboard.type(begun[-1])
+    found = page.locator(".cm-tooltip-autocomplete li[aria-selected]", has_text=whole)
+    found.click()
+    expect(found).to_be_hidden()
