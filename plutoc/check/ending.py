@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 from plutoc.block import IN_GRAPH
-from plutoc.check import errors
+from plutoc.check import chain, errors
 from plutoc.check.branches import Branch, Branches
 from plutoc.check.facts import elsewhere, is_over, puts_trips
-from plutoc.check.flow import Flow, Fork, Loop, Place, Split, blocks_of, is_final
-from plutoc.check.forks import gates_of
+from plutoc.check.flow import (
+    Flow,
+    Fork,
+    Loop,
+    Place,
+    Split,
+    Way,
+    blocks_of,
+    is_final,
+    ordered,
+)
+from plutoc.check.forks import gates_of, handed_on
 from plutoc.check.statuses import arrows_of, explore, unflown
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.digraph import round_of
@@ -20,18 +30,25 @@ Left = tuple[Node, tuple[Status, ...], Place]
 """A block, the statuses of it that no edge takes, and where it is left with the first of them."""
 
 
-def stuck(flow: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic]:
+def stuck(flow: Flow, whole: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic]:
     """Find where missions get stuck: one message per block, or per fork.
 
     Missions at an `idle` gate were meant to be in a fork: what is left behind it is not reported.
+    In the branches of a barred fork they are, from the `whole` exploration; behind it they are not.
     """
+    forks = {split.fork for split in flow.entries}
+    more = [
+        (place, status)
+        for place, status in whole.loose
+        if place not in flow.places and place.frame and place.frame.split.fork in forks
+    ]
     diagnostics = []
     walked = set(flow.edges)
     # a forbidden arrow has its own message, and was meant to take something
     wrong = {edge.source for edge in flow.graph.edges if edge not in walked}
     open_forks: dict[Fork, list[Left]] = {}
     for node in flow.graph.nodes:
-        left = _left(flow, node)
+        left = _left([*flow.loose, *more], node)
         if not left or node.name in wrong:
             continue
         statuses = tuple(s for s in IN_GRAPH if s in left)
@@ -41,15 +58,28 @@ def stuck(flow: Flow, found: Branches, idle: Collection[str]) -> list[Diagnostic
         else:
             way = flow.way(place, statuses[0])
             if not any(hop.node in idle for hop in way):
-                taker = _taker(flow, node, statuses[0])
-                diagnostics.append(errors.stuck(flow.graph, node, statuses, way, taker))
+                diagnostics.append(_stuck(flow, node, statuses, place, way))
     for fork, lost in open_forks.items():
         _, statuses, place = lost[0]
         blocks = [(node, left) for node, left, _ in lost]
-        way = flow.way(place, statuses[0])
-        gate = _gate(flow, found[fork])
+        way = (flow if place in flow.places else whole).way(place, statuses[0])
+        gate = _gate(whole, found[fork])
         diagnostics.append(errors.stuck_in_fork(flow.graph, fork, blocks, gate, way))
     return diagnostics
+
+
+def _stuck(
+    flow: Flow, node: Node, statuses: tuple[Status, ...], place: Place, way: Way
+) -> Diagnostic:
+    """Say why a mission is stuck outside of forks, as far as that can be seen."""
+    graph = flow.graph
+    if node.block.gate is not None and statuses[0] is Status.RUNNING:
+        ends = ordered(flow.arrives[node.name] - {Status.RUNNING})
+        return errors.flight_at_gate(graph, node, handed_on(graph, node.name, way), ends, way)
+    if unlaunched := chain.watched_unlaunched(graph, node, statuses):
+        allocated = place.facts.allocated or node.block.allocates
+        return errors.left_unlaunched(graph, node, unlaunched, way, allocated=allocated)
+    return errors.stuck(graph, node, statuses, way, _taker(flow, node, statuses[0]))
 
 
 def implicitly(flow: Flow) -> list[Diagnostic]:
@@ -75,10 +105,10 @@ def implicit_ends(flow: Flow) -> tuple[tuple[str, Status], ...]:
     return tuple((name, s) for name in flow.graph.node for s in IN_GRAPH if (name, s) in left)
 
 
-def _left(flow: Flow, node: Node) -> dict[Status, Place]:
+def _left(loose: Iterable[tuple[Place, Status]], node: Node) -> dict[Status, Place]:
     """The places where missions get stuck at a block, by the status that no edge takes."""
     left: dict[Status, Place] = {}
-    for place, status in flow.loose:
+    for place, status in loose:
         if place.node == node.name and not is_final(status):
             left.setdefault(status, place)
     return left
@@ -92,7 +122,11 @@ def _gate(flow: Flow, branches: tuple[Branch, ...]) -> str | None:
 
 def _taker(flow: Flow, node: Node, status: Status) -> str | None:
     """The block that the mission most likely should go to: it takes the status, and mends most."""
-    takers = [n for n in flow.graph.nodes if status in n.block.accepts and n is not node]
+    takers = [
+        n
+        for n in flow.graph.nodes
+        if status in n.block.accepts and n is not node and not n.block.creates
+    ]
     likely = sorted(takers, key=lambda n: (not n.block.allocates, not n.block.watches))
     return likely[0].name if likely else None
 

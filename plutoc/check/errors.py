@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from plutoc.check import chain
 from plutoc.check.flow import Fork, Way, ordered
 from plutoc.check.phrases import (
     accepts,
     arrows,
+    before_allocation,
     emits_here,
+    emits_nothing,
     error,
     fork_of,
     listed,
@@ -17,6 +20,7 @@ from plutoc.check.phrases import (
     taken_by,
     there,
     warning,
+    with_emits,
 )
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.edits import is_single, without_arrow
@@ -111,8 +115,14 @@ def starved(
             related_to(graph, edge.span, f"`{edge.source}` emits {listed(leaving[edge.source])}")
             for edge in edges
         ),
-        help=f"lead an arrow here from a block that emits what it accepts{there(way)}",
+        help=f"{_fed(graph, node, leaving)}{there(way)}",
     )
+
+
+def _fed(graph: Graph, node: Node, leaving: Mapping[str, Sequence[Status]]) -> str:
+    if node.block.holds and all(Status.RUNNING in statuses for statuses in leaving.values()):
+        return f"it cannot hold a mission in flight: put it {before_allocation(graph, node)}"
+    return "lead an arrow here from a block that emits what it accepts"
 
 
 def untaken(graph: Graph, edge: Edge, leaving: Sequence[Status], way: Way) -> Diagnostic:
@@ -189,6 +199,25 @@ def stuck(
             if edge.takes
         ),
         help=f"{taken_by(node, statuses[0], taker)}{there(way)}",
+    )
+
+
+def flight_at_gate(
+    graph: Graph, gate: Node, giver: Node | None, ends: Sequence[Status], way: Way
+) -> Diagnostic:
+    """A branch does not end its flight, but brings it to the gate."""
+    cause = (
+        f"`{giver.name}` does not end its flight" if giver else "a branch does not end its flight"
+    )
+    mend = (
+        with_emits(giver, ends) if giver else "end each branch with a block that watches the flight"
+    )
+    return error(
+        "P2009",
+        (graph, gate.name_span),
+        f"a mission that leaves `{gate.name}` RUNNING is stuck: {cause}",
+        related=emits_nothing(graph, giver) if giver else (),
+        help=f"{mend}{there(way)}",
     )
 
 
@@ -296,11 +325,16 @@ def too_tangled(graph: Graph, places: int, steps: int) -> Diagnostic:
 
 
 def no_allocation(graph: Graph, node: Node, way: Way) -> Diagnostic:
+    edges = [e for e in graph.outgoing[way[-2].node] if e.target == node.name]
+    missing = chain.missing(graph, allocated=False, launched=True)[0]
+    through = chain.way_through(graph, edges, allocated=False, launched=True)
     return error(
         "P2021",
         (graph, node.name_span),
         f"a mission can come to `{node.name}` without a drone allocated since its last launch",
-        help=f"lead the way through a block that allocates a drone{there(way)}",
+        label=f"no {missing} before it",
+        related=tuple(related_to(graph, edge.span, "on this way") for edge in edges),
+        help=f"{through}{there(way)}",
     )
 
 
@@ -310,6 +344,23 @@ def no_launch(graph: Graph, node: Node, way: Way) -> Diagnostic:
         (graph, node.name_span),
         f"a mission can come to `{node.name}` though no trip was launched before",
         help=f"lead the way through a block that launches the trip{there(way)}",
+    )
+
+
+def left_unlaunched(
+    graph: Graph, node: Node, edges: Sequence[Edge], way: Way, *, allocated: bool
+) -> Diagnostic:
+    """Nothing launches the trip between a block and those that watch its flight."""
+    missing = " and no ".join(chain.missing(graph, allocated=allocated, launched=False))
+    through = chain.way_through(graph, edges, allocated=allocated, launched=False)
+    watch = graph.node[edges[0].target]
+    return error(
+        "P2022",
+        (graph, watch.name_span),
+        f"there is no {missing} between `{node.name}` and `{watch.name}`: no trip is launched",
+        label="it watches a flight",
+        related=tuple(related_to(graph, edge.span, "on this way") for edge in edges),
+        help=f"{through}{there(way)}",
     )
 
 

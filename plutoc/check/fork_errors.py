@@ -6,21 +6,43 @@ from collections.abc import Sequence
 
 from plutoc.check.branches import Astray, Branch
 from plutoc.check.flow import Fork, Way
-from plutoc.check.phrases import error, fate, fork_of, is_flown, related_to, there
+from plutoc.check.phrases import (
+    before_allocation,
+    emits_nothing,
+    error,
+    fate,
+    fork_of,
+    is_flown,
+    related_to,
+    there,
+    with_emits,
+)
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Graph, Node
 from plutoc.graph.wording import all_of
+from plutoc_runtime.domain.status import Status
 
 
 def astray(
-    graph: Graph, branches: Sequence[tuple[Branch, Astray]], gates: Sequence[str], way: Way
+    graph: Graph,
+    branches: Sequence[tuple[Branch, Astray]],
+    gates: Sequence[str],
+    way: Way,
+    beside: Branch | None,
 ) -> Diagnostic:
+    """`beside` is the branch in which a block holds the mission that others fly."""
     first, lost = branches[0]
     guard = f"only one of the arrows was meant to take {first.fork[1].value}, guard the others"
     if gates:
         mend = f"close the fork first, at `{gates[0]}`; or, if {guard} with `when`"
     else:
         mend = f"if {guard} with `when`; else let the branches meet at a gate"
+    if beside:
+        holds = graph.node[beside.edge.target]
+        mend = (
+            f"`{holds.name}` holds only what comes through it, and not the branch beside it: "
+            f"put it {before_allocation(graph, holds)}; or, if {guard} with `when`"
+        )
     to = "" if lost[0].node == first.edge.target else f" to `{first.edge.target}`"
     return error(
         "P2012" if is_flown(lost) else "P2011",
@@ -82,7 +104,11 @@ def waits_in_vain(graph: Graph, branch: Branch, gate: str, way: Way | None) -> D
     )
 
 
-def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
+def outside_fork(
+    graph: Graph, node: Node, way: Way, giver: Node | None, ends: Sequence[Status]
+) -> Diagnostic:
+    """`giver` is the block that brought a flight to the gate, which led on from there."""
+    mend = with_emits(giver, ends) if giver else "lead this way past the gate"
     return error(
         "P2016",
         (graph, node.name_span),
@@ -91,8 +117,9 @@ def outside_fork(graph: Graph, node: Node, way: Way) -> Diagnostic:
             related_to(graph, edge.span, "it comes along here")
             for edge in graph.incoming[node.name]
             if edge.source == way[-2].node
-        ),
-        help=f"lead this way past the gate{there(way)}",
+        )
+        + (emits_nothing(graph, giver) if giver else ()),
+        help=f"{mend}{there(way)}",
     )
 
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from plutoc.block import Gate
 from plutoc.check import fork_errors as errors
 from plutoc.check import model
 from plutoc.check.branches import Branch, Branches, nesting, within
-from plutoc.check.flow import Flow, Place
+from plutoc.check.flow import Flow, Fork, Hop, Place, Way, ordered
+from plutoc.check.phrases import is_flown
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.digraph import loops
+from plutoc.graph.model import Graph, Node
+from plutoc_runtime.domain.status import Status
 
 Branched = tuple[Branch, ...]
 MOST_NESTED = 100
@@ -17,23 +22,36 @@ _MOST_WAYS = 200
 """The most endless forks whose loops are shown."""
 
 
-def unclosed(flow: Flow, found: Branches) -> list[Diagnostic]:
+def unclosed(flow: Flow, found: Branches) -> dict[Fork, Diagnostic]:
     """Find forks that do not close, with the most specific message for each."""
     inside = nesting(found)
     breeding = loops(inside)
-    diagnostics = []
+    diagnostics: dict[Fork, Diagnostic] = {}
     for part in breeding:
         again = [p for s, places in flow.entries.items() if s.fork == part[0] for p in places]
-        diagnostics.append(
-            errors.breeds(flow.graph, found[part[0]][0], flow.way(again[-1], part[0][1]))
-        )
+        way = flow.way(again[-1], part[0][1])
+        diagnostics[part[0]] = errors.breeds(flow.graph, found[part[0]][0], way)
     for fork, branches in found.items():
         stuck = any(inner.stuck for branch in branches for inner in within(found, inside, branch))
         if not stuck and not any(fork in part for part in breeding):
             shown = len(diagnostics) < _MOST_WAYS
             wrong = _shared(flow, found, branches) or _open(flow, found, branches, shown)
-            diagnostics.extend([wrong] if wrong else [])
+            if wrong:
+                diagnostics[fork] = wrong
     return diagnostics
+
+
+def flown(found: Branches, unclosed: Collection[Fork]) -> list[Fork]:
+    """Return the forks in a branch of which a mission is flown before its gate.
+
+    How it then goes on is a guess. Those that follow from forks within them are left out.
+    """
+    return [
+        fork
+        for fork, branches in found.items()
+        if (fork in unclosed or any(branch.stuck for branch in branches))
+        and any(branch.astray and is_flown(branch.astray) for branch in branches)
+    ]
 
 
 def too_deep(flow: Flow, found: Branches) -> list[Diagnostic]:
@@ -84,7 +102,9 @@ def _open(flow: Flow, found: Branches, branches: Branched, shown: bool) -> Diagn
         ways = [flow.way(*lost) for _, lost in astray]
         nearest = min(range(len(ways)), key=lambda i: len(ways[i]))
         astray.insert(0, astray.pop(nearest))
-        return errors.astray(graph, astray, gates, ways[nearest])
+        flies = is_flown(astray[0][1])
+        beside = next((b for b in branches if flies and _holds(graph, b)), None)
+        return errors.astray(graph, astray, gates, ways[nearest], beside)
     if len(gates) > 1:
         first = {gate: place for b in reversed(branches) for gate, place in b.gates.items()}
         ways = [flow.way(first[gate]) for gate in gates]
@@ -95,6 +115,24 @@ def _open(flow: Flow, found: Branches, branches: Branched, shown: bool) -> Diagn
             return errors.waits_in_vain(graph, branch, gates[0], way)
         if branch.circles or not branch.gates:
             return errors.never_closes(graph, branch, gates, way)
+    return None
+
+
+def _holds(graph: Graph, branch: Branch) -> bool:
+    """Whether a branch begins with a block that holds missions."""
+    first = graph.node.get(branch.edge.target)
+    return first is not None and first.block.holds
+
+
+def handed_on(graph: Graph, gate: str, way: Way) -> Node | None:
+    """Return the block by which a flight comes to a gate, though its hook could end it with `emits`."""
+    at = next((i for i, hop in enumerate(way) if hop == Hop(gate, Status.RUNNING)), 0)
+    for hop in reversed(way[:at]):
+        node = graph.node[hop.node]
+        if hop.leaving is not Status.RUNNING or node.block.launches:
+            return None
+        if node.block.emits_by_hook and node.hook and not node.hook.emits:
+            return node
     return None
 
 
@@ -129,7 +167,9 @@ def idle_gates(flow: Flow, found: Branches, *, lacking: bool) -> dict[str, Diagn
         # behind a gate that closes nothing comes what was meant to be in a fork
         behind_another = any(hop.node in idle for hop in way)
         if name in closing:
-            idle[name] = errors.outside_fork(flow.graph, node, way)
+            giver = handed_on(flow.graph, name, way)
+            ends = ordered(flow.arrives[name] - {Status.RUNNING})
+            idle[name] = errors.outside_fork(flow.graph, node, way, giver, ends)
         elif not lacking and not behind_another:
             idle[name] = errors.closes_nothing(flow.graph, node, way)
     return idle

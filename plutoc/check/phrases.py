@@ -129,8 +129,42 @@ def fate(astray: Astray) -> str:
     return f"ends at `{place.node}`, where no arrow takes {leaving.value}"
 
 
+def before_allocation(graph: Graph, node: Node) -> str:
+    """Where a block stands that holds missions: "before a drone is allocated, as in `a -> b -> c`"."""
+    ways = (
+        f", as in `{edge.source} -> {node.name} -> {edge.target}`"
+        for edge in graph.edges
+        if edge.target in graph.node
+        and graph.node[edge.target].block.allocates
+        and edge.source != node.name
+    )
+    return f"before a drone is allocated{next(ways, '')}"
+
+
 def taken_by(node: Node, status: Status, taker: str | None) -> str:
     """The arrow to add if none takes a status."""
     if taker is None:
         return f"add a block that accepts {status.value}"
     return f"add `{node.name} -> {taker} when {status.value}`"
+
+
+def emits_nothing(graph: Graph, node: Node) -> tuple[Related, ...]:
+    """Notes on a block that hands a flight on, and on its hook."""
+    assert node.hook is not None
+    return (
+        related_to(graph, node.hook.span, "it has no `emits`"),
+        related_to(graph, node.name_span, "so the mission goes on as it came here, RUNNING"),
+    )
+
+
+def with_emits(node: Node, ends: Sequence[Status]) -> str:
+    """How to write the hook of a block, so that it says how the flight ended."""
+    hook = node.hook
+    assert hook is not None
+    takes = "(…)" if hook.parameters else ""
+    emits = ", ".join(status.value for status in ends)
+    writes = f" writes {', '.join(hook.writes)}" if hook.writes else ""
+    return (
+        f"`{hook.name}` has no `emits`: write `{hook.kind.value} {hook.name}{takes} emits {emits}"
+        f"{writes}`, and let it return one of them"
+    )

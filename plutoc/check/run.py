@@ -29,21 +29,28 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     points = resume.nearest(flow)
     stopped, points_then = _after_a_stop(flow, points)
     parallels = branches(flow)
-    unwatched = parallel.unwatched_limits(flow, parallels)
     unclosed = forks.unclosed(flow, parallels)
-    missed = _missed(unclosed, unwatched)
-    lacking = reach.unreached(flow, creator.name, missed) + reach.starved(flow)
-    found += _in_flight(flow, parallels, lacking=bool(lacking or unwatched))
-    found += unclosed
+    flown = forks.flown(parallels, unclosed)
+    # what a flight before a gate leads to is not told: the flight is
+    sure = explore(graph, edges, (creation(creator.name),), barred=flown) if flown else flow
+    seen = {split.fork for split in sure.entries}
+    open_forks = [wrong for fork, wrong in unclosed.items() if fork in seen]
+    unwatched = parallel.unwatched_limits(sure, parallels)
+    lacking = reach.unreached(flow, creator.name, _missed(open_forks, unwatched))
+    if not flown:
+        lacking += reach.starved(flow)
+        found += reach.untaken(flow, stopped)
+        found += reach.spent(flow)
+        found += parallel.written_twice(flow, parallels)
+    found += _in_flight(sure, flow, parallels, lacking=bool(lacking or unwatched))
+    found += open_forks
     found += lacking
-    found += reach.untaken(flow, stopped)
-    found += reach.spent(flow)
-    found += parallel.written_twice(flow, parallels)
     found += unwatched
     if found or (found := forks.too_deep(flow, parallels)):
         raise Rejected(in_order(found))  # the same errors would recur after a Stop
     again = branches(stopped)
-    wrong = _in_flight(stopped, again, lacking=False) + forks.unclosed(stopped, again)
+    wrong = _in_flight(stopped, stopped, again, lacking=False)
+    wrong += forks.unclosed(stopped, again).values()
     if wrong:
         raise Rejected(in_order([errors.after_a_stop(each) for each in wrong]))
     checked = Checked(
@@ -85,11 +92,14 @@ def _warnings(flow: Flow, stopped: Flow) -> list[Diagnostic]:
     ]
 
 
-def _in_flight(flow: Flow, parallels: Branches, *, lacking: bool) -> list[Diagnostic]:
-    """Return the errors that missions can run into, each with the shortest path to it."""
+def _in_flight(flow: Flow, whole: Flow, parallels: Branches, *, lacking: bool) -> list[Diagnostic]:
+    """Return the errors that missions can run into, each with the shortest path to it.
+
+    The `whole` exploration has what lies in the branches of barred forks, too.
+    """
     idle = forks.idle_gates(flow, parallels, lacking=lacking)
     return [
-        *ending.stuck(flow, parallels, tuple(idle)),
+        *ending.stuck(flow, whole, parallels, tuple(idle)),
         *ending.endless(flow, tuple(idle)),
         *idle.values(),
         *flights.undrawn(flow),

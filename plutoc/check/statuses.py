@@ -24,7 +24,7 @@ from plutoc.check.facts import (
     says_the_same,
     unless_failed,
 )
-from plutoc.check.flow import Facts, Flow, Frame, Place, Split, Step
+from plutoc.check.flow import Facts, Flow, Fork, Frame, Place, Split, Step
 from plutoc.diagnostic import Rejected
 from plutoc.graph.digraph import endless_loops, loops, reachable, subgraph
 from plutoc.graph.model import END, START, Edge, Graph
@@ -43,11 +43,12 @@ def explore(
     beginnings: Iterable[Place],
     *,
     idle: Collection[str] = (),
+    barred: Collection[Fork] = (),
 ) -> Flow:
     """Explore all places of missions from these on, along these edges.
 
     With `idle` blocks, only as long as they stay there with nothing left to fly and no hook fails
-    them. Raises `Rejected` beyond the limits.
+    them. Nothing behind `barred` forks is explored. Raises `Rejected` beyond the limits.
     """
     arrows = arrows_of(graph, edges)
     rounds = unflown(graph, arrows)
@@ -60,6 +61,7 @@ def explore(
         numbers={name: number for number, name in enumerate(asked)},
         hooked=_hooked(graph, arrows),
         idle=idle,
+        barred=barred,
     )
     walk.run(beginnings)
     return walk.flow()
@@ -127,6 +129,7 @@ class _Walk:
     """The first edges of the branches in which a hook may put another trip first."""
     idle: Collection[str]
     """If given, missions that leave these blocks, or have something to fly, are not explored."""
+    barred: Collection[Fork]
     hasty: dict[Split, None] = field(default_factory=dict)
     """Forks whose gate does not wait for a branch that never arrives."""
     outgoing: dict[str, list[Edge]] = field(default_factory=dict)
@@ -211,6 +214,9 @@ class _Walk:
                 facts = elsewhere(facts)
             split = Split(node=place.node, status=status, facts=facts)
             self.entries.setdefault(split, {})[place] = None
+            if split.fork in self.barred:
+                self.after.add_edge(place, place._replace(node=END))  # it goes on, unseen
+                return
             for branch, edge in enumerate(taken):
                 frame = Frame(split=split, branch=branch)
                 target = Place(frame=frame, node=edge.target, status=status, facts=facts)

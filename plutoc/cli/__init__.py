@@ -121,6 +121,10 @@ def _run(options: Options) -> int:
             from plutoc.cli.compile import compile_
 
             return compile_(options)
+        case "watch":
+            from plutoc.cli.watch import watch
+
+            return watch(options)
         case "run":
             from plutoc.cli.run import run
 

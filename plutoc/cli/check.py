@@ -66,7 +66,7 @@ def _findings(file: Path, source: Source) -> _Findings:
         checked, found = analyse(source)
         explored = checked.explored
         if file != STANDARD_INPUT:  # beside that lies nothing
-            hooks = find_hooks(checked, file, default_folder(file, checked))
+            hooks = find_hooks(checked.graph, file, default_folder(file, checked.graph))
             found += check_hooks(checked, hooks)
     except Rejected as rejected:
         found += rejected.diagnostics

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -39,11 +39,14 @@ class _Messages:
     lines: list[str] = field(default_factory=list)
 
 
-def compile_(options: Options) -> int:
-    """Write an app's package, or say what would be written."""
+def compile_(options: Options, written: Callable[[], None] = lambda: None) -> int:
+    """Write an app's package, or say what would be written.
+
+    `written` is called when files were written, and nothing is said yet.
+    """
     said, code = _Messages(), CLEAN
     try:
-        _compile(options, said)
+        _compile(options, said, written)
     except Rejected as rejected:
         said.found += rejected.diagnostics
         code = REFUSED if isinstance(rejected, Refused) else ERRORS
@@ -58,7 +61,7 @@ def compile_(options: Options) -> int:
     return code
 
 
-def _compile(options: Options, said: _Messages) -> None:
+def _compile(options: Options, said: _Messages, written: Callable[[], None]) -> None:
     source = read_app(options.file)
     if options.show is not None:
         _show(source, options, options.show, said)
@@ -91,6 +94,7 @@ def _compile(options: Options, said: _Messages) -> None:
             _refuse(compiled.checked, changes)
         elif not options.diff:
             write(changes)
+            written()
     except CannotWrite as error:
         raise UsageError(f"{printable(str(error))}; nothing was changed") from None
     if options.format == "text" and not options.diff:
@@ -127,12 +131,12 @@ def _plan(checked: Checked, options: Options, what: str) -> Plan:
 
 
 def _folder(options: Options, checked: Checked) -> Path:
-    return options.folder or default_folder(options.file, checked)
+    return options.folder or default_folder(options.file, checked.graph)
 
 
 def _hooks(options: Options, checked: Checked) -> Source | None:
     """Return the developer's code, with stubs for what is missing if that was asked for."""
-    hooks = find_hooks(checked, options.file, _folder(options, checked))
+    hooks = find_hooks(checked.graph, options.file, _folder(options, checked))
     if hooks is None or not options.add_stubs:
         return hooks
     from plutoc.hooks.add import with_stubs
@@ -143,7 +147,7 @@ def _hooks(options: Options, checked: Checked) -> Source | None:
 def _of_hooks_beside(options: Options, compiled: Compiled) -> Iterator[Diagnostic]:
     """Warn of a hooks.py beside the app that looks like the code that counts, and is not."""
     folder, hooks = _folder(options, compiled.checked), compiled.hooks
-    beside = passed_over(compiled.checked, options.file, folder)
+    beside = passed_over(compiled.checked.graph, options.file, folder)
     if beside is not None and hooks is not None and beside.text != hooks.text:
         from plutoc.hooks.errors import passed_over as not_read
 
@@ -173,7 +177,7 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
     if changes.first:
         yield f"{folder}: a new package of {counted(len(changes.files), 'file')}"
         graph = compiled.checked.graph
-        own = f"{folder}/{hooks_path(compiled.checked)}"
+        own = f"{folder}/{hooks_path(graph)}"
         if compiled.hooks is not None:
             yield f"  {compiled.hooks.path} was copied to {own}: edit that one from now on"
         elif graph.hooks or graph.actions:

@@ -174,7 +174,7 @@ def _check(parser: ArgumentParser) -> None:
     _format(parser)
 
 
-def _compile(parser: ArgumentParser) -> None:
+def _package(parser: ArgumentParser) -> None:
     _file(parser)
     parser.add_argument(
         "-o",
@@ -183,13 +183,6 @@ def _compile(parser: ArgumentParser) -> None:
         type=Path,
         help="the package's folder (default: one named after the app, beside the file)",
     )
-    _writes_nothing(parser)
-    parser.add_argument(
-        "--force", action="store_true", help="overwrite files of ours that were edited by hand"
-    )
-    parser.add_argument(
-        "--add-stubs", action="store_true", help="add the hooks that are missing to hooks.py"
-    )
     parser.add_argument(
         "--carry",
         choices=["fleet"],
@@ -197,6 +190,17 @@ def _compile(parser: ArgumentParser) -> None:
         " installed; to be given each time",
     )
     parser.add_argument("-O0", dest="plain", action="store_true", help="do not optimise the plan")
+
+
+def _compile(parser: ArgumentParser) -> None:
+    _package(parser)
+    _writes_nothing(parser)
+    parser.add_argument(
+        "--force", action="store_true", help="overwrite files of ours that were edited by hand"
+    )
+    parser.add_argument(
+        "--add-stubs", action="store_true", help="add the hooks that are missing to hooks.py"
+    )
     parser.add_argument(
         "--show",
         type=_shown,
@@ -394,6 +398,7 @@ _COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "new": ("Make a folder with a small app, or an example, to begin with.", _new),
     "check": ("Say what is wrong with apps; with --fix, mend what is certain.", _check),
     "compile": ("Write the Python package of an app.", _compile),
+    "watch": ("Compile an app whenever it is saved; say what changed in meaning.", _package),
     "run": ("Compile an app and simulate its missions at once.", _run),
     "test": ("Try an app under everything that can go wrong.", _test),
     "fmt": ("Write sources in canonical form; comments and meaning are kept.", _fmt),

@@ -67,7 +67,7 @@ def _compiled(file: Path, source: Source) -> Iterator[tuple[Path, str]]:
     """Compile an app into a folder for as long as this lasts; give its modules' folder, and its name."""
 
     def hooks(checked: Checked) -> Source | None:
-        return find_hooks(checked, file, default_folder(file, checked))
+        return find_hooks(checked.graph, file, default_folder(file, checked.graph))
 
     compiled = compile_source(source, source_name=file.name, find_hooks=hooks)
     say(compiled.warnings)

@@ -44,6 +44,7 @@ _NEEDED = frozenset(
         *("colorama", "exceptiongroup", "iniconfig", "pluggy", "pygments"),  # and pytest these
         *("black", "blackd", "blib2to3", "jinja2", "lark", "markupsafe", "mypy_extensions"),
         *("networkx", "pytokens"),  # the compiler, which is often installed beside its apps
+        *("argcomplete", "attr", "attrs", "cattr", "cattrs", "lsprotocol", "pygls", "watchfiles"),
     }
 )
 """What the extras of a generated package bring, by distribution and by module, and the compiler needs."""

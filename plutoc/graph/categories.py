@@ -56,7 +56,7 @@ def category(
                 value_errors.unknown_argument(source, argument.name, owner, list(_BY_NAME), given)
             )
             continue
-        value = typed(source, param.name, argument.value, param.type, found)
+        value = typed(source, param.name, argument.value, param.type, found, ours=True)
         if isinstance(value, float) and _is_possible(source, param, argument, value, found):
             values[param.name] = value
     firsts = {name.text: name for name in reversed(declared.can)}

@@ -170,7 +170,7 @@ def unknown_kind(
     fitting: Sequence[str],
     elsewhere: Sequence[str],
 ) -> Diagnostic:
-    """A block of a kind that does not exist; `fitting` are kinds that take what it is given."""
+    """A block of a kind that does not exist; `fitting` are similar ones, with what it is given."""
     where = f"`{package}` has no kind of block" if package else "there is no kind of block"
     return error(
         "P1012",

@@ -157,6 +157,8 @@ class Graph:
     version_span: Span | None = None
     """None where the source names none."""
     libraries: tuple[Library, ...] = ()
+    kinds: tuple[Block, ...] = ()
+    """What can be declared without a package's prefix: a check can say which one is missing."""
 
     @cached_property
     def node(self) -> dict[str, Node]:

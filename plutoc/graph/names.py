@@ -67,8 +67,8 @@ def reserved(name: str) -> str | None:
     return "what Python calls an object itself" if name == "self" else None
 
 
-def near(name: str, options: Iterable[str]) -> list[str]:
-    """Return what may have been meant, the nearest first; at most three."""
+def near(name: str, options: Iterable[str], most: int = 3) -> list[str]:
+    """Return what may have been meant, the nearest first."""
     possible = [each for each in options if abs(len(each) - len(name)) <= max(len(name), 3)]
     same = next((each for each in possible if _bare(each) == _bare(name)), None)
     if same is not None:
@@ -78,7 +78,9 @@ def near(name: str, options: Iterable[str]) -> list[str]:
         by_lower.setdefault(each.lower(), each)
     import difflib  # only for mistakes
 
-    return [by_lower[match] for match in difflib.get_close_matches(name.lower(), by_lower, 3, 0.65)]
+    return [
+        by_lower[match] for match in difflib.get_close_matches(name.lower(), by_lower, most, 0.65)
+    ]
 
 
 def _bare(name: str) -> str:

@@ -100,7 +100,7 @@ def _value(
         if param.required and not _slip(param.name, strange):
             _missing(place, declared, param.name, EXAMPLES[param.type])
         return param.default
-    value = typed(place.source, param.name, argument.value, param.type, place.found)
+    value = typed(place.source, param.name, argument.value, param.type, place.found, ours=True)
     if param.least is not None and isinstance(value, int | float) and value < param.least:
         rule = at_least(param.least, param.type)
         span = argument.value.span

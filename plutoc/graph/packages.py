@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from plutoc.block import Block, HookParam, Param
 from plutoc.diagnostic import Diagnostic
-from plutoc.graph import errors
+from plutoc.graph import errors, value_errors
+from plutoc.graph.names import near
 from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.registry import STD, Blocks, RegistryError
 from plutoc.source import Source
@@ -92,25 +93,42 @@ def find(
     kind = declared.kind
     if kind.text in kinds:
         return package, kinds[kind.text]
-    found.append(
-        errors.unknown_kind(
-            source,
-            kind,
-            package if declared.prefix else None,
-            list(kinds),
-            [name for name, block in kinds.items() if _fits(block, declared)],
-            _elsewhere(kind.text, packages),
-        )
-    )
+    elsewhere = _elsewhere(kind.text, packages)
+    fitting = [] if elsewhere else _meant(kind.text, kinds, declared)
+    owner = package if declared.prefix else None
+    found.append(errors.unknown_kind(source, kind, owner, list(kinds), fitting, elsewhere))
+    if fitting:
+        found.extend(_misspelt(source, kinds[fitting[0]], declared))
     return None
 
 
-def _fits(block: Block, declared: BlockDecl) -> bool:
-    """Return whether a declaration could be one of this block."""
+def _meant(name: str, kinds: Mapping[str, Block], declared: BlockDecl) -> list[str]:
+    """Return the kinds that were probably meant: what is given fits them, or nearly, or does not."""
+    similar = near(name, kinds, most=len(kinds))
+    fits = [[k for k in similar if _fits(kinds[k], declared, slips)] for slips in (False, True)]
+    return next(filter(None, [*fits, similar]), [])[:3]
+
+
+def _fits(block: Block, declared: BlockDecl, slips: bool) -> bool:
+    """Return whether a declaration could be one of this block, if need be with misspelt parameters."""
     given = {argument.name.text for argument in declared.arguments}
+    own = {param.name for param in block.params}
     passes = any(isinstance(param, HookParam) and param.passes for param in block.params)
     required = {p.name for p in block.params if isinstance(p, Param | HookParam) and p.required}
-    return required <= given and (passes or given <= {param.name for param in block.params})
+    if slips:
+        given = {next(iter(near(each, own - given)), each) for each in given - own} | given & own
+    return required <= given and (passes or given <= own)
+
+
+def _misspelt(source: Source, block: Block, declared: BlockDecl) -> list[Diagnostic]:
+    """Find misspelt parameters of the kind that was probably meant; others may be right in another."""
+    given = {argument.name.text: argument.name for argument in declared.arguments}
+    own = [param.name for param in block.params]
+    return [
+        value_errors.unknown_argument(source, name, f"`{block.name}`", own, given)
+        for text, name in given.items()
+        if text not in own and near(text, [each for each in own if each not in given])
+    ]
 
 
 def _elsewhere(kind: str, packages: Packages) -> list[str]:

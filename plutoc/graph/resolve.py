@@ -99,6 +99,7 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
         version=number.value if number else FIRST_VERSION,
         version_span=number.span if number else None,
         libraries=libraries(file, found),
+        kinds=tuple(kinds.values()),
     )
     if not bad_statements(file) and not any(d.severity is Severity.ERROR for d in found):
         # Else a mistake may be what keeps it from being used.

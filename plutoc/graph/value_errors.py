@@ -8,8 +8,8 @@ from plutoc.diagnostic import Diagnostic, Fix, Related, error
 from plutoc.graph.wording import a_kind, either, meant, there_are, unit_meant
 from plutoc.source import Source, Span
 from plutoc.syntax.texts import written_out
-from plutoc.syntax.tree import Name
-from plutoc_runtime.domain.quantities import Type, units_of
+from plutoc.syntax.tree import Name, Quantity
+from plutoc_runtime.domain.quantities import UNITS, Type, units_of
 
 
 def unknown_argument(
@@ -104,16 +104,44 @@ def missing_unit(source: Source, span: Span, name: str, kind: Type) -> Diagnosti
     )
 
 
-def wrong_dimension(source: Source, span: Span, name: str, given: Type, wanted: str) -> Diagnostic:
-    """A quantity of something else."""
-    mixed_up = given is Type.LENGTH and wanted == a_kind(Type.TIME)
+_MIXED_UP = {
+    ("m", Type.TIME): "min",
+    ("m", Type.SPEED): "m/s",
+    ("ms", Type.SPEED): "m/s",
+    ("km", Type.SPEED): "km/h",
+    ("ms", Type.LENGTH): "m",
+    ("km", Type.MASS): "kg",
+    ("C", Type.ANGLE): "deg",
+    ("deg", Type.TEMPERATURE): "C",
+}
+"""The unit that was probably meant by one that measures something else."""
+
+
+def wrong_dimension(
+    source: Source, name: str, value: Quantity, kind: Type, wanted: str, *, certain: bool
+) -> Diagnostic:
+    """A quantity of something else; `certain`: no other type can be meant for the parameter."""
+    given, units = UNITS[value.unit][0], units_of(kind)
+    number = source.quote(value.span).removesuffix(value.unit).rstrip()
+    likely = _MIXED_UP.get((value.unit, kind))
+    fix = None
+    if likely == "min":
+        help = f"write `{number} min`: `m` is the metre, never the minute"
+        if certain and value.value > 0:
+            fix = Fix(span=value.span, text=f"{number} min")
+    elif units:
+        question = f"did you mean `{number} {likely}`? " if likely else ""
+        help = f"{question}{a_kind(kind)} has the unit{'s' * (len(units) > 1)} {either(units)}"
+    else:
+        help = f"`{name}` has no unit"
     return error(
         "P1019",
         f"`{name}` takes {wanted}, and this is {a_kind(given)}",
         source,
-        span,
+        value.span,
         label=a_kind(given),
-        help="`m` is the metre; minutes are written `min`" if mixed_up else None,
+        help=help,
+        fix=fix,
     )
 
 

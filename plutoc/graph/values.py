@@ -39,9 +39,18 @@ EXAMPLES = {
 
 
 def typed(
-    source: Source, name: str, value: Value, kind: Type, found: list[Diagnostic]
+    source: Source,
+    name: str,
+    value: Value,
+    kind: Type,
+    found: list[Diagnostic],
+    *,
+    ours: bool = False,
 ) -> Plain | None:
-    """Return the value in SI units, or None where it is not of that type."""
+    """Return the value in SI units, or None where it is not of that type.
+
+    `ours`: the language says the type, and not the app, where the type itself may be the mistake.
+    """
     match value:
         case Number(value=number) if kind is Type.FLOAT:
             return float(number)
@@ -52,7 +61,7 @@ def typed(
         case Text(value=text) if kind is Type.TEXT:
             return text
         case Quantity():
-            return _quantity(source, name, value, kind, found)
+            return _quantity(source, name, value, kind, found, ours)
         case Number() if kind in QUANTITIES:
             found.append(value_errors.missing_unit(source, value.span, name, kind))
         case _:
@@ -65,16 +74,16 @@ def typed(
 
 
 def _quantity(
-    source: Source, name: str, value: Quantity, kind: Type, found: list[Diagnostic]
+    source: Source, name: str, value: Quantity, kind: Type, found: list[Diagnostic], ours: bool
 ) -> float | None:
     if value.unit not in UNITS:
         example = f"{name}: {EXAMPLES[kind]}"
         unknown = value_errors.unknown_unit(source, value.span, name, value.unit, kind, example)
         found.append(unknown)
         return None
-    given = UNITS[value.unit][0]
-    if given is not kind:
-        found.append(value_errors.wrong_dimension(source, value.span, name, given, wanted(kind)))
+    if UNITS[value.unit][0] is not kind:
+        what = wanted(kind)
+        found.append(value_errors.wrong_dimension(source, name, value, kind, what, certain=ours))
         return None
     si = to_si(value.value, value.unit)
     if kind is Type.PERCENT and not 0 <= si <= 1:

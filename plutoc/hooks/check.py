@@ -9,9 +9,12 @@ from plutoc.check.model import Checked
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.names import near
 from plutoc.hooks import errors
+from plutoc.hooks.annotations import Scope
+from plutoc.hooks.awaits import forgotten
 from plutoc.hooks.expected import Expected, expected, probes
 from plutoc.hooks.module import Function, Module, arg_span, name_span, read, waits, yields
 from plutoc.hooks.python import Unreadable, check_compiles
+from plutoc.hooks.returns import of_returns
 from plutoc.hooks.types import of_types
 from plutoc.source import Source
 
@@ -54,6 +57,7 @@ def _found(checked: Checked, hooks: Source) -> Iterator[Diagnostic]:
     for probe in probes(checked):
         if probe.name in module.defined:
             yield from _of_definition(checked, hooks, probe, module)
+    yield from forgotten(Scope(module=module, app=checked.graph.name), declared)
 
 
 def _left(hooks: Source) -> Iterator[Diagnostic]:
@@ -96,6 +100,7 @@ def _of_definition(
             yield wrong(at)
         mistakes = list(_of_parameters(at, definition))
         yield from mistakes or of_types(checked.graph, at, definition, module)
+        yield from of_returns(at, definition, Scope(module=module, app=checked.graph.name))
 
 
 def _of_parameters(at: errors.At, function: Function) -> Iterator[Diagnostic]:

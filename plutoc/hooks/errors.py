@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import zip_longest
 
-from plutoc.diagnostic import Diagnostic, Related, error, warning
+from plutoc.diagnostic import Diagnostic, Fix, Related, error, warning
 from plutoc.emit.lock import PROBE
 from plutoc.graph.wording import all_of, article
 from plutoc.hooks.expected import Expected
 from plutoc.source import Source, Span
+from plutoc_runtime.domain.status import Status
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -236,6 +237,56 @@ def left_over(app: Source, hooks: Source, span: Span, name: str, kind: str) -> D
         label="never called",
         help=f"delete it, or declare {'that action' if kind == PROBE else 'it'} in `{app.path}`"
         " again",
+    )
+
+
+def undeclared_return(at: At, said: str, emits: Sequence[str]) -> Diagnostic:
+    """A modifier that returns what it does not declare, so that its mission fails."""
+    declares = f"emits only {all_of(emits)}" if emits else "declares no `emits`"
+    what = "nothing" if said == "None" else f"`{said}`"
+    mend = "return one of these" + (
+        ", or write the other behind `emits` too" if said in Status.__members__ else ""
+    )
+    return error(
+        "P3019",
+        f"`{at.hook.name}` returns {what}, and {declares}",
+        at.hooks,
+        at.span,
+        label="fails its mission" if emits else "it must return nothing",
+        related=(Related(source=at.app, span=at.hook.span, label="declared here"),),
+        help=mend if emits else _NO_EMITS,
+    )
+
+
+_NO_EMITS = "return nothing, or say behind `emits` with which statuses it goes on"
+
+
+def forgotten_await(
+    hooks: Source,
+    span: Span,
+    called: str,
+    function: str,
+    fix: Fix | None,
+    *,
+    waits: bool,
+    may_wait: bool,
+) -> Diagnostic:
+    """A call that does nothing, as what it returns is not awaited."""
+    help = f"write `await {called}(…)`"
+    if not may_wait:
+        help = (
+            f"a policy answers at once, and cannot wait for anything: `{function}` must do without"
+        )
+    elif not waits:
+        help = f"`{function}` is a plain `def`: make it an `async def` first, then {help}"
+    return error(
+        "P3018",
+        f"`{function}` calls `{called}` without `await`, so it is not done",
+        hooks,
+        span,
+        label="only makes a coroutine, which is never run",
+        help=help,
+        fix=fix,
     )
 
 

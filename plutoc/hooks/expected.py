@@ -9,6 +9,7 @@ from plutoc.check.model import Checked
 from plutoc.emit.stubs import Stub, stubs
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
+from plutoc_runtime.domain.status import Status
 
 PASSED = {
     HookKind.ACTION: ("drone", "trip", "context"),
@@ -31,6 +32,8 @@ class Expected:
     """What it gets by name: the parameters that the app declares."""
     returns: str
     """The type of what it returns, `object` where that is free."""
+    emits: tuple[Status, ...] | None
+    """The statuses that a modifier declares; None for any other hook."""
     may_wait: bool
     """It may be an `async def`."""
     span: Span
@@ -70,6 +73,7 @@ def _probe(action: Action, name: str) -> Expected:
         passed=("drone", "trip"),
         own=(),
         returns="bool",
+        emits=None,
         may_wait=True,
         span=action.span,
         first_line=first_line,
@@ -86,6 +90,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
         passed=PASSED[kind],
         own=hook.parameters,
         returns=_returns(hook),
+        emits=_emits(hook),
         may_wait=kind is not HookKind.POLICY,
         span=hook.span,
         first_line=first_line,
@@ -99,3 +104,9 @@ def _returns(hook: Action | Hook) -> str:
     if hook.kind is HookKind.MODIFIER:
         return "Status" if hook.emits else "None"
     return "Verdict" if hook.kind is HookKind.EVALUATOR else "Drone"
+
+
+def _emits(hook: Action | Hook) -> tuple[Status, ...] | None:
+    if isinstance(hook, Action) or hook.kind is not HookKind.MODIFIER:
+        return None
+    return hook.emits

@@ -112,7 +112,7 @@ def arg_span(source: Source, arg: ast.arg) -> Span:
     return at(source, *_start(source, arg), len(arg.arg))
 
 
-def node_span(source: Source, node: ast.expr) -> Span:
+def node_span(source: Source, node: ast.expr | ast.Return) -> Span:
     """Return the place of an expression, or of its first line."""
     line, column = _start(source, node)
     text = source.line(line)
@@ -122,22 +122,22 @@ def node_span(source: Source, node: ast.expr) -> Span:
     return at(source, line, column, max(end - column, 1))
 
 
-def _start(source: Source, node: ast.expr | ast.arg) -> tuple[int, int]:
+def _start(source: Source, node: ast.expr | ast.arg | ast.Return) -> tuple[int, int]:
     return node.lineno, column_of(source.line(node.lineno), node.col_offset)
 
 
 def yields(function: Function) -> bool:
     """Return whether calling it gives a generator, and not what it returns."""
-    return any(isinstance(node, ast.Yield | ast.YieldFrom) for node in _own_nodes(function))
+    return any(isinstance(node, ast.Yield | ast.YieldFrom) for node in own_nodes(function))
 
 
 def waits(function: Function) -> ast.AST | None:
     """Return a place where it waits, if it does: `await`, `async for`, `async with`."""
     asynchronous = (ast.Await, ast.AsyncFor, ast.AsyncWith)
-    return next((node for node in _own_nodes(function) if isinstance(node, asynchronous)), None)
+    return next((node for node in own_nodes(function) if isinstance(node, asynchronous)), None)
 
 
-def _own_nodes(function: Function) -> Iterator[ast.AST]:
+def own_nodes(function: Function) -> Iterator[ast.AST]:
     """Go through a function's body without the functions in it."""
     waiting: list[ast.AST] = list(reversed(function.body))
     while waiting:

@@ -31,7 +31,7 @@ def changes_of(
     compiled: Compiled, folder: Path, *, asks_for_stubs: bool = False, force: bool = False
 ) -> Changes:
     """Say what would change. A hooks.py beside the app becomes the package's first one."""
-    path, package, asked = hooks_path(compiled.checked), compiled.package, dict[str, str]()
+    path, package, asked = hooks_path(compiled.checked.graph), compiled.package, dict[str, str]()
     if compiled.hooks is not None:
         if asks_for_stubs and (folder / path).is_file():
             asked[path] = compiled.hooks.text
@@ -41,8 +41,8 @@ def changes_of(
 
 def with_own_code(compiled: Compiled, file: Path) -> Package:
     """Return a package of which every file is ours to write, the developer's code included."""
-    package, path = compiled.package, hooks_path(compiled.checked)
-    texts = {**package.once, **_own_modules(default_folder(file, compiled.checked), package)}
+    package, path = compiled.package, hooks_path(compiled.checked.graph)
+    texts = {**package.once, **_own_modules(default_folder(file, compiled.checked.graph), package)}
     if compiled.hooks is not None:
         texts[path] = compiled.hooks.text
     return replace(package, owned={**package.owned, **texts}, once={})

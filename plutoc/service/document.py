@@ -21,7 +21,7 @@ from plutoc.syntax.parse import read
 from plutoc.syntax.tree import File
 from plutoc_runtime.domain.status import Status
 
-FindHooks = Callable[[Checked], Source | None]
+FindHooks = Callable[[Graph], Source | None]
 """Returns the hooks.py that counts for an app, if there is one."""
 
 _OF_HOOKS = frozenset({"hooks", "diagnostics"})
@@ -93,8 +93,8 @@ class Document:
 
     @cached_property
     def hooks(self) -> Source | None:
-        """The hooks.py that counts, if there is one; it can be told of a sound graph only."""
-        return None if self.checked is None else self.find_hooks(self.checked)
+        """The hooks.py that counts, if there is one: in whose package it is, any graph says."""
+        return self.find_hooks(self.graph)
 
     def with_hooks_anew(self) -> Document:
         """Return the same text, whose hooks.py is looked for once more."""

@@ -124,13 +124,19 @@ def too_deep(source: Source, span: Span, limit: int) -> Diagnostic:
 
 def unknown_version(source: Source, span: Span) -> Diagnostic:
     """A version of the language that this compiler does not know."""
+    number = source.quote(span)
+    is_newer = float(number) > 1
     return error(
         "P0008",
-        f"this compiler reads version 1 of the language, not {shortened(source.quote(span))}",
+        f"this compiler reads version 1 of the language, not {shortened(number)}",
         source,
         span,
         label="the language's version",
-        help="install a newer plutoc, or write `pluto 1`",
+        help=(
+            "install a newer plutoc, or write `pluto 1`"
+            if is_newer
+            else "write `pluto 1`: it is the language's version, and there is none before it"
+        ),
     )
 
 

@@ -46,6 +46,7 @@ _ADDABLE = {
 }
 """Tokens whose lack can be mended by writing them: the first that fits is proposed."""
 _CHOICES = frozenset({EQUAL, "_ARROW"})
+_JOINING = frozenset({"and", "or"})
 
 _OTHER_WORDS = {
     **dict.fromkeys(("if", "on", "where", "case"), "when"),
@@ -146,6 +147,9 @@ def _help(
 ) -> tuple[str | None, Fix | None]:
     """Say how to mend it, where that is clear."""
     token, first, rest = tokens[i], tokens[0], tokens[i + 1 :]
+    joined_by = _joined_by(state, tokens, i, accepts)
+    if joined_by:
+        return joined_by
     if token.type == NAME:
         word = _word(token, [word for word in WORDS if word.upper() in accepts])
         if word:
@@ -179,6 +183,25 @@ def _help(
     if token.type == "QUANTITY" and NAME in accepts:
         return "a name begins with a letter", None
     return _missing(state, tokens, i, accepts)
+
+
+def _joined_by(
+    state: State, tokens: Sequence[Token], i: int, accepts: set[str]
+) -> tuple[str, Fix | None] | None:
+    """Say that a list has commas, where a word joins its last two: `can spray and measure`."""
+    if "COMMA" not in accepts or i < 2:
+        return None
+    token, before, rest = tokens[i], tokens[i - 1], tokens[i + 1 :]
+    if token in _JOINING:
+        # of a fork's branches all are taken: with `or`, something else may be meant
+        forks = token == "or" and any(t.type == "_ARROW" for t in tokens[:i])
+        certain = not forks or any(t.type == "WHEN" for t in tokens[:i])
+        where = Span(span(before).end, span(token).end)
+        fix = _certain(state, [made_up("COMMA", ","), *rest], where, ",") if certain else None
+        return f"a list has commas: write `,` instead of `{token}`", fix
+    if before in _JOINING and tokens[i - 2].type == "COMMA":
+        return f"a list has commas only: remove `{before}`", None
+    return None
 
 
 def _missing(

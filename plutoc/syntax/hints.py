@@ -88,8 +88,6 @@ def _of_guards(tokens: Sequence[Token], i: int, accepts: set[str]) -> str | None
     if any(each.type in _GUARDED for each in tokens[:i]) and "COMMA" in accepts:
         if before == "not":
             return "name the statuses that are meant, or write `otherwise` for all the others"
-        if token in ("and", "or"):
-            return f"several statuses have a comma between them: write `,` instead of `{token}`"
         if token.type == EQUAL:
             return "only the names of statuses stand here, as in `when COMPLETED`"
         if token.type == ARROW:

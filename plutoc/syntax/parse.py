@@ -40,9 +40,10 @@ def read(source: Source) -> tuple[File, tuple[Diagnostic, ...]]:
         return build.empty(source), (errors.too_large(source, LARGEST),)
     tokens = _tokens(source.text)
     version = _other_version(source, tokens)
-    if version is not None:
+    if version is not None and version.fix is None:
         return build.empty(source), (version,)
-    found = [*_hidden_characters(source, tokens), *_wrong_escapes(source, tokens)]
+    found = [version] if version else []
+    found += [*_hidden_characters(source, tokens), *_wrong_escapes(source, tokens)]
     node = tree_of(tokens)
     if node is not None:
         return build.file(source, node), in_order(found)
@@ -87,8 +88,13 @@ def _wrong_escapes(source: Source, tokens: Sequence[Token]) -> Iterator[Diagnost
 
 
 def _other_version(source: Source, tokens: Sequence[Token]) -> Diagnostic | None:
-    """Refuse another version first: what else this compiler cannot read may be right in that one."""
+    """Refuse another version first: what else this compiler cannot read may be right in that one.
+
+    `1.0` is no other one: it is mended, and the rest is read.
+    """
     header = [token.type for token in tokens[:3]]
     if header in (["PLUTO", "NUMBER", NEWLINE], ["PLUTO", "NUMBER", END]) and tokens[1] != "1":
+        if float(tokens[1]) == 1:
+            return errors.wrong_header(source, span(tokens[0]).to(span(tokens[1])))
         return errors.unknown_version(source, span(tokens[1]))
     return None

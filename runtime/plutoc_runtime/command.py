@@ -115,7 +115,7 @@ def _checked(app: App, options: Any) -> int:
     from .alone.faults import Faults
     from .alone.files import load_fleet, load_missions
     from .alone.simulate import default_fleet, simulate
-    from .fleet.reach import problems
+    from .fleet.reach import idle_actions, problems
 
     beside = options.missions.parent / "fleet.toml"
     if options.fleet is None and os.path.lexists(beside):
@@ -127,6 +127,8 @@ def _checked(app: App, options: Any) -> int:
     if found := problems(app, missions, fleet, forever=forever):
         raise BadInput("\n".join(f"{options.missions}: {problem}" for problem in found[:50]))
     if options.command == "check":
+        for idle in idle_actions(app, fleet):
+            _tell(f"{printable(str(options.fleet or app.name))}: warning: {idle}")
         trips = counted(sum(len(mission.trips) for mission in missions), "trip")
         drones = counted(len(fleet.drones), "drone")
         print(f"{counted(len(missions), 'mission')} with {trips}: a fleet of {drones} can fly them")

@@ -148,6 +148,22 @@ def test_check_says_what_no_drone_can_fly(
     assert why in capsys.readouterr().err
 
 
+def test_check_warns_of_what_no_drone_of_the_fleet_can_do(
+    run: Run, missions: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Only an evaluator may add such a trip later; with the library it says the same."""
+    fleet = missions.with_name("scouts.toml")
+    fleet.write_text('[[drone]]\nid = "one"\ncategory = "scout"\nhome = [1, 1]\n')
+    missions.write_text('[[mission]]\n[[mission.trip]]\naction = "measure"\ntarget = [6, 3]\n')
+    words = ["check", str(missions), "--fleet", str(fleet)]
+    code, out, err = run(*words)
+    assert (code, out) == (0, "1 mission with 1 trip: a fleet of 1 drone can fly them\n")
+    assert f"{fleet}: warning: no drone of the fleet can pollinate: it has no carrier\n" in err
+    assert with_library(APP, words) == 0
+    assert capsys.readouterr() == (out, err)
+    assert "warning" not in run("simulate", *words[1:])[2]
+
+
 MORE = """
 [[mission]]
 name = "heavy"

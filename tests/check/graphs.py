@@ -84,6 +84,7 @@ def build(text: str, title: str = "") -> Graph:
         hooks=tuple(node.hook for node in nodes.values() if node.hook),
         nodes=tuple(nodes.values()),
         edges=tuple(edges),
+        kinds=BLOCKS,
     )
 
 

@@ -23,7 +23,7 @@ def test_alone_it_prints_the_help_and_is_wrong_usage(plutoc: Call) -> None:
 
 
 @pytest.mark.parametrize(
-    "command", ["new", "check", "compile", "run", "fmt", "graph", "blocks", "explain"]
+    "command", ["new", "check", "compile", "watch", "run", "fmt", "graph", "blocks", "explain"]
 )
 def test_every_command_has_help(plutoc: Call, command: str) -> None:
     """`--help` ends with 0."""

@@ -194,6 +194,9 @@ def test_no_app_has_the_name_of_what_its_extras_bring() -> None:
         (ROOT / "runtime/pyproject.toml").read_text("utf-8"),  # which the first one's extras bring
     )
     extras = [tomllib.loads(text)["project"]["optional-dependencies"] for text in projects]
+    compiler = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    of_compiler = compiler["optional-dependencies"]
+    extras.append({name: of_compiler[name] for name in ("completion", "editor")})
     needed = [one for some in extras for extra in some.values() for one in extra]
     names = {_normal(re.split(r"[<>=\[]", one)[0]) for one in needed}
     assert {"starlette", "uvicorn", "websockets", "matplotlib", "cflib", "pytest"} <= names

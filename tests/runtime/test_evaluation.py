@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from pluto_fleet.files.toml import toml_text
+from pluto_fleet.shared.alone import files
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Mission, Results
 from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Verdict
 from tests.runtime import apps
+from tests.runtime.files import an_app
 
 
 def judged(hook: object, *trips: apps.Trip, **more: Any) -> apps.SimulationResult:
@@ -103,7 +110,7 @@ def test_a_mission_may_choose_another_of_the_apps_evaluators() -> None:
         (Verdict(add=(apps.pick("B", 9.0),)), "pick and release cannot be added"),
         (
             Verdict(add=(apps.trip("B", 9.0, parameters={"x": 1}),)),
-            "take_photo has no parameter 'x'",
+            'trip B: take_photo has no parameters, and "x" is given',
         ),
     ],
 )
@@ -111,6 +118,72 @@ def test_a_verdict_that_cannot_be_followed_fails_the_mission(returned: object, s
     (mission,) = judged(lambda mission, results: returned).missions
     assert mission.status is Status.FAILED
     assert says in mission.reason
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"dose": "3 m"}, 'dose "3 m" is a length, not a mass: it takes mg, g, kg'),
+        ({"dose": "much"}, 'dose "much" is not a mass: write a number and a unit (mg, g, kg)'),
+        ({"dose": True}, "dose true is not a mass: write a number, or a text with a unit"),
+        ({"dose": float("inf")}, "dose inf is not a finite number"),
+        ({"dose": 1, "strokes": 2.5}, "strokes 2.5 is not a whole number"),
+        ({"dose": 1, "gently": 1}, "gently 1 is neither true nor false"),
+        ({"dose": 1, "note": 1}, "note 1 is not a text: put it in quotes"),
+        ({"dose": 1, "doze": 1}, 'unknown parameter "doze"; there may be: dose, '),
+        ({}, "pollinate needs the parameter dose"),
+        # such as no missions file can have
+        ({"dose": 1, 3: 1}, 'unknown parameter "3"; there may be: dose, '),
+        ({"dose": [1]}, "its parameter 'dose' must be a number or a text, not [1]"),
+    ],
+)
+def test_a_trips_parameters_are_checked_as_those_of_a_missions_file(
+    tmp_path: Path, given: Any, says: str
+) -> None:
+    """With the same sentence; the evaluator and the trip are named."""
+    outcome = judged_with_parameters(given)
+    (mission,) = outcome.missions
+    adds = "evaluator adds adds a trip that cannot be flown: trip bloom: "
+    assert mission.status is Status.FAILED
+    assert mission.reason.startswith(adds + says)
+    if all(isinstance(name, str) and type(value) is not list for name, value in given.items()):
+        path = tmp_path / "missions.toml"
+        trip = {"action": "pollinate", "target": [2, 2], "parameters": given}
+        path.write_text(toml_text({"mission": [{"trip": [trip]}]}), "utf-8")
+        with pytest.raises(BadInput) as said:
+            files.load_missions(path, an_app.APP, Airspace())
+        told = f"{path}: mission 1, trip 1, parameters: {mission.reason.removeprefix(adds)}"
+        assert str(said.value) == told
+
+
+def test_a_parameter_with_a_unit_is_read_as_in_a_missions_file() -> None:
+    """What is a number already stays as it was given."""
+    outcome = judged_with_parameters({"strokes": 3, "note": "3 m", "dose": "50 mg", "force": 2})
+    (mission,) = outcome.missions
+    assert mission.status is Status.COMPLETED
+    flown = {**mission.completed_trips[1].parameters}
+    assert {name: flown[name] for name in ("strokes", "note", "dose", "force")} == {
+        "strokes": 3,
+        "note": "3 m",
+        "dose": 5e-05,
+        "force": 2,
+    }
+    assert type(flown["force"]) is int
+
+
+def judged_with_parameters(given: Any) -> apps.SimulationResult:
+    """Fly a mission to which its evaluator adds a trip with these parameters."""
+
+    def adds(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
+        bloom = apps.trip("bloom", 4.0, action="pollinate", parameters=given)
+        return Verdict(add=() if len(mission.completed_trips) > 1 else (bloom,))
+
+    declared = an_app.APP.actions["pollinate"].parameters
+    pollinate = OwnAction(name="pollinate", parameters=declared, hook=lambda *_, **__: None)
+    return apps.fly(
+        apps.app(apps.flow(evaluator=adds), actions=[pollinate]),
+        apps.mission("m", apps.trip("A", 3.0)),
+    )
 
 
 def test_an_evaluator_that_raises_fails_its_mission_and_no_other() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -79,6 +80,32 @@ def test_a_status_that_cannot_be_fails_the_mission(hook: object, says: str) -> N
     assert mission.status is Status.FAILED
     assert says in mission.reason
     assert outcome.drones[0].status.value == "FREE", "its drone was called home"
+
+
+@pytest.mark.parametrize(
+    ("emits", "returned", "says"),
+    [
+        (ANY_END, Status.RUNNING, "must return one of STANDBY, COMPLETED, FAILED, not RUNNING"),
+        (ANY_END, "done", "must return one of STANDBY, COMPLETED, FAILED, not 'done'"),
+        ((), Status.FAILED, "declares no `emits` and so must return nothing, not FAILED"),
+        (ANY_END, Status.FAILED, ""),
+        ((), None, ""),
+    ],
+)
+def test_what_a_modifier_returns_is_told_also_where_another_branch_was_faster(
+    emits: tuple[Status, ...], returned: object, says: str
+) -> None:
+    """The mission goes on with the branch that won: the trip's own end, which called the hook off."""
+
+    async def returns_when_called_off(mission: Mission[apps.Trip], context: Context) -> object:
+        with suppress(BaseException):
+            await context.trip_ended(mission.current, within=1e6)
+        return returned
+
+    watch = apps.modified(returns_when_called_off, *emits)
+    outcome = apps.fly(apps.app(apps.flow(watch=watch)), apps.mission("m", apps.trip("A", 2.0)))
+    assert outcome.completed
+    assert outcome.log == ([f"modifier returns_when_called_off {says}"] if says else [])
 
 
 def test_a_modifier_may_fail_a_mission_that_does_not_fly_and_the_reason_says_so() -> None:

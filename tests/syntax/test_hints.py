@@ -23,7 +23,7 @@ SAID = [
     ("category a can [x, y]", "the names behind `can` stand there without brackets"),
     (
         "a -> b when FAILED or STANDBY",
-        "several statuses have a comma between them: write `,` instead of `or`",
+        "a list has commas: write `,` instead of `or`",
     ),
     (
         "a -> b when not FAILED",

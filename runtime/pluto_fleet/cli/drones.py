@@ -11,7 +11,6 @@ from ..crazyflie.driver import require
 from ..files.drones import which
 from ..files.errors import near
 from ..files.fleet import CRAZYFLIE, load_fleet, navigation_of, not_real, options_of
-from ..files.reading import shortened
 from ..journal.place import folder_of
 from ..report.report import table
 from ..shared import output
@@ -68,9 +67,8 @@ def _refuse_what_does_not_go_together(options: Command) -> None:
 def _fleet(app: App, path: Path) -> FleetFile:
     """Return the fleet, if its file has what is needed to reach the drones."""
     fleet = load_fleet(path, app)
-    problems = not_real(fleet)
-    if problems:
-        raise BadInput(shortened([f"{path}: {sentence}" for sentence in problems]))
+    if problem := not_real(fleet):
+        raise BadInput(f"{path}: {problem}")
     return fleet
 
 

@@ -28,7 +28,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, number
 from ..shared.fleet.reach import CLIMB_SPEED
 from .plans import load
-from .preflight import check_real, made
+from .preflight import OR_SIMULATED, check_real, made
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -87,7 +87,8 @@ def _refused(app: App, options: Options, plan: LoadedPlan) -> Iterator[str]:
     """Yield the known reasons why `fly` would not begin, or not fly some drone."""
     try:
         where = str(options.fleet or app.name)
-        check_real(app, plan.fleet, where, stand_ins=options.crtp_sim is not None)
+        sim = options.crtp_sim is not None
+        check_real(app, plan.fleet, where, stand_ins=sim, instead=OR_SIMULATED)
     except BadInput as error:
         yield f"{app.name} fly would not begin:\n{error}"
         return

@@ -36,7 +36,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.text import printable
 from .interrupts import Interrupts
 from .plans import load
-from .preflight import check_real
+from .preflight import OR_SIMULATED, check_real
 from .shutdown import run as run_until_complete
 from .supervise import STOPS, Supervised, supervise
 
@@ -55,7 +55,8 @@ def fly(app: App, options: Options) -> int:
     plan = load(app, options)
     if options.is_real:
         where = str(options.fleet or app.name)
-        check_real(app, plan.fleet, where, stand_ins=options.crtp_sim is not None)
+        sim = options.crtp_sim is not None
+        check_real(app, plan.fleet, where, stand_ins=sim, instead=OR_SIMULATED)
     journal = options.journal or place.new(app.name, time.time())
     if os.path.lexists(journal):
         raise exists(journal)

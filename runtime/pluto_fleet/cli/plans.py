@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 from ..files.crtp_fleet import fleet_from, missing_categories
 from ..files.fleet import FleetFile, as_flown, fleet_of, too_fast
 from ..files.missions import missions_of
-from ..files.plan_check import endless, idle_actions, look_alikes, problems
+from ..files.plan_check import endless, look_alikes, problems
 from ..files.reading import parsed, shortened, text_of
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, printable
+from ..shared.fleet.reach import idle_actions
 
 if TYPE_CHECKING:
     from ..app import App

@@ -22,14 +22,19 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
 
 
-def check_real(app: App, fleet: FleetFile, where: str, *, stand_ins: bool) -> None:
+OR_SIMULATED = "; or fly simulated drones: add --sim"
+
+
+def check_real(
+    app: App, fleet: FleetFile, where: str, *, stand_ins: bool, instead: str = ""
+) -> None:
     """Raise `BadInput` if this fleet cannot be flown from here; nothing is started.
 
-    `where` names its file, in messages. Navigations are created, but not connected.
+    `where` names its file, in messages; `instead` says what could be flown. Navigations are created,
+    but not connected.
     """
-    problems = [] if stand_ins else not_real(fleet)
-    if problems:
-        raise BadInput(shortened([f"{where}: {sentence}" for sentence in problems]))
+    if not stand_ins and (problem := not_real(fleet)):
+        raise BadInput(f"{where}: {problem}{instead}")
     names = dict.fromkeys(navigation_of(fleet, drone) for drone in fleet.drones)
     if CRAZYFLIE in names:
         require()

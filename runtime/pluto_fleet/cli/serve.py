@@ -32,7 +32,7 @@ from ..station.web.listening import address, listening, port_of
 from ..station.web.static import floor_plan
 from .interrupts import Interrupts
 from .plans import load_fleet
-from .preflight import check_real
+from .preflight import OR_SIMULATED, check_real
 from .shutdown import run
 from .supervise import Supervised, supervise
 
@@ -54,7 +54,8 @@ def serve(app: App, options: Options) -> int:
     config = _config(app, options)
     if options.is_real:
         where = str(options.fleet or app.name)
-        check_real(app, config.fleet, where, stand_ins=options.crtp_sim is not None)
+        sim = options.crtp_sim is not None
+        check_real(app, config.fleet, where, stand_ins=sim, instead=OR_SIMULATED)
         app = as_flown(app, config.fleet)
     _make_room(config)
     if options.supervise:

@@ -129,11 +129,23 @@ def no_fleet_file() -> str:
     )
 
 
-def no_uri(drone: str, line: int | None) -> str:
-    where = f" (line {line})" if line else ""
+_NAMED = 10
+"""Of more drones than these it is said how many they are."""
+
+
+def no_uri(drones: Sequence[tuple[str, int | None]]) -> str:
+    named = [
+        f"{quoted(drone)} (line {line})" if line else quoted(drone)
+        for drone, line in drones[:_NAMED]
+    ]
+    more = len(drones) - len(named)
+    *first, last = [*named, f"{more} more"] if more else named
+    which = f"{', '.join(first)} and {last}" if first else last
+    one = len(drones) == 1
     return (
-        f"drone {quoted(drone)}{where} has no uri: where is it reached?"
-        ' Such as uri = "radio://0/80/2M/E7E7E7E7E7"'
+        f"{'drone' if one else 'drones'} {which} {'has' if one else 'have'} no uri, where a real drone"
+        f' is reached: add {"one" if one else "one to each"}, such as'
+        ' uri = "radio://0/80/2M/E7E7E7E7E7"'
     )
 
 

@@ -240,15 +240,16 @@ def options_of(fleet: FleetFile, drone: DroneEntry) -> Options:
     return {**fleet.options.get(navigation_of(fleet, drone), {}), **drone.options}
 
 
-def not_real(fleet: FleetFile) -> list[str]:
-    """Return why this fleet cannot be flown with real drones, a sentence for each reason."""
+def not_real(fleet: FleetFile) -> str | None:
+    """Return why this fleet cannot be flown with real drones, if it cannot."""
     if all(drone.line is None for drone in fleet.drones):
-        return [errors.no_fleet_file()]
-    return [
-        errors.no_uri(drone.id, drone.line)
+        return errors.no_fleet_file()
+    lost = [
+        (drone.id, drone.line)
         for drone in fleet.drones
         if drone.uri is None and navigation_of(fleet, drone) == CRAZYFLIE
     ]
+    return errors.no_uri(lost) if lost else None
 
 
 def too_fast(app: App, fleet: FleetFile) -> list[str]:

@@ -9,7 +9,6 @@ from math import dist
 from typing import TYPE_CHECKING, Any
 from unicodedata import normalize
 
-from ..shared.domain.actions import BUILT_IN
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.text import quoted
 from ..shared.fleet.reach import Lacks, Miss, chain_of, miss_of
@@ -71,21 +70,6 @@ def unflyable(
             if misses is not None:
                 reason = _cannot(_nearest(misses, asked))
                 found.append(Unflyable(mission=mission, trips=chain, reason=reason))
-    return found
-
-
-def idle_actions(app: App, fleet: FleetFile) -> list[str]:
-    """Return a sentence for each action of the app that no drone of the fleet can do.
-
-    This is not an error: the missions may not need it, but the next one may.
-    """
-    there = {drone.category for drone in fleet.drones}
-    found = []
-    for action in app.actions:
-        able = [category.name for category in app.categories if category.can(action)]
-        if there.isdisjoint(able) and (able or action not in BUILT_IN):
-            who = f"it has no {' and no '.join(able)}" if able else "no category of the app can"
-            found.append(f"no drone of the fleet can {action}: {who}")
     return found
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import os
 from collections.abc import Callable, Coroutine, Generator
 from contextlib import suppress
 from functools import lru_cache, partial
@@ -13,9 +12,9 @@ from threading import Thread
 from types import CodeType, CoroutineType, coroutine
 from typing import Any, NoReturn, TypeVar, cast
 
+from ..shared.domain.awaited import all_awaited
 from ..shared.domain.errors import ANY_ERROR
 from ..shared.domain.guard import as_a_fault, guarded
-from .forked import end_if_forked
 from .signal_guard import by_a_person
 
 T = TypeVar("T")
@@ -44,7 +43,7 @@ def end_at_once(call: Callable[[], object]) -> End:
     """
     try:
         hook = cast("Coroutine[Any, Any, object]", guarded(call))
-        guarded(partial(hook.send, None))
+        all_awaited(partial(hook.send, None))
     except StopIteration as end:
         returned: object = end.value
         return lambda: returned
@@ -68,16 +67,12 @@ async def _in_thread(call: Callable[[], object]) -> object:
         with suppress(RuntimeError):  # the loop is closed: the answer is not needed any more
             loop.call_soon_threadsafe(finish, end)
 
-    parent = os.getpid()
-
     def work() -> None:
         try:
-            returned = call()
+            returned = all_awaited(call)
         except ANY_ERROR as error:
-            end_if_forked(parent, error)
             tell(partial(_raise, error))
         else:
-            end_if_forked(parent)
             tell(lambda: returned)
 
     Thread(target=work, name="hook", daemon=True).start()
@@ -94,10 +89,13 @@ def _alone(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
     step: Callable[[], object] = partial(hook.send, None)
     while True:
         try:
-            waits_for = guarded(step)
+            waits_for = all_awaited(step)
         except StopIteration as end:
             returned: T = end.value
             return returned
+        except BaseException:
+            guarded(hook.close)  # it may wait: what it does not await is told at once
+            raise
         try:
             step = partial(hook.send, (yield waits_for))
         except ANY_ERROR as error:  # raised in the hook

@@ -16,13 +16,14 @@ from ..files.fleet import FleetFile, default_fleet, load_fleet
 from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions
 from ..files.missions_text import missions_text
-from ..files.plan_check import idle_actions, problems
+from ..files.plan_check import problems
 from ..report.progress import trial_progress
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.text import counted
 from ..shared.domain.trace import dumped
+from ..shared.fleet.reach import idle_actions
 from .case import FAIR, Case
 from .explore import Finding, Tally, everywhere, explored, random_case, small_case
 from .lives import tried

@@ -78,9 +78,7 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
     return missions
 
 
-def _table(
-    data: Any, who: str, schema: str, lacks: str = "has no", what: str = "key", /, **kinds: Read
-) -> dict[str, Any]:
+def _table(data: Any, who: str, schema: str, /, **kinds: Read) -> dict[str, Any]:
     """Return the values of a table: `key:kind` for each, with `?` if it may be missing.
 
     A kind is one of these, or a reader in `values`; any other is read elsewhere, or never.
@@ -91,10 +89,10 @@ def _table(
     for key in data:
         if key not in keys:
             there_are = ", ".join(keys) or "none"
-            raise BadInput(f"{who}: unknown {what} {quoted(key)}; there may be: {there_are}")
+            raise BadInput(f"{who}: unknown key {quoted(key)}; there may be: {there_are}")
     for key, kind in keys.items():
         if key not in data and not kind.endswith("?"):
-            raise BadInput(f"{who}: {lacks} {key}")
+            raise BadInput(f"{who}: has no {key}")
         name = kind.rstrip("?")
         if key in data and (read := kinds.get(name) or getattr(values, name, None)):
             found[key] = _read(data, who, key, read)
@@ -185,14 +183,12 @@ def _trips(mission: dict[str, Any], who: str, app: App, airspace: Airspace) -> l
 
 
 def _parameters(data: Any, who: str, action: Action) -> dict[str, Any]:
-    known = {one.name: one.default for one in action.parameters}
-    if isinstance(data, dict) and data and not known:
-        there_is = f"{action.name} has no parameters, and {quoted(next(iter(data)))} is given"
-        raise BadInput(f"{who}: {there_is}")
-    schema = " ".join(f"{name}:{name}{'?' * (known[name] is not None)}" for name in known)
-    kinds = {one.name: values.PARAMETER[one.type] for one in action.parameters}
-    lacks = f"{action.name} needs the parameter"
-    return {**known, **_table(data, f"{who}, parameters", schema, lacks, "parameter", **kinds)}
+    if not isinstance(data, dict):
+        raise BadInput(f"{who}, parameters is not a table: write [parameters]")
+    try:
+        return values.parameters(action, data)
+    except ValueError as error:
+        raise BadInput(f"{who}, parameters: {error}") from None
 
 
 def _item(data: Any, who: str, action: str) -> Item | None:

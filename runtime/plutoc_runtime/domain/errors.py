@@ -56,6 +56,9 @@ class HookFault(MissionFailed):
 class Cancelled(BaseException):
     """Raised in a coroutine that is cancelled."""
 
+    returned: object = None
+    """What a hook has returned nevertheless."""
+
 
 ANY_ERROR: tuple[type[BaseException], ...] = (BaseException,)
 """Catches everything with which a coroutine or a hook may end, to pass it on to its waiters."""

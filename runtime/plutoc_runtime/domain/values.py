@@ -7,7 +7,7 @@ Numbers have limits, so that nothing that is computed from them divides by zero 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date, time
 from math import dist, isfinite
@@ -21,6 +21,7 @@ from .quantities import QUANTITIES, UNITS, Type, parse_quantity, units_of
 from .text import number, quoted
 
 if TYPE_CHECKING:
+    from .actions import Action
     from .airspace import Corner
     from .model import Item, Point, Trip
 
@@ -166,6 +167,26 @@ PARAMETER: dict[Type, Read] = {
     **{kind: Quantity(kind) for kind in QUANTITIES},
 }
 """How an action's parameter is read."""
+
+
+def parameters(action: Action, given: Mapping[str, object]) -> dict[str, Any]:
+    """Read an action's parameters, defaults included; raise `ValueError` with what is wrong."""
+    found: dict[str, Any] = {one.name: one.default for one in action.parameters}
+    for name in given:
+        if not found:
+            raise ValueError(f"{action.name} has no parameters, and {quoted(name)} is given")
+        if name not in found:
+            raise ValueError(f"unknown parameter {quoted(name)}; there may be: {', '.join(found)}")
+    for one in action.parameters:
+        try:
+            if one.name in given:
+                found[one.name] = PARAMETER[one.type](given[one.name])
+        except ValueError as error:
+            raise ValueError(f"{one.name} {shown(given[one.name])} {error}") from None
+        if found[one.name] is None:
+            raise ValueError(f"{action.name} needs the parameter {one.name}")
+    return found
+
 
 FIELD: dict[FieldType, Read] = {
     FieldType.TIME: TIME,

@@ -6,8 +6,9 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..domain.awaited import all_awaited
 from ..domain.errors import HookFault
-from ..domain.guard import guarded, unless_by_a_person
+from ..domain.guard import unless_by_a_person
 from ..domain.model import Drone
 from ..domain.text import class_of, said
 from ..hooks.calls import hook_name, trace_of
@@ -26,7 +27,7 @@ def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne
             return None
         name = hook_name(hook)
         try:
-            drone = guarded(partial(hook, trip, candidates))
+            drone = all_awaited(partial(hook, trip, candidates))
         except BaseException as error:
             unless_by_a_person(error)
             raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error

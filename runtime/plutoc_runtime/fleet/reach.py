@@ -11,7 +11,7 @@ from enum import IntEnum
 from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..domain.actions import PICK, RELEASE
+from ..domain.actions import BUILT_IN, PICK, RELEASE
 from ..domain.fields import FieldType
 from ..domain.text import mass, percent, place, quoted
 
@@ -209,6 +209,17 @@ def problems(
         if not forever and any(getattr(mission, name, None) is True for name in rounds):
             why = "repeats until it is stopped: say when with --until, such as --until 2h"
             found.append(f"mission {quoted(mission.name)} {why}")
+    return found
+
+
+def idle_actions(app: App, fleet: FleetData) -> list[str]:
+    """Return a sentence for each action that no drone can do; these missions may not need it."""
+    there, found = {drone.category for drone in fleet.drones}, list[str]()
+    for action in app.actions:
+        able = [category.name for category in app.categories if category.can(action)]
+        if there.isdisjoint(able) and (able or action not in BUILT_IN):
+            who = f"it has no {' and no '.join(able)}" if able else "no category of the app can"
+            found.append(f"no drone of the fleet can {action}: {who}")
     return found
 
 

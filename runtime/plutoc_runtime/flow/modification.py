@@ -51,14 +51,10 @@ async def settle(
         raise HookFault(f"{name} {wrong}")
     if run.core.on_record is None:  # else it has looked already
         look(hook, partial(_note_change, run.core, before), run.mission)
-    if not emits:
-        if returned is not None:
-            nothing = f"so must return nothing, not {_shown(returned)}"
-            raise HookFault(f"{name} declares no `emits` and {nothing}")
+    if (wrong := undeclared(hook, emits, returned)) is not None:
+        raise HookFault(wrong)
+    if type(returned) is not Status:
         return status
-    if type(returned) is not Status or returned not in emits:
-        declared = ", ".join(status.value for status in emits)
-        raise HookFault(f"{name} must return one of {declared}, not {_shown(returned)}")
     lie = _contradiction(run.state, returned)
     if lie is not None:
         raise HookFault(f"{name} returned {returned.value}, but {lie}")
@@ -74,6 +70,19 @@ async def settle(
     return returned
 
 
+def undeclared(
+    hook: Callable[..., object], emits: tuple[Status, ...], returned: object
+) -> str | None:
+    """Return what is wrong with what a modifier returned, or None."""
+    name = f"modifier {hook_name(hook)}"
+    if not emits and returned is not None:
+        return f"{name} declares no `emits` and so must return nothing, not {_shown(returned)}"
+    if emits and (type(returned) is not Status or returned not in emits):
+        declared = ", ".join(status.value for status in emits)
+        return f"{name} must return one of {declared}, not {_shown(returned)}"
+    return None
+
+
 def _wrong_trips(run: Run[Any]) -> str | None:
     """Return what the modifier did to the trips so that they cannot be flown, or None."""
     mission, flying = run.mission, run.state.in_flight
@@ -82,14 +91,13 @@ def _wrong_trips(run: Run[Any]) -> str | None:
     if flying is not None and (not mission.trips or mission.trips[0] is not flying.trip):
         return f"took trip {flying.trip.name}, which is flying, from its place"
     seen: set[int] = set()
-    for number, trip in enumerate(mission.trips, start=1):
+    for trip in mission.trips:
         problem = unsound(run.core.app, run.core.airspace, trip)
         if problem is None and id(trip) in seen:
-            problem = "it is in the list twice"
-        seen.add(id(trip))
+            problem = f"trip {trip.name}: it is in the list twice"
         if problem is not None:
-            called = trip.name if type(getattr(trip, "name", None)) is str else number
-            return f"left a trip that cannot be flown, {called}: {problem}"
+            return f"left a trip that cannot be flown: {problem}"
+        seen.add(id(trip))
     return None
 
 

@@ -7,7 +7,8 @@ from functools import partial
 from types import CoroutineType, coroutine
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from ..domain.errors import ANY_ERROR, ActionFailed, HookFault
+from ..domain.awaited import all_awaited
+from ..domain.errors import ANY_ERROR, ActionFailed, Cancelled, HookFault
 from ..domain.guard import by_a_person, guarded, unless_by_a_person
 from ..domain.text import LONGEST_LOG, LONGEST_REASON, bounded, said, text_of
 from ..time.future import Future
@@ -25,7 +26,7 @@ async def call_hook(kernel: ToldTime, hook: Hook, /, *args: object, **named: obj
     """Call one of the app's hooks, `def` or `async def`, and return its result."""
     runner, call = kernel.runner, partial(hook, *args, **named)
     if runner is None:
-        return await _finished(guarded(call))
+        return await _finished(all_awaited(call))
     kernel.calls = number = kernel.calls + 1
     if not runner.start(number, hook, call):
         ended = kernel.hooks[number] = Future[None]()
@@ -69,10 +70,13 @@ def _run_cancellable(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
     step: Callable[[], object] = partial(hook.send, None)
     while True:
         try:
-            waits_for = guarded(step)
+            waits_for = all_awaited(step)
         except StopIteration as end:
             returned: T = end.value
             return returned
+        except BaseException:
+            guarded(hook.close)  # it may wait: what it does not await is told at once
+            raise
         try:
             yield waits_for
             step = partial(hook.send, None)
@@ -85,6 +89,8 @@ def _run_cancellable(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
                 except ANY_ERROR as its_own:  # its result is not wanted any more
                     if by_a_person(its_own):
                         raise
+                    if type(its_own) is StopIteration and type(error) is Cancelled:
+                        error.returned = its_own.value
             raise
 
 

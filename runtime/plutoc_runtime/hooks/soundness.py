@@ -11,6 +11,7 @@ from ..domain.guard import unless_by_a_person
 from ..domain.model import Item
 from ..domain.status import Status, TripStatus
 from ..domain.text import class_of, said, shown
+from ..domain.values import parameters
 from .plain_data import keepable
 
 if TYPE_CHECKING:
@@ -36,11 +37,17 @@ def _of_any_class(check: Callable[P, str | None]) -> Callable[P, str | None]:
 
 @_of_any_class
 def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
-    """Return what is wrong with a trip, or None; a point without a height gets the map's default."""
+    """Return what is wrong with a trip, or None.
+
+    A point without a height gets the map's default, and a parameter with a unit is read.
+    """
     if not issubclass(type(trip), app.trip):
         return f"it must be a Trip of this app, not {class_of(trip)}"
     found = cast("Trip", trip)
-    return _wrong_facts(found, _TRIP) or _wrong_action(app, found) or _wrong_place(airspace, found)
+    if (wrong := _wrong_facts(found, _TRIP)) is not None:
+        return wrong
+    wrong = _wrong_action(app, found) or _wrong_place(airspace, found)
+    return wrong and f"trip {found.name}: {wrong}"
 
 
 @_of_any_class
@@ -92,15 +99,17 @@ def _wrong_action(app: App, trip: Trip) -> str | None:
         return f"there is no action {trip.action!r}"
     if not isinstance(trip.parameters, Mapping):
         return f"its parameters must be a dict, not {class_of(trip.parameters)}"
-    known = {parameter.name: parameter.default for parameter in action.parameters}
-    for given, value in dict(trip.parameters).items() if trip.parameters else ():
-        if type(given) is not str or given not in known:
-            return f"{trip.action} has no parameter {shown(given)}"
+    given = dict(trip.parameters) if trip.parameters else {}
+    for name, value in given.items():
         if type(value) not in (bool, int, float, str) or value != keepable(value):
-            return f"its parameter {given} must be a number or a text, not {shown(value)}"
-    for name, default in known.items():
-        if default is None and name not in trip.parameters:
-            return f"{trip.action} needs the parameter {name!r}"
+            return f"its parameter {shown(name)} must be a number or a text, not {shown(value)}"
+    try:
+        read = parameters(action, {n if type(n) is str else shown(n): v for n, v in given.items()})
+    except ValueError as error:
+        return str(error)
+    plain = {name: read[name] if type(value) is str else value for name, value in given.items()}
+    if plain != given:  # "50 mg", as in a missions file
+        trip.parameters = plain
     return None
 
 

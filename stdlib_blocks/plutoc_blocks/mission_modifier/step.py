@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime.domain.errors import Cancelled
 from plutoc_runtime.flow.asking import ask
-from plutoc_runtime.flow.modification import context_of, open_trips, settle
+from plutoc_runtime.flow.modification import context_of, open_trips, settle, undeclared
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -22,5 +23,10 @@ async def modify_mission(
 ) -> Status:
     """Call the hook, and go on with the status that it returns."""
     before = open_trips(run.mission)
-    returned = await ask(run, hook, run.mission, context_of(run))
+    try:
+        returned = await ask(run, hook, run.mission, context_of(run))
+    except Cancelled as off:  # another branch was faster
+        if off.returned is not None and (wrong := undeclared(hook, emits, off.returned)):
+            run.core.log(wrong, run.mission.name)
+        raise
     return await settle(run, hook, status, emits, returned, before)

@@ -105,6 +105,17 @@ def test_a_real_flight_asks_for_the_fleet(missions: Path, beside: Path, command:
     code, _, err = command("fly", missions)
     assert code == 2
     assert "real drones are named in a fleet file: give it with --fleet" in err
+    assert err.endswith("; or fly simulated drones: add --sim\n")
+
+
+def test_a_real_flight_asks_for_uris_or_for_simulated_drones(
+    missions: Path, beside: Path, command: Command
+) -> None:
+    """Once, for all the drones that have none."""
+    code, _, err = command("fly", missions, "--fleet", beside)
+    assert code == 2
+    assert err.count("have no uri") + err.count("has no uri") == 1
+    assert err.endswith("; or fly simulated drones: add --sim\n")
 
 
 def test_an_action_that_no_drone_of_the_fleet_can_do_is_told(

@@ -260,18 +260,29 @@ def test_a_drone_goes_by_its_own_navigation_and_options(tmp_path: Path) -> None:
 def test_a_crazyflie_without_a_uri_cannot_really_fly(tmp_path: Path) -> None:
     """Each is named with its line; one that another navigation flies need not have one."""
     bare = FULL.replace('uri = "radio://0/80/2M/E7E7E7E7E1"\n', "")
-    assert not_real(load(tmp_path, FULL)) == []
-    assert not_real(load(tmp_path, bare)) == [
-        (
-            'drone "cf1" (line 22) has no uri: where is it reached?'
-            ' Such as uri = "radio://0/80/2M/E7E7E7E7E7"'
-        )
-    ]
+    assert not_real(load(tmp_path, FULL)) is None
+    assert not_real(load(tmp_path, bare)) == (
+        'drone "cf1" (line 22) has no uri, where a real drone is reached: add one, such as'
+        ' uri = "radio://0/80/2M/E7E7E7E7E7"'
+    )
+
+
+def test_all_crazyflies_without_a_uri_are_told_at_once(tmp_path: Path) -> None:
+    """With their lines, as long as that can be read."""
+    text = "".join(
+        DRONE.replace('"a"', f'"a{n}"').replace("[1, 1]", f"[1, {n}]") for n in range(1, 13)
+    )
+    said = not_real(load(tmp_path, text))
+    assert said is not None
+    assert said.startswith('drones "a1" (line 1), "a2" (line 5), ')
+    assert '"a10" (line 37) and 2 more have no uri' in said
+    assert "add one to each" in said
 
 
 def test_without_a_file_nothing_can_really_fly() -> None:
     """The default fleet is made up: the message says how to get a file."""
-    (said,) = not_real(default_fleet(APP))
+    said = not_real(default_fleet(APP))
+    assert said is not None
     assert "give it with --fleet" in said
     assert "drones --save F.toml" in said
 
