@@ -51,16 +51,18 @@ class Client:
         self._outbox: asyncio.Queue[str | None] = asyncio.Queue()
         self._behind = 0
         self._task: asyncio.Task[None] | None = None
+        self._answer: Data = {}
 
-    def start(self, work: Coroutine[object, object, None]) -> None:
-        """Begin work that takes its time."""
+    def start(self, work: Coroutine[object, object, None], answer: Data) -> None:
+        """Begin work that takes its time, and is answered with this and more."""
         self.end()
-        self._task = asyncio.create_task(work)
+        self._task, self._answer = asyncio.create_task(work), answer
 
     def end(self) -> None:
         """End that work, if it is not done."""
-        if self._task is not None:
+        if self._task is not None and not self._task.done():
             self._task.cancel()
+            self.send(self._answer | {"error": "this was ended, as another one was begun"})
 
     def send(self, message: Data) -> None:
         """Send a message."""
@@ -137,14 +139,11 @@ class Session:
             if isinstance(asked.get("id"), int | str):
                 answer["id"] = asked["id"]
             if asked.get("op") in _SLOW and not slow:
-                client.start(self.hear(client, message, slow=True))
+                client.start(self.hear(client, message, slow=True), answer)
                 return
             answer |= await self._answer(client, asked)
         except (Refused, CannotEdit, NotAnOperation, TooLarge, UsageError) as error:
             answer["error"] = str(error)
-        except asyncio.CancelledError:
-            client.send(answer | {"error": "this was ended, as another one was begun"})
-            raise
         except Exception as error:  # noqa: BLE001 - a mistake of ours ends no one's work
             answer["error"] = _internal(error)
         client.send(answer)

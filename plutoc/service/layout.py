@@ -39,7 +39,7 @@ def laid_out(names: Sequence[str], ways: Ways, moved: Positions) -> dict[str, Po
         within = [way for way in dict.fromkeys(ways) if way[0] in inside and way[0] != way[1]]
         placed, right = _placed(part, within, left)
         found |= placed
-        left = right + _BETWEEN
+        left = -(-(right + _BETWEEN) // GRID) * GRID
     boxes = [moved[name] for name in (START, *names, END) if name in moved]
     return {
         name: moved[name] if name in moved else _beside(spot, boxes) for name, spot in found.items()

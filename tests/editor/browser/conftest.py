@@ -112,9 +112,7 @@ def visit(browser: Browser, watch: Watch) -> Iterator[Visit]:
     """Open editors in browsers of their own, that are watched."""
     contexts: list[BrowserContext] = []
 
-    def visit(
-        editor: Editor, *, size: tuple[int, int] = LAPTOP, scheme: Scheme = "light"
-    ) -> Page:
+    def visit(editor: Editor, *, size: tuple[int, int] = LAPTOP, scheme: Scheme = "light") -> Page:
         context = browser.new_context(
             viewport={"width": size[0], "height": size[1]},
             color_scheme=scheme,

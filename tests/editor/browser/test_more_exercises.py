@@ -138,9 +138,7 @@ def test_a_timer_of_ones_own(edit: Edit, visit: Visit) -> None:
     page.keyboard.press("Escape")
     page.keyboard.press("Escape")
     declaration = page.locator(".declarations input.mono").last
-    declaration.fill(
-        "modifier limit_trip(limit: time = 3 min) emits STANDBY, COMPLETED, FAILED"
-    )
+    declaration.fill("modifier limit_trip(limit: time = 3 min) emits STANDBY, COMPLETED, FAILED")
     declaration.press("Enter")
     block(page, "limit").locator(".face").click()
     value = page.locator('.field[data-field="limit"] input')
