@@ -33,10 +33,10 @@ class Snapshot:
 
     def find_hooks(self, checked: Checked) -> Source | None:
         """Return the hooks.py that counts: as it is edited, unless the package has another one."""
-        folder = default_folder(self.path, checked)
-        own = folder / hooks_path(checked)
+        folder = default_folder(self.path, checked.graph)
+        own = folder / hooks_path(checked.graph)
         if own.is_file() and own != self.hooks_path:
-            return find_hooks(checked, self.path, folder)
+            return find_hooks(checked.graph, self.path, folder)
         return self.hooks
 
 
@@ -48,7 +48,9 @@ def compiled(app: Snapshot, *, optimise: bool = True) -> Compiled:
             source_name=app.path.name,
             find_hooks=app.find_hooks,
             optimise=optimise,
-            known_hooks=lambda checked: known_hooks(checked, default_folder(app.path, checked)),
+            known_hooks=lambda checked: known_hooks(
+                checked, default_folder(app.path, checked.graph)
+            ),
         )
     except Rejected as rejected:
         raise refused(rejected) from None
@@ -115,7 +117,7 @@ def is_of(app: Snapshot) -> bool:
 
 def _changes(app: Snapshot, made: Compiled) -> Changes:
     try:
-        return changes_of(made, default_folder(app.path, made.checked))
+        return changes_of(made, default_folder(app.path, made.checked.graph))
     except Rejected as rejected:
         raise refused(rejected) from None
     except CannotWrite as error:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pygls.uris import from_fs_path, to_fs_path
 
-from plutoc.check.model import Checked
+from plutoc.graph.model import Graph
 from plutoc.lsp import disk
 from plutoc.lsp.places import Places
 from plutoc.project.hooks import HOOKS
@@ -124,17 +124,17 @@ class Apps:
 
     def _places(self, app: App) -> tuple[Path, ...]:
         path, checked = path_of(app.uri), app.document.checked
-        return () if path is None or checked is None else disk.hooks_places(checked, path)
+        return () if path is None or checked is None else disk.hooks_places(checked.graph, path)
 
     def _read(self, uri: str, places: Places, version: int | None) -> App:
         path = path_of(uri)
         found: list[Path] = []
 
-        def find(checked: Checked) -> Source | None:
+        def find(graph: Graph) -> Source | None:
             found.clear()
             if path is None:
                 return None
-            where, source = self._hooks(checked, path)
+            where, source = self._hooks(graph, path)
             found.extend([where] if where else [])
             return source
 
@@ -142,10 +142,10 @@ class Apps:
         document = Document(path=shown, text=places.text, find_hooks=find)
         return App(uri=uri, places=places, document=document, version=version, hooks=found)
 
-    def _hooks(self, checked: Checked, app: Path) -> tuple[Path | None, Source | None]:
+    def _hooks(self, graph: Graph, app: Path) -> tuple[Path | None, Source | None]:
         """Return the hooks.py that counts: as it is in the editor, else on the disk."""
-        on_disk = disk.read_hooks(checked, app)
-        for place in disk.hooks_places(checked, app):
+        on_disk = disk.read_hooks(graph, app)
+        for place in disk.hooks_places(graph, app):
             is_there = on_disk is not None and on_disk[0] == place
             opened = next((one for one in self._open.values() if one.path == place), None)
             if opened is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from plutoc.check.model import Checked
+from plutoc.graph.model import Graph
 from plutoc.project.hooks import HOOKS, default_folder, find_hooks, hooks_path
 from plutoc.project.reading import UsageError, shown, text_of
 from plutoc.source import Source
@@ -22,20 +22,20 @@ def read_app(path: Path) -> str | None:
         return None
 
 
-def hooks_places(checked: Checked, app: Path) -> tuple[Path, ...]:
+def hooks_places(graph: Graph, app: Path) -> tuple[Path, ...]:
     """Return where the hooks.py of an app can be: the first that is there counts."""
-    return default_folder(app, checked) / hooks_path(checked), app.parent / HOOKS
+    return default_folder(app, graph) / hooks_path(graph), app.parent / HOOKS
 
 
-def read_hooks(checked: Checked, app: Path) -> tuple[Path, Source] | None:
+def read_hooks(graph: Graph, app: Path) -> tuple[Path, Source] | None:
     """Return the hooks.py that counts, if there is one."""
     try:
-        found = find_hooks(checked, app, default_folder(app, checked))
+        found = find_hooks(graph, app, default_folder(app, graph))
     except UsageError:  # no text: there is nothing in it to show a mistake at
         return None
     if found is None:
         return None
-    places = hooks_places(checked, app)
+    places = hooks_places(graph, app)
     return next((place, found) for place in places if shown(place) == found.path)
 
 
