@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Page, expect
 
 from tests.editor.browser.conftest import Edit, Visit
 from tests.editor.browser.hand import Hand, block, edge, port
 from tests.editor.browser.serving import Editor, until
+from tests.editor.browser.texts import shown, text_of, type_below
 
 SOURCE = """\
 pluto 1
@@ -25,24 +26,6 @@ app drugs "Drugs" {
   watch -> end otherwise
 }
 """
-
-
-def text_of(page: Page) -> Locator:
-    """Return the text pane of the app."""
-    return page.get_by_role("textbox", name="The app as Pluto text")
-
-
-def shown(page: Page) -> str:
-    """Return the text as the pane has it, line by line."""
-    return "\n".join(text_of(page).locator(".cm-line").all_text_contents()).replace("\u200b", "")
-
-
-def type_below(page: Page, line: str, text: str) -> None:
-    """Type behind a line of the text."""
-    text_of(page).locator(".cm-line", has_text=line).first.click()
-    page.keyboard.press("End")
-    page.keyboard.press("Enter")
-    page.keyboard.insert_text(text)
 
 
 def same_everywhere(editor: Editor, *pages: Page) -> None:

@@ -17,14 +17,14 @@ const NEW = [
 
 export function appPanel() {
   const title = h("input", {
-    type: "text", id: "app-title", class: "title-input", autocomplete: "off", placeholder: "Title of the app",
+    type: "text", "aria-label": "Title", class: "title-input", autocomplete: "off", placeholder: "Title of the app",
     onchange: () => setTitle(title.value.trim()),
     onkeydown: (event) => { if (event.key === "Escape") title.value = app.view.title; },
   });
   const categories = h("div", { class: "declarations" });
   const hooks = h("div", { class: "declarations" });
   const element = h("div", { class: "panel" },
-    h("div", { class: "panel-top" }, h("label", { for: "app-title", class: "unseen" }, "Title"), title,
+    h("div", { class: "panel-top" }, title,
       button("Declare", () => declareNew(), { kind: "small", sign: "plus", title: "A category of drones, or code of your own" })),
     h("h3", {}, "Drones"), categories, h("h3", {}, "Code of your own"), hooks);
 

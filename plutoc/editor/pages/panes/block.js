@@ -14,7 +14,7 @@ const sets = (label, statuses) => h("div", { class: "passes" }, h("span", { clas
 
 export function blockPanel(name) {
   const input = h("input", {
-    type: "text", id: "block-name", spellcheck: "false", autocomplete: "off", class: "title-input",
+    type: "text", "aria-label": "Name", spellcheck: "false", autocomplete: "off", class: "title-input",
     onchange: () => { const to = input.value.trim(); if (to && to !== input.dataset.name) rename(input.dataset.name, to); },
     onkeydown: (event) => { if (event.key === "Escape") input.value = input.dataset.name; },
   });
@@ -26,7 +26,7 @@ export function blockPanel(name) {
   const problems = h("ul", { class: "problem-list" });
   const statuses = h("div", { class: "two" });
   const element = h("div", { class: "panel" },
-    h("div", { class: "panel-top" }, h("label", { for: "block-name", class: "unseen" }, "Name"), input,
+    h("div", { class: "panel-top" }, input,
       button("Connect", (event) => run("connect", event), { kind: "small", sign: "wire", title: "Choose a block to connect to (C)" }),
       h("button", { type: "button", class: "button quiet sign small", title: "Duplicate (Ctrl+D)", "aria-label": "Duplicate", onclick: () => run("duplicate") }, icon("copy", 16)),
       h("button", { type: "button", class: "button quiet sign small danger", title: "Remove (Delete)", "aria-label": "Remove", onclick: () => run("remove") }, icon("trash", 16))),

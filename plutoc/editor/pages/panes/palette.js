@@ -52,7 +52,7 @@ export function makePalette() {
       }, h("span", { class: "grip" }, dots(one)), h("span", { class: "kind-name" }, one.kind)),
       h("button", {
         type: "button", class: "button quiet sign about", "aria-label": `About ${kind}`, title: `About ${kind}`,
-        "aria-expanded": String(open === one), onclick: () => explain(one),
+        "aria-expanded": String(open === one), "data-about": kind, onclick: () => explain(one),
       }, icon("info", 16)));
   }
 
@@ -70,7 +70,7 @@ export function makePalette() {
     open = open === one ? null : one;
     doc.hidden = !open;
     draw();
-    list.querySelector(`[data-kind="${one.kind}"]`)?.focus();
+    list.querySelector(`[data-about="${one.kind}"]`)?.focus();
     if (!open) return;
     fill(doc, h("div", { class: "row" }, h("h3", {}, one.kind),
       h("button", {
