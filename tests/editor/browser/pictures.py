@@ -11,7 +11,7 @@ from playwright.sync_api import Page
 from tests.release.environments import ROOT
 
 FOLDER = ROOT / "docs" / "graph-editor"
-COLOURS = 64
+COLOURS = 224
 
 
 def picture(page: Page) -> bytes:

@@ -30,7 +30,7 @@ SHOWN: dict[str, Scheme] = {
 
 SIZES = {"laptop": LAPTOP, "desk": DESKTOP}
 SCHEMES: tuple[Scheme, ...] = ("light", "dark")
-SMALL = 100_000
+SMALL = 150_000
 """Bytes of a picture."""
 
 

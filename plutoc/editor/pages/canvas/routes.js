@@ -124,6 +124,6 @@ function angled(points) {
 }
 
 export const loose = ([ax, ay], [bx, by]) => {
-  const bend = Math.max(24, Math.abs(by - ay) / 2);
+  const bend = by > ay ? Math.max(24, (by - ay) / 2) : 48;
   return `M${r(ax)} ${r(ay)}C${r(ax)} ${r(ay + bend)} ${r(bx)} ${r(by - bend)} ${r(bx)} ${r(by)}`;
 };

@@ -83,8 +83,9 @@ function drawing(event, asked, way, done) {
 function explain(reason, now) {
   shown(why, reason);
   if (!reason) return;
-  put(why, reason);
-  const { left, top } = viewport.getBoundingClientRect();
-  why.style.transform = `translate(${now.clientX - left + 16}px, ${now.clientY - top + 16}px)`;
+  put(why, reason.replaceAll("`", ""));
+  const { left, top, width } = viewport.getBoundingClientRect();
+  const x = Math.max(8, Math.min(now.clientX - left + 16, width - why.offsetWidth - 8));
+  why.style.transform = `translate(${x}px, ${now.clientY - top + 18}px)`;
 }
 

@@ -2,7 +2,7 @@
 
 import { go } from "../canvas/keys.js";
 import { choose } from "../dialogs/chooser.js";
-import { button, h, icon, status } from "../dom.js";
+import { button, fill, h, icon, status } from "../dom.js";
 import { disconnect, redirect, setGuard } from "../operations.js";
 import { END, START, app, keyOf, selection } from "../state.js";
 import { targetOptions } from "../dialogs/connect.js";
@@ -19,7 +19,7 @@ export function edgePanel() {
     if (now === shown) return;
     shown = now;
     const focused = element.contains(document.activeElement) ? document.activeElement.dataset.part : null;
-    element.replaceChildren(...content(edge));
+    fill(element, content(edge));
     if (focused) element.querySelector(`[data-part="${focused}"]`)?.focus();
   }
 

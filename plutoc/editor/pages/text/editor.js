@@ -148,7 +148,7 @@ function makeEditor(host, { file, label, language, indent, moved }) {
         EditorView.updateListener.of((update) => {
           const ours = !update.transactions.some((one) => one.annotation(fromServer));
           if (update.docChanged && ours) sync.typed(update.changes);
-          if ((update.selectionSet || update.docChanged) && ours && update.view.hasFocus) {
+          if (update.selectionSet && !update.docChanged && ours && update.view.hasFocus) {
             moved?.(update.state.selection.main.head);
           }
         }),

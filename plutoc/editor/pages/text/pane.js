@@ -46,6 +46,8 @@ export function makeText(hooksAside) {
   changed.heard((push) => {
     if (push.changes?.length) withEditors(() => editors[push.file]?.sync.heard(push));
     after(tabs);
+    const view = editors?.app.view;
+    if (push.by === app.client && push.file === "app" && view?.hasFocus) cursor(view.state.selection.main.head);
   });
   selected.heard(markChosen);
   return h("section", { class: "text", "aria-label": "Text" },
