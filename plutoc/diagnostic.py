@@ -52,6 +52,8 @@ class Diagnostic:
     related: tuple[Related, ...] = ()
     help: str | None = None
     fix: Fix | None = None
+    path: tuple[tuple[str, str | None], ...] = ()
+    """The shortest way that shows it: blocks, and the status with which each is left."""
 
 
 error = partial(Diagnostic, severity=Severity.ERROR)

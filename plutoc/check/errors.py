@@ -18,7 +18,6 @@ from plutoc.check.phrases import (
     listed,
     related_to,
     taken_by,
-    there,
     warning,
     with_emits,
 )
@@ -115,7 +114,8 @@ def starved(
             related_to(graph, edge.span, f"`{edge.source}` emits {listed(leaving[edge.source])}")
             for edge in edges
         ),
-        help=f"{_fed(graph, node, leaving)}{there(way)}",
+        help=f"{_fed(graph, node, leaving)}",
+        ways=(way,),
     )
 
 
@@ -132,7 +132,8 @@ def untaken(graph: Graph, edge: Edge, leaving: Sequence[Status], way: Way) -> Di
         f"no mission ever takes the arrow `{edge.source} -> {edge.target}`",
         label=f"takes {listed(ordered(edge.takes))}" if edge.takes else "nothing is left for it",
         related=(emits_here(graph, edge, leaving),),
-        help=f"remove the arrow, or let it take what the block emits{there(way)}",
+        help="remove the arrow, or let it take what the block emits",
+        ways=(way,),
     )
 
 
@@ -143,8 +144,9 @@ def nothing_to_fly(graph: Graph, node: Node, edges: Sequence[Edge], way: Way) ->
         f"no mission ever takes the arrow `{node.name} -> {edges[0].target}`",
         label=f"a mission that comes to `{node.name}` has no trip left, and ends there FAILED",
         related=tuple(related_to(graph, edge.span, "nor this one") for edge in edges[1:]),
-        help=f"lead FAILED elsewhere: a mission can fly on only where a trip of it failed, or where an "
-        f"evaluator asked for more trips, STANDBY{there(way)}",
+        help="lead FAILED elsewhere: a mission can fly on only where a trip of it failed, or where an "
+        "evaluator asked for more trips, STANDBY",
+        ways=(way,),
     )
 
 
@@ -198,7 +200,8 @@ def stuck(
             for edge in graph.outgoing[node.name]
             if edge.takes
         ),
-        help=f"{taken_by(node, statuses[0], taker)}{there(way)}",
+        help=f"{taken_by(node, statuses[0], taker)}",
+        ways=(way,),
     )
 
 
@@ -217,7 +220,8 @@ def flight_at_gate(
         (graph, gate.name_span),
         f"a mission that leaves `{gate.name}` RUNNING is stuck: {cause}",
         related=emits_nothing(graph, giver) if giver else (),
-        help=f"{mend}{there(way)}",
+        help=f"{mend}",
+        ways=(way,),
     )
 
 
@@ -256,7 +260,8 @@ def stuck_in_fork(
             for other, stays in left[1:]
         ),
         help=f"{meet}; or, if only one of the arrows from `{fork[0]}` was meant to take "
-        f"{fork[1].value}, guard the others with `when`{there(way)}",
+        f"{fork[1].value}, guard the others with `when`",
+        ways=(way,),
     )
 
 
@@ -266,7 +271,8 @@ def implicit_end(graph: Graph, node: Node, statuses: Sequence[Status], way: Way)
         (graph, node.name_span),
         f"a mission that leaves `{node.name}` {listed(statuses, 'or')} ends here: "
         "no arrow takes it",
-        help=f"to say so, add `{node.name} -> end when {', '.join(s.value for s in statuses)}`{there(way)}",
+        help=f"to say so, add `{node.name} -> end when {', '.join(s.value for s in statuses)}`",
+        ways=(way,),
     )
 
 
@@ -276,7 +282,8 @@ def endless(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagno
         (graph, head.name_span),
         f"a mission that comes to `{head.name}` can never end",
         label="no way leads from here to an end",
-        help=f"it goes round {_round(round_)}: lead an arrow out of this loop" f"{there(way)}",
+        help=f"it goes round {_round(round_)}: lead an arrow out of this loop",
+        ways=(way,),
     )
 
 
@@ -296,8 +303,8 @@ def spins(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagnost
         (graph, head.name_span),
         f"a mission with nothing left to fly can go round at `{head.name}` for ever",
         label="it leaves only if a hook fails it, or never",
-        help=f"it goes round {_round(round_)}{_because(same)}: lead COMPLETED out of "
-        f"this loop{there(way)}",
+        help=f"it goes round {_round(round_)}{_because(same)}: lead COMPLETED out of " f"this loop",
+        ways=(way,),
     )
 
 
@@ -334,7 +341,8 @@ def no_allocation(graph: Graph, node: Node, way: Way) -> Diagnostic:
         f"a mission can come to `{node.name}` without a drone allocated since its last launch",
         label=f"no {missing} before it",
         related=tuple(related_to(graph, edge.span, "on this way") for edge in edges),
-        help=f"{through}{there(way)}",
+        help=f"{through}",
+        ways=(way,),
     )
 
 
@@ -343,7 +351,8 @@ def no_launch(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2022",
         (graph, node.name_span),
         f"a mission can come to `{node.name}` though no trip was launched before",
-        help=f"lead the way through a block that launches the trip{there(way)}",
+        help="lead the way through a block that launches the trip",
+        ways=(way,),
     )
 
 
@@ -360,7 +369,8 @@ def left_unlaunched(
         f"there is no {missing} between `{node.name}` and `{watch.name}`: no trip is launched",
         label="it watches a flight",
         related=tuple(related_to(graph, edge.span, "on this way") for edge in edges),
-        help=f"{through}{there(way)}",
+        help=f"{through}",
+        ways=(way,),
     )
 
 
@@ -379,7 +389,8 @@ def drone_held(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2054",
         (graph, node.name_span),
         f"a mission waits in `{node.name}` with a drone allocated, which no other mission can use",
-        help=f"put `{node.name}` before the block that allocates{there(way)}",
+        help=f"put `{node.name}` before the block that allocates",
+        ways=(way,),
     )
 
 

@@ -14,7 +14,6 @@ from plutoc.check.phrases import (
     fork_of,
     is_flown,
     related_to,
-    there,
     with_emits,
 )
 from plutoc.diagnostic import Diagnostic
@@ -55,7 +54,8 @@ def astray(
             )
             for branch, other in branches[1:]
         ),
-        help=f"{mend}{there(way)}",
+        help=f"{mend}",
+        ways=(way,),
     )
 
 
@@ -75,7 +75,8 @@ def different_gates(
         f"{fork_of(branches[0].fork)} closes at different gates: {all_of(gates)}",
         label=closing[0].label,
         related=tuple(closing[1:]),
-        help=f"lead all branches to one gate{there(*ways)}",
+        help="lead all branches to one gate",
+        ways=ways,
     )
 
 
@@ -85,8 +86,8 @@ def never_closes(graph: Graph, branch: Branch, gates: Sequence[str], way: Way | 
         (graph, branch.edge.span),
         f"the branch to `{branch.edge.target}` of {fork_of(branch.fork)} can go round for ever",
         label="it does not always close",
-        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}"
-        f"{there(way)}",
+        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}" f"",
+        ways=(way,),
     )
 
 
@@ -100,7 +101,8 @@ def waits_in_vain(graph: Graph, branch: Branch, gate: str, way: Way | None) -> D
                 graph, branch.edge.span, f"the branch to `{branch.edge.target}` never gets there"
             ),
         ),
-        help=f"lead the branch to `{gate}`{there(way)}",
+        help=f"lead the branch to `{gate}`",
+        ways=(way,),
     )
 
 
@@ -119,7 +121,8 @@ def outside_fork(
             if edge.source == way[-2].node
         )
         + (emits_nothing(graph, giver) if giver else ()),
-        help=f"{mend}{there(way)}",
+        help=f"{mend}",
+        ways=(way,),
     )
 
 
@@ -128,8 +131,8 @@ def closes_nothing(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2017",
         (graph, node.name_span),
         f"`{node.name}` closes no fork: a gate needs at least two branches",
-        help="fork before it (two arrows that take the same status), or remove the gate"
-        f"{there(way)}",
+        help="fork before it (two arrows that take the same status), or remove the gate" "",
+        ways=(way,),
     )
 
 
@@ -138,7 +141,8 @@ def breeds(graph: Graph, first: Branch, way: Way) -> Diagnostic:
         "P2018",
         (graph, first.edge.span),
         f"{fork_of(first.fork)} comes round to itself before it closes: its clones multiply without end",
-        help=f"close it at a gate before the way leads back{there(way)}",
+        help="close it at a gate before the way leads back",
+        ways=(way,),
     )
 
 
@@ -154,7 +158,8 @@ def shared_gate(
             related_to(graph, outer[0].edge.span, "the fork around it"),
             related_to(graph, graph.node[gate].name_span, "the gate of both"),
         ),
-        help=f"give the fork inside a gate of its own, and lead that gate to `{gate}`{there(way)}",
+        help=f"give the fork inside a gate of its own, and lead that gate to `{gate}`",
+        ways=(way,),
     )
 
 
@@ -171,7 +176,8 @@ def written_twice(
         ),
         label="who comes last would win",
         related=(related_to(graph, first.name_span, "written here"),) if first != second else (),
-        help=f"let one of them write it, or put one behind the other{there(*ways)}",
+        help="let one of them write it, or put one behind the other",
+        ways=ways,
     )
 
 
@@ -181,7 +187,8 @@ def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
         (graph, node.name_span),
         f"`{node.name}` sets a limit to a flight, but no block beside it watches the flight",
         help="put it on one branch of a fork, a block that only watches on another, and let both meet "
-        f"at a gate{there(way)}",
+        "at a gate",
+        ways=(way,),
     )
 
 

@@ -33,9 +33,8 @@ def arrows(blocks: Sequence[str]) -> str:
     return " → ".join(blocks)
 
 
-def there(*ways: Way | None) -> str:
+def _there(shown: Sequence[Way]) -> str:
     """The shortest paths that show it, on lines of their own, below the help."""
-    shown = [way for way in ways if way is not None]
     if not shown:
         return ""
     head = f"the shortest way{'s' if len(shown) > 1 else ''} there:"
@@ -79,11 +78,20 @@ def error(
     label: str = "",
     related: tuple[Related, ...] = (),
     help: str,
+    ways: Sequence[Way | None] = (),
 ) -> Diagnostic:
-    """An error of these facts."""
+    """An error of these facts; `ways` are shortest paths that show it."""
     source, span = at[0].source, at[1]
+    shown = [way for way in ways if way is not None]
     return diagnostic.error(
-        code, message, source, span, label=label, related=related, help=help.rstrip()
+        code,
+        message,
+        source,
+        span,
+        label=label,
+        related=related,
+        help=f"{help}{_there(shown)}".rstrip(),
+        path=_path(shown),
     )
 
 
@@ -95,13 +103,28 @@ def warning(
     label: str = "",
     related: tuple[Related, ...] = (),
     help: str,
+    ways: Sequence[Way | None] = (),
     fix: Fix | None = None,
 ) -> Diagnostic:
-    """A warning of these facts."""
+    """A warning of these facts; `ways` are shortest paths that show it."""
     source, span = at[0].source, at[1]
+    shown = [way for way in ways if way is not None]
     return diagnostic.warning(
-        code, message, source, span, label=label, related=related, help=help.rstrip(), fix=fix
+        code,
+        message,
+        source,
+        span,
+        label=label,
+        related=related,
+        help=f"{help}{_there(shown)}".rstrip(),
+        fix=fix,
+        path=_path(shown),
     )
+
+
+def _path(ways: Sequence[Way]) -> tuple[tuple[str, str | None], ...]:
+    """The first path, for a picture to walk."""
+    return tuple((hop.node, hop.leaving and hop.leaving.value) for hop in ways[0]) if ways else ()
 
 
 def related_to(graph: Graph, span: Span, label: str) -> Related:

@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 
 from plutoc.editor.changes import between
@@ -35,18 +34,6 @@ class Theirs:
     text: str | None
     """None where it cannot be edited."""
     why: str = ""
-
-
-@dataclass(frozen=True, kw_only=True)
-class EditedApp(Document):
-    """A document whose hooks.py is at hand even while its graph is not sound."""
-
-    edited_hooks: Source | None = None
-
-    @cached_property
-    def hooks(self) -> Source | None:
-        """hooks.py as it is edited."""
-        return self.edited_hooks
 
 
 class AppFiles:
@@ -92,7 +79,7 @@ class AppFiles:
 
     def document_of(self, text: str, hooks: Source | None) -> Document:
         """Return the app as it would be with another text, and other hooks."""
-        return EditedApp(path=shown(self.path), text=text, edited_hooks=hooks)
+        return Document(path=shown(self.path), text=text, find_hooks=lambda _: hooks)
 
     @property
     def hooks(self) -> Source | None:

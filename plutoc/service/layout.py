@@ -11,6 +11,7 @@ from __future__ import annotations
 from bisect import bisect_right, insort
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 
 from plutoc.graph.model import END, START
 from plutoc.service.positions import Point, Positions
@@ -24,6 +25,8 @@ _LAYER, _COLUMN, _LANE = 120, 224, 40
 _BETWEEN = 64
 """Between parts of a graph that no edge joins."""
 _SWEEPS, _SETTLE = 8, 4
+_LONGEST = 6
+"""Layers that an edge passes in a lane of its own; a longer one goes around, as one that leads back."""
 
 Ways = Sequence[tuple[str, str]]
 _Spot = str | tuple[int, int]
@@ -32,6 +35,15 @@ _Spot = str | tuple[int, int]
 
 def laid_out(names: Sequence[str], ways: Ways, moved: Positions) -> dict[str, Point]:
     """Return the upper left corner of every block, and of `start` and `end`."""
+    found = _automatic(tuple(names), tuple(ways))
+    boxes = [moved[name] for name in found if name in moved]
+    return {
+        name: moved[name] if name in moved else _beside(spot, boxes) for name, spot in found.items()
+    }
+
+
+@lru_cache(maxsize=8)  # most changes of a text do not change its graph
+def _automatic(names: tuple[str, ...], ways: tuple[tuple[str, str], ...]) -> dict[str, Point]:
     found: dict[str, Point] = {}
     left = 0
     for part in _parts((START, *names, END), ways):
@@ -40,10 +52,7 @@ def laid_out(names: Sequence[str], ways: Ways, moved: Positions) -> dict[str, Po
         placed, right = _placed(part, within, left)
         found |= placed
         left = -(-(right + _BETWEEN) // GRID) * GRID
-    boxes = [moved[name] for name in (START, *names, END) if name in moved]
-    return {
-        name: moved[name] if name in moved else _beside(spot, boxes) for name, spot in found.items()
-    }
+    return found
 
 
 def _beside(spot: Point, boxes: Iterable[Point]) -> Point:
@@ -159,8 +168,8 @@ def _with_passages(
     before: defaultdict[_Spot, list[_Spot]] = defaultdict(list)
     after: defaultdict[_Spot, list[_Spot]] = defaultdict(list)
     for number, (source, target) in enumerate(ways):
-        if layer[target] <= layer[source]:
-            continue  # it leads back, around all boxes
+        if not 0 < layer[target] - layer[source] <= _LONGEST:
+            continue
         spot: _Spot = source
         for between in range(layer[source] + 1, layer[target] + 1):
             following: _Spot = target if between == layer[target] else (number, between)
