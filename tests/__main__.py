@@ -21,6 +21,7 @@ REWRITES = {
 CAMPAIGNS = {
     "python -m tests.as_before --seeds 100": "simulations print what they printed before packages became thin",
     "python -m tests.format --mutants 2000": "format many layouts of every example",
+    "python -m tests.lsp.holes": "cut a thousand holes into the examples: is what stood there offered?",
     "python -m tests.fuzz --minutes 10": "feed the compiler with odd input",
     "python -m tests.soundness --random 2000": "hold the checks against an oracle; also without arguments: all mutants of the thesis's graphs",
     "python -m tests.soundness --loops 5000 --fly 50": "the same for apps full of loops, and fly those that are accepted",
@@ -44,6 +45,7 @@ MEASURES = {
     "python benchmarks/cold_start.py": "how long a command takes, in starts of an empty Python",
     "python benchmarks/compile.py": "how long `compile` takes: anew, after an edit, for 10,000 blocks",
     "python benchmarks/large_apps.py": "how the time of `check` grows from 1,000 blocks to 10,000",
+    "python benchmarks/typing_latency.py": "from a keystroke to what is published, at 100 and 1,000 blocks",
     "python benchmarks/allocation.py": "what it costs to choose drones, in large fleets and long queues",
     "python benchmarks/traffic.py": "how near drones come to each other, and what keeping them apart costs",
     "python benchmarks/station.py": "what it costs to watch a flight; needs Chromium",

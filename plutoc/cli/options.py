@@ -11,6 +11,7 @@ from pathlib import Path
 from plutoc import __version__
 from plutoc.cli.endings import USAGE
 from plutoc_runtime import output
+from plutoc_runtime.command_line import CommandLine
 
 FORMATS = ("text", "json", "github", "sarif")
 CHANGES = ("text", "markdown", "json")
@@ -71,7 +72,7 @@ def parse(arguments: Sequence[str]) -> Options:
 def all_commands() -> ArgumentParser:
     """Return what knows every command, and its flags."""
     parser = _plain(
-        ArgumentParser(
+        CommandLine(
             prog="plutoc",
             description="Turns graphs of drone missions into Python packages that fly them.",
             epilog="`plutoc COMMAND --help` says more about a command.",

@@ -36,7 +36,7 @@ class Answers:
     def diagnostics(self, app: App) -> dict[str, list[types.Diagnostic]]:
         """Return what is wrong with an app, by file."""
         found: dict[str, list[types.Diagnostic]] = {app.uri: []}
-        for one in app.document.diagnostics:
+        for one in app.findings:
             said = words.diagnostic(app, one)
             found.setdefault(words.uri_of_finding(app, one), []).append(said)
         return found

@@ -7,12 +7,14 @@ from pathlib import Path
 
 from pygls.uris import from_fs_path, to_fs_path
 
+from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.graph.model import Graph
 from plutoc.lsp import disk
 from plutoc.lsp.places import Places
 from plutoc.project.hooks import HOOKS
 from plutoc.service.document import Document
 from plutoc.source import Source
+from plutoc.syntax.tree import File
 
 LANGUAGE = "pluto"
 
@@ -47,6 +49,14 @@ class App:
     version: int | None
     hooks: list[Path] = field(default_factory=list)
     """Where the hooks.py is that was looked at, if there is one."""
+    refused: list[Diagnostic] = field(default_factory=list)
+    """Why the hooks.py that is there is not looked at."""
+
+    @property
+    def findings(self) -> tuple[Diagnostic, ...]:
+        """What `plutoc check` says of it."""
+        found = self.document.diagnostics
+        return found if self.document.checked is None else (*found, *self.refused)
 
     @property
     def hooks_uri(self) -> str | None:
@@ -94,7 +104,8 @@ class Apps:
             return None
         app = self._apps.get(uri)
         if app is None or app.places is not file.places:
-            app = self._apps[uri] = self._read(uri, file.places, file.version)
+            sound = app.document.sound if app else None
+            app = self._apps[uri] = self._read(uri, file.places, file.version, sound)
         return app
 
     def app_of(self, uri: str) -> App | None:
@@ -103,13 +114,13 @@ class Apps:
         if path is None:
             return None
         for app in self.apps():
-            if app.document.checked is not None and path in self._places(app):
+            if path in self._places(app):
                 return app
         for beside in disk.apps_beside(path):
             text = disk.read_app(beside)
             if text is not None and uri_of(beside) not in self._open:
                 app = self._read(uri_of(beside), Places(text=text, encoding=self.encoding), None)
-                if app.document.checked is not None and path in self._places(app):
+                if path in self._places(app):
                     return app
         return None
 
@@ -123,24 +134,39 @@ class Apps:
             self.look_again()
 
     def _places(self, app: App) -> tuple[Path, ...]:
-        path, checked = path_of(app.uri), app.document.checked
-        return () if path is None or checked is None else disk.hooks_places(checked.graph, path)
+        path = path_of(app.uri)
+        return disk.hooks_places(app.document.graph, path) if path else ()
 
-    def _read(self, uri: str, places: Places, version: int | None) -> App:
+    def _read(
+        self, uri: str, places: Places, version: int | None, before: File | None = None
+    ) -> App:
         path = path_of(uri)
         found: list[Path] = []
+        refused: list[Diagnostic] = []
 
         def find(graph: Graph) -> Source | None:
             found.clear()
+            refused.clear()
             if path is None:
                 return None
-            where, source = self._hooks(graph, path)
+            try:
+                where, source = self._hooks(graph, path)
+            except Rejected as rejected:  # it is a link, or a folder
+                refused.extend(rejected.diagnostics)
+                return None
             found.extend([where] if where else [])
             return source
 
         shown = str(path) if path else uri
-        document = Document(path=shown, text=places.text, find_hooks=find)
-        return App(uri=uri, places=places, document=document, version=version, hooks=found)
+        document = Document(path=shown, text=places.text, find_hooks=find, before=before)
+        return App(
+            uri=uri,
+            places=places,
+            document=document,
+            version=version,
+            hooks=found,
+            refused=refused,
+        )
 
     def _hooks(self, graph: Graph, app: Path) -> tuple[Path | None, Source | None]:
         """Return the hooks.py that counts: as it is in the editor, else on the disk."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -17,7 +17,7 @@ from plutoc.graph.resolve import resolved
 from plutoc.registry import Blocks, blocks, standard
 from plutoc.service.symbols import Occurrence, occurrences
 from plutoc.source import Source
-from plutoc.syntax.parse import read
+from plutoc.syntax.again import is_sound, read_again
 from plutoc.syntax.tree import File
 from plutoc_runtime.domain.status import Status
 
@@ -40,6 +40,8 @@ class Document:
     text: str
     find_hooks: FindHooks = lambda _: None
     """The only question that is asked of the world."""
+    before: File | None = field(default=None, repr=False, compare=False)
+    """The tree of an earlier text that was in order: what has not changed is not read again."""
 
     @cached_property
     def source(self) -> Source:
@@ -48,7 +50,12 @@ class Document:
 
     @cached_property
     def _read(self) -> tuple[File, tuple[Diagnostic, ...]]:
-        return read(self.source)
+        return read_again(self.source, self.before)
+
+    @property
+    def sound(self) -> File | None:
+        """The tree of the last text that was in order, which may be this one."""
+        return self.file if is_sound(*self._read) else self.before
 
     @property
     def file(self) -> File:

@@ -30,6 +30,8 @@ _SEAM = ".".join(map(str, SEAM))
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]", "--runs": ""}
 _EXTRAS |= dict.fromkeys(("fly", "resume", "journal", "tell", "decide", "gateway", "crtp"), "")
 """What needs the library, and with which of its extras."""
+_WORDS = [*_EXTRAS, "check", "simulate", "--version"]
+_WORDS += ["--fleet", "--seed", "--fail", "--until", "--trace", "--json"]
 _WORLD = "each drone alone in the air"
 
 
@@ -107,6 +109,12 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
     try:
         options = _parser(app).parse_args(argv)
     except SystemExit as end:  # argparse has printed the help, or what is wrong
+        from difflib import get_close_matches  # only for mistakes
+
+        for word in (word.partition("=")[0] for word in argv):
+            if word not in _WORDS and (word == argv[0] or word.startswith("--")):
+                for meant in get_close_matches(word, _WORDS, 1):
+                    _tell(f"{name}: {printable(word)}: did you mean {meant}?")
         return end.code if isinstance(end.code, int) else 2
     return _checked(app, options)
 

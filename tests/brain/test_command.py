@@ -90,6 +90,9 @@ def test_flags_that_need_the_library_say_so(run: Run, missions: Path, flag: str)
     ("words", "said"),
     [
         (["fry"], "invalid choice: 'fry'"),
+        (["simlate"], "alfalfa: simlate: did you mean simulate?\n"),
+        (["reusme"], "alfalfa: reusme: did you mean resume?\n"),
+        (["simulate", "m.toml", "--flet=f.toml"], "alfalfa: --flet: did you mean --fleet?\n"),
         ([], "the following arguments are required: COMMAND"),
         (["simulate"], "the following arguments are required: M.toml"),
         (["simulate", "m.toml", "--sed", "1"], "unrecognized arguments: --sed 1"),

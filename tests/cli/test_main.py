@@ -59,6 +59,34 @@ def test_wrong_usage_ends_with_2(plutoc: Call, arguments: list[str]) -> None:
     assert "usage: plutoc" in said.err
 
 
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["chek", "app.pluto"], "invalid choice: 'chek'"),
+        (["chek", "app.pluto"], "; did you mean check?\n"),
+        (
+            ["check", "--fxi"],
+            "plutoc check: error: there is no option --fxi; did you mean --fix?\n",
+        ),
+        (
+            ["run", "a", "--mission=m.toml"],
+            "there is no option --mission; did you mean --missions?",
+        ),
+        (["--verison"], "plutoc: error: there is no option --verison; did you mean --version?\n"),
+        (["check", "a", "--format", "jsn"], "; did you mean json?\n"),
+        (["check", "a", "--nonsense"], "unrecognized arguments: --nonsense\n"),
+        (["check", "--", "--fxi"], "plutoc: there is no file --fxi\n"),  # a file of that name
+    ],
+)
+def test_what_is_misspelt_is_told_with_what_was_meant(
+    plutoc: Call, arguments: list[str], said: str
+) -> None:
+    """Even where something else is missing, too."""
+    ending = plutoc(*arguments)
+    assert ending.code == 2
+    assert said in ending.err
+
+
 @pytest.mark.parametrize("command", ["check", "compile", "run", "graph"])
 def test_files_that_cannot_be_read_end_with_2(plutoc: Call, here: Path, command: str) -> None:
     """Each is named, with what is wrong."""

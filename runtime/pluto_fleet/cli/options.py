@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ..arguments import whole_number
 from ..shared import output
 from ..shared.alone.faults import FAULTS, shares
+from ..shared.command_line import CommandLine
 from ..shared.domain.errors import BadInput
 from ..shared.domain.quantities import time_from, typed
 from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_flies
@@ -98,7 +99,7 @@ class Options:
 
 def parse(app: App, argv: Sequence[str] | None) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
-    parser = _plain(ArgumentParser(prog=app.name, description=app.title, allow_abbrev=False))
+    parser = _plain(CommandLine(prog=app.name, description=app.title, allow_abbrev=False))
     what = "say which app this is, which seam it speaks, and by which library it flies"
     parser.add_argument("--version", action=_Version, app=app, nargs=0, help=what)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)

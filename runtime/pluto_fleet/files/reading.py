@@ -14,6 +14,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.values import name, point, shown
 from . import errors
 from .toml import TomlLines, TomlPath, line_of, places
+from .toml_advice import advice
 
 if TYPE_CHECKING:
     from ..shared.domain.airspace import Airspace
@@ -104,7 +105,7 @@ def read(path: Path) -> Document:
 
 def parsed(path: str, text: str) -> Document:
     """Parse a plan file's text; raise `BadInput` if it is not TOML."""
-    return Document(path, files.parsed(path, text), places(text))
+    return Document(path, files.parsed(path, text, advice), places(text))
 
 
 def text_of(path: Path) -> str:

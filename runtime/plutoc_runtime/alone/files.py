@@ -17,7 +17,7 @@ from ..domain.errors import BadInput
 from ..domain.fields import Entity, FieldType
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from ..domain.model import Item
-from ..domain.text import number, quoted
+from ..domain.text import cut_off, number, printable, quoted
 from ..domain.values import Cells, crowded, wrongly_carried
 
 if TYPE_CHECKING:
@@ -40,6 +40,7 @@ _NEXT = rf"(?:[ \t]*\.[ \t]*{_PART})"
 _KEY = re.compile(rf"{_PART}({_NEXT}{{{MOST}}})?{_NEXT}*+")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
+USUAL = "texts, and numbers with a unit, stand in quotes, lists in [ ], and each key stands once"
 _UNREADABLE: dict[type[Exception], str] = {
     FileNotFoundError: "there is no such file",
     IsADirectoryError: "is a folder, not a file",
@@ -271,7 +272,9 @@ def text_of(path: Path, opener: Callable[[str, int], int] | None = None) -> str:
         raise BadInput(f"{path}:{line}: is not UTF-8 text") from None
 
 
-def parsed(path: object, text: str) -> dict[str, Any]:
+def parsed(
+    path: object, text: str, advice: Callable[[str, int], str] = lambda *_: USUAL
+) -> dict[str, Any]:
     """Return the data of a plan file's text; raise `BadInput` if it is not TOML."""
     try:
         if line := line_of_long_key(text):
@@ -283,8 +286,10 @@ def parsed(path: object, text: str) -> dict[str, Any]:
     except ValueError as error:  # TOMLDecodeError, and a number with thousands of digits
         said, end = f"{error}", ""
         if place := _PLACE.search(said):
-            path = f"{path}:{place[1] or len(text.splitlines())}"
+            row = int(place[1] or text.rstrip().count("\n") + 1)
+            path, shown = f"{path}:{row}", cut_off(text.split("\n")[row - 1].strip(), 80)
             end = f", column {place[2]}" if place[2] else ", at the end of the file"
+            end += f", in `{printable(shown)}`; {advice(text, row)}"
             said = said[: place.start()]
         said = f"{said[:1].lower()}{said[1:]}{end}"
         raise BadInput(f"{path}: is not valid TOML: {said}") from None

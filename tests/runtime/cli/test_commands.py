@@ -116,7 +116,12 @@ def test_what_only_simulated_drones_obey_goes_with_sim(
         ("simulate", "the following arguments are required: M.toml"),
         ("fly", "the following arguments are required: M.toml"),
         ("check m.toml --seed 1", "unrecognized arguments: --seed 1"),
-        ("simulate m.toml --unt 3", "unrecognized arguments: --unt 3"),
+        ("simulate m.toml --unt 3", "there is no option --unt; did you mean --until?"),
+        ("simulate --fial=crash=1%", "there is no option --fial; did you mean --fail?"),
+        ("simulate m.toml --bogus", "unrecognized arguments: --bogus"),
+        ("simlate m.toml", "; did you mean simulate?"),
+        ("tell j stpo", "; did you mean stop?"),
+        ("serve --going-in", "unrecognized arguments: --going-in"),  # a hidden one is not proposed
         ("simulate m.toml --seed x", 'argument --seed: "x" is not a whole number'),
         ("simulate m.toml --runs 0", 'argument --runs: "0" is less than 1'),
         ("simulate m.toml --runs 2 --trace t", "--trace writes down one run"),

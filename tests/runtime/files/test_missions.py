@@ -166,9 +166,10 @@ def test_a_field_without_a_block_that_needs_it_does_not_exist(tmp_path: Path) ->
             ],
         ),
         ('[[mission]]\nname = "M"', ['missions.toml:1: mission "M": has no [[mission.trip]]']),
-        ("a = ", ["missions.toml:1: is not valid TOML: invalid value, at the end of the file"]),
+        ("a = ", [("missions.toml:1: is not valid TOML: invalid value, at the end of the file, in `a =`; "
+                   "write a value behind a =")]),
         ("\na = 1 2", [("missions.toml:2: is not valid TOML: expected newline or end of document "
-                       "after a statement, column 7")]),
+                       'after a statement, column 7, in `a = 1 2`; write a = "1 2"')]),
         ("a = " + "[" * 5000, ["missions.toml: is nested too deep"]),
     ],
 )  # fmt: skip
