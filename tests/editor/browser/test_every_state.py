@@ -42,9 +42,7 @@ SMALL = 150_000
         for device in SIZES
     ],
 )
-def test_no_state_breaks_wcag_a_or_aa(
-    edit: Edit, visit: Visit, device: str, update: bool
-) -> None:
+def test_no_state_breaks_wcag_a_or_aa(edit: Edit, visit: Visit, device: str, update: bool) -> None:
     """Axe finds no violation, nothing is cut off, and nothing asks another machine."""
     wrong: dict[tuple[str, Scheme], list[str]] = {}
     for scene, page in scenes(edit, visit, SIZES[device]):

@@ -3,7 +3,8 @@
 import { HighlightStyle, LanguageSupport, StreamLanguage } from "../codemirror/codemirror-language.js";
 import { tags } from "../codemirror/lezer-highlight.js";
 
-const WORDS = /^(?:pluto|use|as|app|category|can|action|evaluator|modifier|policy|emits|writes|when|otherwise|version|requires|mission|trip|has)\b/;
+const WORDS = /^(?:pluto|use|as|app|category|can|action|evaluator|modifier|policy|emits|writes|when|otherwise)\b/;
+const SETTINGS = /^(?:version|requires)\b(?=[ \t]*")/;
 const CONSTANTS = /^(?:yes|no|safe|once|ask)\b/;
 const STATUS = /^(?:UNEXECUTED|RUNNING|STANDBY|COMPLETED|FAILED)\b/;
 const TYPES = /^(?:int|float|bool|text|mass|length|time|angle|percent|speed|temperature)\b/;
@@ -18,7 +19,7 @@ function token(stream) {
   if (stream.match(/^[A-Za-z]\w*(?=[ \t]*:)/)) return "parameter";
   if (stream.match(/^[A-Za-z]\w*(?=[ \t]*=)/)) return "definition";
   if (stream.match(STATUS)) return "status";
-  if (stream.match(WORDS)) return "keyword";
+  if (stream.match(WORDS) || stream.match(SETTINGS)) return "keyword";
   if (stream.match(CONSTANTS)) return "constant";
   if (stream.match(TYPES)) return "type";
   if (stream.match(/^(?:start|end)\b/)) return "terminal";
