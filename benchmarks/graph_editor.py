@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from itertools import pairwise
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -60,7 +61,7 @@ def dragged(page: Page) -> list[float]:
     page.evaluate("window.counting = false")
     frames = page.evaluate("window.frames_")
     page.mouse.up()
-    return [after - before for before, after in zip(frames, frames[1:], strict=False)]
+    return [after - before for before, after in pairwise(frames)]
 
 
 def tidied(page: Page) -> float:
