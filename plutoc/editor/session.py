@@ -87,6 +87,8 @@ class Session:
         self.files = AppFiles(path)
         self._clients: dict[int, Client] = {}
         self._last = NOBODY
+        self._asked: object = None
+        """The id of what is being done for a client: it knows its own changes by it."""
         self._changed = asyncio.Event()
         self._cannot_save = ""
         self._seen: tuple[object, object] | None = None
@@ -152,6 +154,7 @@ class Session:
         if op == "run":
             return await self._run(asked)
         if isinstance(op, str) and op in self._changes:
+            self._asked = asked.get("id")
             return self._changes[op](client, asked)
         if isinstance(op, str) and op in QUESTIONS:
             return QUESTIONS[op](self.files, asked)
@@ -225,6 +228,7 @@ class Session:
                     "push": "change",
                     "version": one.version,
                     "by": one.by,
+                    "asked": self._asked if one.by != NOBODY else None,
                     "file": one.file.value,
                     "changes": [{"from": e.start, "to": e.end, "insert": e.text} for e in one.sent],
                     "view": self.view(),
