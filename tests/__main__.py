@@ -13,6 +13,7 @@ REWRITES = {
     "pytest tests/examples/test_typed_pages.py --update": "what the tutorial shows of commands' output",
     "pytest tests/navigation --update": "the code that the page on navigation shows",
     "pytest tests/station/browser/test_every_page.py --update": "the pictures of the ground station",
+    "pytest tests/editor/browser --update": "the pictures of the graph editor",
     "pytest tests/journal --update": "what kept journals come to, after a change of the records",
     "python docs/tutorial/make_pictures.py": "the pictures and the quoted files in the pages",
     "python -m tests.journal.keeping": "keep a journal as this version writes it, once a release",
@@ -36,6 +37,7 @@ CAMPAIGNS = {
     "python -m tests.flights_crazyflie.pauses": "land and take off again, after pauses of 0 to 6 s",
 }
 MEASURES = {
+    "python benchmarks/graph_editor.py": "how fast 300 blocks are opened, dragged and tidied in the graph editor",
     "python benchmarks/house.py": "how large the rooms are, and which import each other in a ring",
     "python benchmarks/trip_path.py": "which files one trip enters, and how often it moves between them",
     "python benchmarks/instructions.py": "a trip's instructions; --update keeps the new counts",

@@ -1,21 +1,16 @@
-"""What changes in files: written, or shown as a patch that `git apply` and `patch` understand."""
+"""A source that is changed in its place."""
 
 from __future__ import annotations
 
 import os
 import shutil
 import stat
-from collections.abc import Iterator
-from difflib import unified_diff
-from io import StringIO
 from pathlib import Path
 
 from plutoc.cli.endings import UsageError
 from plutoc.emit.write import CannotWrite, Change, Changes, write
 from plutoc.project.reading import shown
 from plutoc_runtime.domain.text import printable
-
-_NO_END = "\n\\ No newline at end of file"
 
 
 def rewrite(path: Path, before: str, after: str) -> None:
@@ -44,27 +39,3 @@ def rewrite(path: Path, before: str, after: str) -> None:
     except OSError as error:
         why = error.strerror or str(error)
         raise UsageError(f"{shown(path)} cannot be written: {why}") from None
-
-
-def patch(changes: Changes) -> Iterator[str]:
-    """Yield the lines of a patch that could be applied in the package's folder."""
-    for change in changes.files:
-        yield from _of(change)
-
-
-def _of(change: Change) -> Iterator[str]:
-    before, after = _lines(change.before), _lines(change.after)
-    old = "/dev/null" if change.before is None else f"a/{change.path}"
-    new = "/dev/null" if change.after is None else f"b/{change.path}"
-    yield f"diff --git a/{change.path} b/{change.path}"
-    if change.before is None:
-        yield "new file mode 100644"
-    if change.after is None:
-        yield "deleted file mode 100644"
-    for line in unified_diff(before, after, old, new):
-        yield line[:-1] if line.endswith("\n") else line + _NO_END
-
-
-def _lines(text: str | None) -> list[str]:
-    """Return the lines with their ends."""
-    return list(StringIO(text or "", newline="\n"))  # unlike splitlines: only line feeds count

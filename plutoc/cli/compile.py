@@ -86,7 +86,7 @@ def _compile(options: Options, said: _Messages, written: Callable[[], None]) -> 
             force=options.force,
         )
         if options.diff:
-            from plutoc.cli.changes import patch
+            from plutoc.project.patch import patch
 
             said.lines += patch(changes)
         if options.check:

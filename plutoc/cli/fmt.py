@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from plutoc.cli.changes import patch, rewrite
+from plutoc.cli.changes import rewrite
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, UsageError
 from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input
 from plutoc.cli.folders import apps_of
@@ -14,6 +14,7 @@ from plutoc.cli.say import say
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.emit.write import Change, Changes
 from plutoc.format.run import TooLarge, format_source
+from plutoc.project.patch import patch
 from plutoc.project.reading import shown
 from plutoc.source import Source
 from plutoc.syntax.parse import LARGEST

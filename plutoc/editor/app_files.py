@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from plutoc.editor.changes import between
@@ -25,29 +27,45 @@ LAYOUT = ".layout"
 _OTHER = re.compile(r"[^a-z0-9]+")
 
 
+@dataclass(frozen=True, slots=True)
+class Theirs:
+    """What others have made of a file."""
+
+    text: str | None
+    """None where it cannot be edited."""
+    why: str = ""
+
+
 class AppFiles:
     """An app on the disk, with the history of what is made of it here."""
 
     def __init__(self, path: Path) -> None:
+        if path.suffix.lower() != ".pluto":
+            raise UsageError(
+                f"{shown(path)} is no app: an app is a file whose name ends with .pluto"
+            )
+        if not path.parent.is_dir():
+            raise UsageError(f"there is no folder {shown(path.parent)}")
         self.path = path
+        self._document: Document | None = None
+        self._hooks_seen: Source | None = None
         self.kept = {
             File.APP: Kept(path),
             File.LAYOUT: Kept(path.with_name(path.name + LAYOUT)),
         }
         app = self.kept[File.APP].read()
         self.history = History(app=_new_app(path) if app is None else app)
-        layout = self.kept[File.LAYOUT].read() or ""
-        self._first_layout = layout
+        self._first_layout = self._layout()
         self.kept[File.HOOKS] = Kept(self._hooks_path())
         self.history.hooks = self.kept[File.HOOKS].read()
-        self._base = {File.APP: app, File.HOOKS: self.history.hooks}
+        self._base = {File.APP: self.history.app, File.HOOKS: self.history.hooks}
         """What we and the disk had in common last."""
-        self.conflicts: dict[File, str] = {}
+        self.conflicts: dict[File, Theirs] = {}
         """What others have written, where it is not clear how to put it together with ours."""
         self.unsaved: set[File] = set()
-        self._document: Document | None = None
-        self._hooks_seen: Source | None = None
-        self.history.positions = self._first_positions = self._still_there(positions_in(layout))
+        self.history.positions = self._first_positions = self._still_there(
+            _positions(self._first_layout)
+        )
 
     @property
     def document(self) -> Document:
@@ -61,7 +79,8 @@ class AppFiles:
 
     def document_of(self, text: str, hooks: Source | None) -> Document:
         """Return the app as it would be with another text, and other hooks."""
-        return Document(path=shown(self.path), text=text, find_hooks=lambda _: hooks)
+        before = self._document.sound if self._document else None
+        return Document(path=shown(self.path), text=text, find_hooks=lambda _: hooks, before=before)
 
     @property
     def hooks(self) -> Source | None:
@@ -86,7 +105,8 @@ class AppFiles:
         if file in self.conflicts:  # until it is decided
             return False
         text = self._text(file)
-        self.kept[file].save(text)
+        data = self._first_layout if text is None and file is File.LAYOUT else None
+        self.kept[file].save(data if text is None else text.encode())
         self.unsaved.discard(file)
         if file is not File.LAYOUT:
             self._base[file] = text
@@ -94,22 +114,28 @@ class AppFiles:
 
     def look(self) -> Iterator[tuple[File, str, list[Made]]]:
         """Look at the files, and take in what others have changed: yield what came of it."""
-        if self.history.hooks is None and not self.kept[File.HOOKS].seen:
-            self.kept[File.HOOKS].path = self._hooks_path()
+        if self.history.hooks is None and self.kept[File.HOOKS].seen is None:
+            with suppress(UsageError):  # a link, which is not followed
+                self.kept[File.HOOKS].path = self._hooks_path()
         for file, kept in self.kept.items():
             try:
                 if kept.is_changed():
                     yield file, *self._taken(file, kept)
-            except UsageError as error:
-                if self.conflicts.get(file) is None:
-                    yield file, str(error), []
+            except UsageError as error:  # it is a text no more
+                theirs = Theirs(None, str(error))
+                if file is not File.LAYOUT and self.conflicts.get(file) != theirs:
+                    self.conflicts[file] = theirs
+                    yield file, "conflict", []
 
     def resolve(self, file: File, *, keep_ours: bool) -> list[Made]:
-        """End a conflict."""
-        theirs = self.conflicts.pop(file)
-        self._base[file] = theirs
+        """End a conflict; raise `UsageError` where there is no other text to be kept."""
+        theirs = self.conflicts[file]
+        if theirs.text is None and not keep_ours:
+            raise UsageError(theirs.why)
+        del self.conflicts[file]
+        self._base[file] = theirs.text
         self.unsaved.add(file)
-        return [] if keep_ours else self._becomes(file, theirs)
+        return [] if keep_ours else self._becomes(file, theirs.text or "")
 
     def after_compile(self) -> list[Made]:
         """Look where hooks.py is now: a new package has one of its own."""
@@ -121,33 +147,36 @@ class AppFiles:
         self._base[File.HOOKS] = text
         return [] if text is None else self._becomes(File.HOOKS, text)
 
+    def _layout(self) -> bytes | None:
+        try:
+            return self.kept[File.LAYOUT].read_bytes()
+        except UsageError:  # no file: there are no positions, and saving some will be refused
+            return None
+
     def _text(self, file: File) -> str | None:
         if file is File.APP:
             return self.history.app
         if file is File.HOOKS:
             return self.history.hooks
         positions = self.history.positions
-        if positions == self._first_positions:
-            return self._first_layout or None
-        return positions_file(positions) or None
+        return None if positions == self._first_positions else positions_file(positions)
 
     def _taken(self, file: File, kept: Kept) -> tuple[str, list[Made]]:
-        before = kept.seen
-        theirs = kept.read()
         if file is File.LAYOUT:
-            return "merged", self._merged_layout(before, theirs or "")
+            return "merged", self._merged_layout(kept.seen, kept.read_bytes())
+        theirs = kept.read()
         if theirs is None:
             return "gone", []
-        ours, base = self.history.text(file), self._base[file]
+        ours, base = self.history.text(file), self._base[file] or ""
         if ours == theirs:
             text = ours
-        elif base is None or ours == base:
+        elif ours == base:
             text = theirs
         else:
             try:
                 text = merged(base, ours, theirs, self._statements(file, base))
             except Conflict:
-                self.conflicts[file] = theirs
+                self.conflicts[file] = Theirs(theirs)
                 return "conflict", []
         self.conflicts.pop(file, None)
         self._base[file] = theirs
@@ -158,10 +187,9 @@ class AppFiles:
             self.unsaved.discard(file)
         return "merged", made
 
-    def _merged_layout(self, before: bytes | None, theirs: str) -> list[Made]:
+    def _merged_layout(self, before: bytes | None, theirs: bytes | None) -> list[Made]:
         """Take over what others have moved, but for what was moved here since."""
-        old = positions_in((before or b"").decode("utf-8", "replace"))
-        new = positions_in(theirs)
+        old, new = _positions(before), _positions(theirs)
         names = {name for name in {*old, *new} if old.get(name) != new.get(name)}
         ours = self.history.positions
         moved = {name: new.get(name) for name in names if ours.get(name) == old.get(name)}
@@ -183,7 +211,7 @@ class AppFiles:
 
     def _hooks_path(self) -> Path:
         """Return where the hooks.py is that counts, or where one would be."""
-        name = Document(path="", text=self.history.app).graph.name
+        name = self.document.graph.name
         beside = self.path.with_name(HOOKS)
         if not is_well_formed(name):
             return beside
@@ -205,6 +233,10 @@ class AppFiles:
             return positions
         names = {one.name.text for one in tree.app.statements if isinstance(one, BlockDecl)}
         return {name: at for name, at in positions.items() if name in names}
+
+
+def _positions(data: bytes | None) -> Positions:
+    return positions_in((data or b"").decode("utf-8", "replace"))
 
 
 def _new_app(path: Path) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
@@ -52,13 +53,19 @@ def inverse(text: str, edits: Edits) -> Edits:
     return tuple(found)
 
 
+_LINE = re.compile(r"[^\n]*\n|[^\n]+")
 _MOST = 1_000_000
 """Pairs of lines that are compared; beyond, one edit is as good as the smallest."""
 
 
+def lines_of(text: str) -> list[str]:
+    """Return the lines with their ends: those that the compiler counts."""
+    return _LINE.findall(text)
+
+
 def between(before: str, after: str) -> Edits:
     """Return edits that make one text of another, line by line and each as small as it can be."""
-    old, new = before.splitlines(keepends=True), after.splitlines(keepends=True)
+    old, new = lines_of(before), lines_of(after)
     starts = [0]
     for line in old:
         starts.append(starts[-1] + len(line))

@@ -35,9 +35,14 @@ class Kept:
         self._mark: tuple[int, ...] | None = None
 
     def read(self) -> str | None:
-        """Read the file afresh; None where there is none."""
+        """Read the file afresh; None where there is none; raise `UsageError` if it is no text."""
+        data = self.read_bytes()
+        return None if data is None else decoded(data, shown(self.path))
+
+    def read_bytes(self) -> bytes | None:
+        """Read the file afresh, whatever it holds; None where there is none."""
         self.seen, self._mark = self._now()
-        return None if self.seen is None else decoded(self.seen, shown(self.path))
+        return self.seen
 
     def is_changed(self) -> bool:
         """Return whether others have changed, made or removed the file since it was last seen."""
@@ -48,12 +53,11 @@ class Kept:
             self._mark = mark
         return data != self.seen
 
-    def save(self, text: str | None) -> None:
+    def save(self, data: bytes | None) -> None:
         """Write the file wholly or not at all; None removes it.
 
         Raise `ChangedOutside` if others have changed it, else `CannotSave` with the reason.
         """
-        data = None if text is None else text.encode()
         try:
             if self.is_changed():
                 raise ChangedOutside
@@ -61,16 +65,18 @@ class Kept:
                 return
             if data is None:
                 self.path.unlink(missing_ok=True)
+                mark = None
             else:
-                self._replace(data)
+                mark = self._replace(data)
         except UsageError as error:
             raise CannotSave(str(error)) from None
         except OSError as error:
             why = error.strerror or str(error)
             raise CannotSave(f"{shown(self.path)} cannot be written: {why}") from None
-        self.seen, self._mark = data, _mark_of(self.path)
+        self.seen, self._mark = data, mark
 
-    def _replace(self, data: bytes) -> None:
+    def _replace(self, data: bytes) -> tuple[int, ...]:
+        """Write the file, and return what it is known by: not to be asked when others can have it."""
         mode = None
         with suppress(FileNotFoundError):
             mode = self.path.lstat().st_mode
@@ -88,7 +94,9 @@ class Kept:
                 os.fsync(file.fileno())
             if mode is not None:
                 os.chmod(aside, stat.S_IMODE(mode))
+            mark = _mark(aside.lstat())
             os.replace(aside, self.path)
+            return mark
         finally:
             with suppress(OSError):
                 aside.unlink()
@@ -120,6 +128,10 @@ def _mark_of(path: Path) -> tuple[int, ...] | None:
     except OSError as error:
         why = error.strerror or str(error)
         raise UsageError(f"{shown(path)} cannot be read: {why}") from None
+    return _mark(now)
+
+
+def _mark(now: os.stat_result) -> tuple[int, ...]:
     return now.st_mode, now.st_ino, now.st_size, now.st_mtime_ns
 
 

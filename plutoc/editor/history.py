@@ -16,6 +16,7 @@ from types import MappingProxyType
 from plutoc.editor.changes import Edits, Overlap, in_order, inverse, length, made, rebased
 from plutoc.editor.wire import NoSuchPlace, Wire, units
 from plutoc.service.positions import Point, Positions
+from plutoc.syntax.parse import LARGEST
 
 TOGETHER = 1.0
 """Seconds within which one goes on typing: then it is undone together."""
@@ -34,6 +35,10 @@ class File(Enum):
     APP = "app"
     HOOKS = "hooks"
     LAYOUT = "layout"
+
+
+class TooLarge(Exception):
+    """A text would be larger than the compiler reads. The message is a sentence for a person."""
 
 
 class Stale(Exception):
@@ -125,8 +130,11 @@ class History:
 
     def edited(self, file: File, edits: Edits) -> TextChange:
         """Return the change that edits make of a text as it is."""
+        text = self.text(file)
+        if len(made(text, edits).encode()) > LARGEST:
+            raise TooLarge(f"a file can have at most {LARGEST // 1024} KiB")
         begins = file is File.HOOKS and self.hooks is None
-        return TextChange(file, edits, inverse(self.text(file), edits), begins)
+        return TextChange(file, edits, inverse(text, edits), begins)
 
     def placed(self, moved: Mapping[str, Point | None]) -> LayoutChange:
         """Return the change that moves blocks, or gives them back to the layout."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from plutoc.editor.changes import hunks
+from plutoc.editor.changes import hunks, lines_of
 
 Lines = tuple[int, int]
 """The lines of a statement, from 0; the last one is included."""
@@ -27,7 +27,7 @@ def merged(base: str, ours: str, theirs: str, statements: Iterable[Lines] = ()) 
 
     `statements` are those of the base: what lies in one belongs together.
     """
-    lines = base.splitlines(keepends=True)
+    lines = lines_of(base)
     mine, others = _changed(lines, ours), _changed(lines, theirs)
     both = [one for one in mine if one in others]
     for one in mine:
@@ -45,7 +45,7 @@ def merged(base: str, ours: str, theirs: str, statements: Iterable[Lines] = ()) 
 
 
 def _changed(lines: Sequence[str], text: str) -> list[_Hunk]:
-    new = text.splitlines(keepends=True)
+    new = lines_of(text)
     return [_Hunk(i, j, tuple(new[k:m])) for i, j, k, m in hunks(lines, new)]
 
 

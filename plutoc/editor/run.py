@@ -21,7 +21,7 @@ _PORTS = 65536
 def run(path: Path, *, host: str, port: int, opens: bool) -> None:
     """Edit an app in a browser until interrupted; what was changed is saved then."""
     session = Session(path)
-    listener = _listening(host, port)
+    listener = listening(host, port)
     guard = Guard(host=host, port=int(listener.getsockname()[1]))
 
     def ready() -> None:
@@ -32,10 +32,17 @@ def run(path: Path, *, host: str, port: int, opens: bool) -> None:
             webbrowser.open(guard.address)
 
     with listener:
-        asyncio.run(serve(session, guard, listener, ready))
+        try:
+            asyncio.run(serve(session, guard, listener.dup(), ready))
+        except KeyboardInterrupt:
+            if not session.lost:
+                return
+            output.tell(f"not ended: {session.lost}; Ctrl-C again ends it, and loses that")
+            asyncio.run(serve(session, guard, listener, lambda: None))
 
 
-def _listening(host: str, port: int) -> socket.socket:
+def listening(host: str, port: int) -> socket.socket:
+    """Return a listening socket; port 0 is any that is free."""
     if not 0 <= port < _PORTS:
         raise UsageError(f"--port {port}: a port is a number from 0 to {_PORTS - 1}")
     try:

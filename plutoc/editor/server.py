@@ -125,7 +125,7 @@ class Web:
 
 async def _send(client: Client, socket: WebSocket) -> None:
     with suppress(*_GONE):
-        while (text := await client.outbox.get()) is not None:
+        while (text := await client.next()) is not None:
             await socket.send_text(text)
         await socket.close(_SLOW, "this page was too far behind: load it again")
 

@@ -4,32 +4,40 @@ from __future__ import annotations
 
 import asyncio
 import json
+import os
 import time
-from collections.abc import Callable, Mapping, Sequence
+import traceback
+from collections.abc import Callable, Coroutine, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from plutoc.editor import asked as read
-from plutoc.editor import gestures
+from plutoc.editor import compiling, gestures, running
 from plutoc.editor.app_files import AppFiles
 from plutoc.editor.asked import Asked, Refused
+from plutoc.editor.compiling import Snapshot
 from plutoc.editor.disk import CannotSave, ChangedOutside
 from plutoc.editor.gestures import Gesture
-from plutoc.editor.history import NOBODY, File, Made, Stale
-from plutoc.editor.questions import QUESTIONS
+from plutoc.editor.history import NOBODY, File, Made, Stale, TooLarge
+from plutoc.editor.questions import QUESTIONS, hook_function
 from plutoc.editor.wire import Wire
-from plutoc.hooks.module import read as read_hooks
+from plutoc.project.reading import UsageError
+from plutoc.service.document import Document
 from plutoc.service.edit import CannotEdit
 from plutoc.service.operations import NotAnOperation
 from plutoc.service.palette import palette
+from plutoc.service.positions import Positions
 from plutoc.service.view import view
 from plutoc_runtime import output
 from plutoc_runtime.domain.text import said
 
 SAVE_AFTER, LOOK_EVERY, AGAIN_AFTER = 0.3, 0.4, 2.0
 """Seconds: from a change to its saving, between two looks at the disk, to the next try."""
-_BEHIND = 256
-"""Messages that a client may be behind; then it is let go, and comes back for the whole."""
+_BEHIND = 64 * 1024 * 1024
+"""Characters that a client may be behind; then it is let go, and comes back for the whole."""
 _OPERATIONS = 100
+_SLOW = ("compile", "run")
+"""What takes its time: a client has one of them at a time, and a new one ends the one before."""
 
 Data = dict[str, object]
 
@@ -39,8 +47,21 @@ class Client:
 
     def __init__(self, number: int) -> None:
         self.number = number
-        self.outbox: asyncio.Queue[str | None] = asyncio.Queue()
-        """What it is to be sent; None: it is let go."""
+        self._outbox: asyncio.Queue[str | None] = asyncio.Queue()
+        self._behind = 0
+        self._task: asyncio.Task[None] | None = None
+        self._answer: Data = {}
+
+    def start(self, work: Coroutine[object, object, None], answer: Data) -> None:
+        """Begin work that takes its time, and is answered with this and more."""
+        self.end()
+        self._task, self._answer = asyncio.create_task(work), answer
+
+    def end(self) -> None:
+        """End that work, if it is not done."""
+        if self._task is not None and not self._task.done():
+            self._task.cancel()
+            self.send(self._answer | {"error": "this was ended, as another one was begun"})
 
     def send(self, message: Data) -> None:
         """Send a message."""
@@ -48,10 +69,15 @@ class Client:
 
     def send_text(self, text: str) -> None:
         """Send a message that is written already; a client that does not read is let go."""
-        if self.outbox.qsize() < _BEHIND:
-            self.outbox.put_nowait(text)
-        elif self.outbox.qsize() == _BEHIND:
-            self.outbox.put_nowait(None)
+        if self._behind <= _BEHIND:
+            self._behind += len(text)
+            self._outbox.put_nowait(text if self._behind <= _BEHIND else None)
+
+    async def next(self) -> str | None:
+        """Return the next message that it is to be sent; None: it is let go."""
+        text = await self._outbox.get()
+        self._behind -= len(text or "")
+        return text
 
 
 class Session:
@@ -61,11 +87,16 @@ class Session:
         self.files = AppFiles(path)
         self._clients: dict[int, Client] = {}
         self._last = NOBODY
+        self._asked: object = None
+        """The id of what is being done for a client: it knows its own changes by it."""
         self._changed = asyncio.Event()
         self._cannot_save = ""
         self._seen: tuple[object, object] | None = None
         self._view: Data = {}
         self._palette = palette()
+        self._opened = self.files.history.app
+        self._package_text: str | None = None
+        """What the package was made of, where that is known."""
         self._changes: Mapping[str, Callable[[Client, Asked], Data]] = {
             "edit": self._edit,
             "type": self._type,
@@ -93,30 +124,41 @@ class Session:
 
     def leave(self, client: Client) -> None:
         """Let a client go."""
+        client.end()
         self._clients.pop(client.number, None)
 
-    async def hear(self, client: Client, message: str) -> None:
-        """Do what a client asks, and answer: nothing that it sends does more than to be refused."""
+    async def hear(self, client: Client, message: str, *, slow: bool = False) -> None:
+        """Do what a client asks, and answer: nothing that it sends does more than to be refused.
+
+        What takes its time goes on beside, and is answered when it is done.
+        """
         answer: Data = {}
         try:
             asked = read.parsed(message)
-            if isinstance(asked.get("id"), int | str | None):
-                answer["id"] = asked.get("id")
+            if type(asked.get("id")) in (int, str):
+                answer["id"] = asked["id"]
+            if asked.get("op") in _SLOW and not slow:
+                client.start(self.hear(client, message, slow=True), answer)
+                return
             answer |= await self._answer(client, asked)
-        except (Refused, CannotEdit, NotAnOperation) as error:
+        except (Refused, CannotEdit, NotAnOperation, TooLarge, UsageError) as error:
             answer["error"] = str(error)
         except Exception as error:  # noqa: BLE001 - a mistake of ours ends no one's work
-            output.tell(f"plutoc edit: internal error (P9001): {said(error)}")
-            answer["error"] = f"something went wrong inside the editor: {said(error)}"
+            answer["error"] = _internal(error)
         client.send(answer)
 
     async def _answer(self, client: Client, asked: Asked) -> Data:
         op = asked.get("op")
+        if op == "compile":
+            return await self._compile(client, asked)
+        if op == "run":
+            return await self._run(asked)
         if isinstance(op, str) and op in self._changes:
+            self._asked = asked.get("id")
             return self._changes[op](client, asked)
         if isinstance(op, str) and op in QUESTIONS:
             return QUESTIONS[op](self.files, asked)
-        raise Refused(f"op must be one of {', '.join((*self._changes, *QUESTIONS))}")
+        raise Refused(f"op must be one of {', '.join((*self._changes, *QUESTIONS, *_SLOW))}")
 
     def _tell(self, message: Data) -> None:
         text = json.dumps(message, separators=(",", ":"))
@@ -149,16 +191,22 @@ class Session:
         """Return the picture of the app as it is now."""
         document, positions = self.files.document, self.files.history.positions
         if self._seen is None or self._seen[0] is not document or self._seen[1] is not positions:
-            hooks = self.files.hooks
-            self._view = view(
-                document,
-                positions,
-                hooks=hooks,
-                offset=Wire(document.text).on_wire,
-                hooks_offset=Wire(hooks.text if hooks else "", marked=False).on_wire,
-            )
+            try:
+                self._view = self._drawn(document, positions)
+            except Exception as error:  # noqa: BLE001 - the text must be told all the same
+                self._view = _without_view(self._view, _internal(error))
             self._seen = (document, positions)
         return self._view
+
+    def _drawn(self, document: Document, positions: Positions) -> Data:
+        hooks = self.files.hooks
+        return view(
+            document,
+            positions,
+            hooks=hooks,
+            offset=Wire(document.text).on_wire,
+            hooks_offset=Wire(hooks.text if hooks else "", marked=False).on_wire,
+        )
 
     def _do(self, client: Client, gesture: Gesture) -> Data:
         made = self.files.history.change(gesture.changes, client.number)
@@ -180,6 +228,7 @@ class Session:
                     "push": "change",
                     "version": one.version,
                     "by": one.by,
+                    "asked": self._asked if one.by != NOBODY else None,
                     "file": one.file.value,
                     "changes": [{"from": e.start, "to": e.end, "insert": e.text} for e in one.sent],
                     "view": self.view(),
@@ -218,14 +267,13 @@ class Session:
         return self._do(client, gestures.fix(self.files, read.number(asked, "problem")))
 
     def _stub(self, client: Client, asked: Asked) -> Data:
+        """Say where a hook's function is; where there is none yet, its stub is written first."""
         name = read.text(asked, "name")
+        there = hook_function(self.files, name)
+        if there is not None:
+            return there
         answer = self._do(client, gestures.stub(self.files, name))
-        hooks = self.files.hooks
-        assert hooks is not None  # it was just written
-        line = getattr(read_hooks(hooks).defined.get(name), "lineno", 1)
-        offset = sum(len(one) + 1 for one in hooks.text.split("\n")[: line - 1])
-        place = Wire(hooks.text, marked=False).on_wire(offset)
-        return answer | {"file": File.HOOKS.value, "line": line, "offset": place}
+        return answer | (hook_function(self.files, name) or {"file": File.HOOKS.value})
 
     def _resolve(self, client: Client, asked: Asked) -> Data:
         keep = asked.get("keep")
@@ -242,17 +290,62 @@ class Session:
         self._changed.set()
         return answer
 
+    async def _compile(self, client: Client, asked: Asked) -> Data:
+        """Say what compiling would change, or do it; a package is made of what is saved."""
+        self.save()
+        app = self._snapshot()
+        if asked.get("write") is not True:
+            if self._package_text is None:
+                opened = replace(app, text=self._opened)
+                self._package_text = (
+                    self._opened if await asyncio.to_thread(compiling.is_of, opened) else None
+                )
+            return await asyncio.to_thread(compiling.preview, app, self._package_text)
+        if self.files.conflicts:
+            raise Refused("others have changed this app: decide first which text is to be kept")
+        answer = await asyncio.to_thread(compiling.written, app)
+        self._package_text = app.text
+        self._done(self.files.after_compile())
+        return answer
+
+    async def _run(self, asked: Asked) -> Data:
+        missions = asked.get("missions")
+        if missions is not None:
+            missions = read.text(asked, "missions")
+        return await running.run(self._snapshot(), missions, read.number(asked, "seed", 0))
+
+    def _snapshot(self) -> Snapshot:
+        files = self.files
+        return Snapshot(
+            path=files.path,
+            text=files.history.app,
+            hooks=files.hooks,
+            hooks_path=files.hooks_path,
+        )
+
     def _conflict(self, file: File) -> Data:
+        theirs = self.files.conflicts[file]
         return {
             "push": "disk",
             "what": "conflict",
             "file": file.value,
             "ours": Wire(self.files.history.text(file)).shown,
-            "theirs": Wire(self.files.conflicts[file]).shown,
+            "theirs": None if theirs.text is None else Wire(theirs.text).shown,
+            "why": theirs.why,
         }
+
+    @property
+    def lost(self) -> str:
+        """Why something would be lost if it ended now; empty: nothing would."""
+        if self.files.conflicts:
+            return "others have changed the app, and it is not decided which text is to be kept"
+        return self._cannot_save if self.files.unsaved else ""
 
     async def keep_saving(self) -> None:
         """Save what is changed, soon after each change, until cancelled."""
+        self._changed = asyncio.Event()  # of this loop
+        if self.files.unsaved:
+            self._changed.set()
         while True:
             await self._changed.wait()
             self._changed.clear()
@@ -293,3 +386,22 @@ class Session:
                 self._tell({"push": "disk", "what": what, "file": file.value})
         if self.files.unsaved:
             self._changed.set()
+
+
+def _internal(error: Exception) -> str:
+    """Tell of a mistake of ours, and return the sentence."""
+    text = f"something went wrong inside the editor (P9001): {said(error)}"
+    output.tell(f"plutoc edit: {text}")
+    if os.environ.get("PLUTO_DEBUG") == "1":
+        output.tell("".join(traceback.format_exception(error)).rstrip())
+    return text
+
+
+def _without_view(last: Data, why: str) -> Data:
+    """Return the last picture there was, with what keeps the new one from being drawn."""
+    empty: Data = {"app": "", "title": "", "ends": {"start": [0, 0], "end": [320, 0]}}
+    empty |= {name: [] for name in ("blocks", "edges", "hooks", "categories", "unreadable")}
+    problem: Data = {"code": "P9001", "severity": "error", "message": why, "help": None}
+    problem |= {"label": "", "file": "app", "from": 0, "to": 0, "line": 1, "fix": False}
+    problem |= {"blocks": [], "path": [], "related": []}
+    return {**empty, **last, "problems": [problem]}

@@ -1,4 +1,4 @@
-"""Writing a package: the only module of the compiler that writes to the disk.
+"""Writing a package: no other module does.
 
 First `compare` says what would change, and refuses what is not ours to change; then `write` does
 it, all of it or nothing. New texts are written aside and renamed, so no file is ever half-written.

@@ -1,4 +1,6 @@
-"""Where blocks stand that were not moved by hand: layers from left to right, with few crossings.
+"""Where blocks stand that were not moved by hand: layers from top to bottom, with few crossings.
+
+Blocks are wide and low, so a window shows twice as many layers one below the other as side by side.
 
 The result depends on the graph alone, and ties keep the order of the source: so a further block moves
 those behind it, and leaves the rest where it was.
@@ -9,17 +11,22 @@ from __future__ import annotations
 from bisect import bisect_right, insort
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 
 from plutoc.graph.model import END, START
 from plutoc.service.positions import Point, Positions
 
 WIDTH, HEIGHT, GRID = 176, 52, 8
 """A block's size, and what positions are multiples of."""
-_COLUMN, _ROW, _LANE = 320, 88, 40
-"""From a layer to the next one; from a box to the one below; beside an edge that passes a layer."""
-_BELOW = 48
+_INSET = 40
+"""`start` and `end` are narrower by this at both sides."""
+_LAYER, _COLUMN, _LANE = 120, 224, 40
+"""From a layer to the next one; from a box to the one beside; for an edge that passes a layer."""
+_BETWEEN = 64
 """Between parts of a graph that no edge joins."""
 _SWEEPS, _SETTLE = 8, 4
+_LONGEST = 6
+"""Layers that an edge passes in a lane of its own; a longer one goes around, as one that leads back."""
 
 Ways = Sequence[tuple[str, str]]
 _Spot = str | tuple[int, int]
@@ -28,18 +35,24 @@ _Spot = str | tuple[int, int]
 
 def laid_out(names: Sequence[str], ways: Ways, moved: Positions) -> dict[str, Point]:
     """Return the upper left corner of every block, and of `start` and `end`."""
-    found: dict[str, Point] = {}
-    top = 0
-    for part in _parts((START, *names, END), ways):
-        inside = set(part)
-        within = [way for way in dict.fromkeys(ways) if way[0] in inside and way[0] != way[1]]
-        placed, bottom = _placed(part, within, top)
-        found |= placed
-        top = bottom + _BELOW
-    boxes = [moved[name] for name in (START, *names, END) if name in moved]
+    found = _automatic(tuple(names), tuple(ways))
+    boxes = [moved[name] for name in found if name in moved]
     return {
         name: moved[name] if name in moved else _beside(spot, boxes) for name, spot in found.items()
     }
+
+
+@lru_cache(maxsize=8)  # most changes of a text do not change its graph
+def _automatic(names: tuple[str, ...], ways: tuple[tuple[str, str], ...]) -> dict[str, Point]:
+    found: dict[str, Point] = {}
+    left = 0
+    for part in _parts((START, *names, END), ways):
+        inside = set(part)
+        within = [way for way in dict.fromkeys(ways) if way[0] in inside and way[0] != way[1]]
+        placed, right = _placed(part, within, left)
+        found |= placed
+        left = -(-(right + _BETWEEN) // GRID) * GRID
+    return found
 
 
 def _beside(spot: Point, boxes: Iterable[Point]) -> Point:
@@ -47,7 +60,7 @@ def _beside(spot: Point, boxes: Iterable[Point]) -> Point:
     x, y = spot
     for _, taken in sorted((b for b in boxes if abs(b[0] - x) < WIDTH), key=lambda b: b[1]):
         if abs(taken - y) < HEIGHT:
-            y = taken + _ROW
+            y = taken + HEIGHT + GRID * 5
     return x, y
 
 
@@ -76,25 +89,28 @@ def _parts(names: Sequence[str], ways: Ways) -> Iterator[list[str]]:
         yield loose
 
 
-def _placed(part: Sequence[str], ways: Ways, top: int) -> tuple[dict[str, Point], int]:
+def _placed(part: Sequence[str], ways: Ways, left: int) -> tuple[dict[str, Point], int]:
     """Return the positions within one part, and where it ends."""
     if not ways and START not in part:  # in rows
-        across = 6
+        deep = 6
         spots = {
-            name: (_COLUMN + place % across * (WIDTH + GRID * 5), top + place // across * _ROW)
+            name: (left + place // deep * _COLUMN, (1 + place % deep) * _LAYER)
             for place, name in enumerate(part)
         }
-        return spots, max(y for _, y in spots.values()) + HEIGHT
+        return spots, max(x for x, _ in spots.values()) + WIDTH
     layer = _layers(part, ways)
     layers, above, below = _with_passages(layer, ways)
     _untangle(layers, above, below)
-    at = _heights(layers, above, below)
+    at = _across(layers, above, below)
     least = min(at.values(), default=0.0)
     spots = {
-        name: (layer[name] * _COLUMN, top + round((at[name] - least) / GRID) * GRID)
+        name: (
+            left + round((at[name] - least) / GRID) * GRID + _INSET * (name in (START, END)),
+            layer[name] * _LAYER,
+        )
         for name in part
     }
-    return spots, max(y for _, y in spots.values()) + HEIGHT
+    return spots, max(x for x, _ in spots.values()) + WIDTH
 
 
 def _layers(part: Sequence[str], ways: Ways) -> dict[str, int]:
@@ -152,8 +168,8 @@ def _with_passages(
     before: defaultdict[_Spot, list[_Spot]] = defaultdict(list)
     after: defaultdict[_Spot, list[_Spot]] = defaultdict(list)
     for number, (source, target) in enumerate(ways):
-        if layer[target] <= layer[source]:
-            continue  # it leads back, around all boxes
+        if not 0 < layer[target] - layer[source] <= _LONGEST:
+            continue
         spot: _Spot = source
         for between in range(layer[source] + 1, layer[target] + 1):
             following: _Spot = target if between == layer[target] else (number, between)
@@ -198,14 +214,14 @@ def _crossings(layers: list[list[_Spot]], after: _Near, place: Mapping[_Spot, fl
     return found
 
 
-def _heights(layers: list[list[_Spot]], before: _Near, after: _Near) -> dict[_Spot, float]:
-    """Return how far down each spot is: as straight as may be, in the order of its layer."""
+def _across(layers: list[list[_Spot]], before: _Near, after: _Near) -> dict[_Spot, float]:
+    """Return how far to the right each spot is: as straight as may be, in the order of its layer."""
     at: dict[_Spot, float] = {}
     for layer in layers:
-        y = 0.0
+        x = 0.0
         for spot in layer:
-            at[spot] = y
-            y += _room(spot)
+            at[spot] = x
+            x += _room(spot)
     for sweep in range(_SETTLE * 2):
         near, order = (before, layers) if sweep % 2 == 0 else (after, layers[::-1])
         for layer in order:
@@ -215,11 +231,11 @@ def _heights(layers: list[list[_Spot]], before: _Near, after: _Near) -> dict[_Sp
 
 
 def _room(spot: _Spot) -> float:
-    return _ROW if isinstance(spot, str) else _LANE
+    return _COLUMN if isinstance(spot, str) else _LANE
 
 
 def _apart(layer: Sequence[_Spot], wanted: Sequence[float]) -> Iterator[float]:
-    """Yield the heights nearest to the wanted ones that leave every spot its room.
+    """Yield the places nearest to the wanted ones that leave every spot its room.
 
     Neighbours that want to overlap are put in a block whose middle is where they want it on average.
     """
@@ -228,8 +244,8 @@ def _apart(layer: Sequence[_Spot], wanted: Sequence[float]) -> Iterator[float]:
         offsets.append(sum_of)
         sum_of += _room(spot)
     blocks: list[tuple[float, int]] = []
-    for height, offset in zip(wanted, offsets, strict=True):
-        total, count = height - offset, 1
+    for place, offset in zip(wanted, offsets, strict=True):
+        total, count = place - offset, 1
         while blocks and blocks[-1][0] / blocks[-1][1] > total / count:
             more, others = blocks.pop()
             total, count = total + more, count + others

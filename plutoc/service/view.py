@@ -19,7 +19,7 @@ from plutoc.service.arguments import argument, arguments_of, parameter_of
 from plutoc.service.document import Document
 from plutoc.service.layout import laid_out
 from plutoc.service.positions import Positions
-from plutoc.service.symbols import Role, occurrences
+from plutoc.service.symbols import Role
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import (
     ActionDecl,
@@ -30,6 +30,7 @@ from plutoc.syntax.tree import (
     Guard,
     HookDecl,
 )
+from plutoc_runtime.domain.status import Status
 
 Data = dict[str, object]
 Offset = Callable[[int], int]
@@ -179,12 +180,10 @@ class _View:
 
     def _implicit(self) -> Iterator[tuple[str, list[str]]]:
         """Yield where missions end without an edge to `end`."""
-        checked = self.document.checked
-        for name in self.declared if checked else ():
-            assert checked is not None
-            left = {status for node, status in checked.implicit_ends if node == name}
-            if left:
-                yield name, _listed(left)
+        left: dict[str, set[Status]] = {}
+        for name, status in self.document.checked.implicit_ends if self.document.checked else ():
+            left.setdefault(name, set()).add(status)
+        yield from ((name, _listed(left[name])) for name in self.declared if name in left)
 
     def _implied(self, source: str, statuses: list[str]) -> Data:
         return {
@@ -249,8 +248,7 @@ class _View:
         return [list(self._blocks_of(one)) for one in self.document.diagnostics]
 
     def _blocks_of(self, found: Diagnostic) -> Iterator[str]:
-        path: Sequence[tuple[str, str | None]] = getattr(found, "path", ())
-        names = [name for name, _ in path]
+        names = [name for name, _ in found.path]
         if found.source == self.document.source:
             for name, declared in self.declared.items():
                 if _within(found.span, declared.span):
@@ -264,14 +262,9 @@ class _View:
 
     @cached_property
     def _block_names(self) -> list[_Named]:
-        return [
-            _Named(one.name, one.span)
-            for one in occurrences(self.document.file)
-            if one.role is Role.BLOCK
-        ]
+        return [_Named(one.name, one.span) for one in self.document.names if one.role is Role.BLOCK]
 
     def _problem(self, found: Diagnostic, blocks: Sequence[str]) -> Data:
-        path: Sequence[tuple[str, str | None]] = getattr(found, "path", ())
         return {
             "code": found.code,
             "severity": found.severity.value,
@@ -282,7 +275,7 @@ class _View:
             **self._place(found.source, found.span),
             "line": found.source.position(found.span.start)[0],
             "blocks": list(blocks),
-            "path": [[name, status] for name, status in path],
+            "path": [list(one) for one in found.path],
             "fix": found.fix is not None,
             "related": [
                 {

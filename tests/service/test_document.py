@@ -44,7 +44,7 @@ def test_statuses_are_known_as_far_as_missions_get() -> None:
 
 def test_a_problem_of_the_graph_shows_the_way_to_it() -> None:
     text = RETRY.read_text(encoding="utf-8").replace("watch -> wait when STANDBY\n", "")
-    (one, *_) = (d for d in Document(path="a", text=text).diagnostics if d.path)
+    one, *_ = (d for d in Document(path="a", text=text).diagnostics if d.path)
     blocks = [name for name, _ in one.path]
     assert blocks[0] == "create" and "launch" in blocks
     assert dict(one.path)["launch"] == "RUNNING"

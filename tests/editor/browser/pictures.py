@@ -1,0 +1,28 @@
+"""Pictures of the editor for the docs: few colours, so that they are small."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+
+from PIL import Image
+from playwright.sync_api import Page
+
+from tests.release.environments import ROOT
+
+FOLDER = ROOT / "docs" / "graph-editor"
+COLOURS = 224
+
+
+def picture(page: Page) -> bytes:
+    """Return what is on the screen, as a PNG of few colours."""
+    shot = Image.open(BytesIO(page.screenshot(animations="disabled", caret="hide")))
+    few = shot.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    out = BytesIO()
+    few.save(out, "PNG", optimize=True)
+    return out.getvalue()
+
+
+def kept(name: str) -> Path:
+    """Return where a picture is kept."""
+    return FOLDER / f"{name}.png"

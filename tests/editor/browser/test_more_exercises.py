@@ -1,0 +1,201 @@
+"""The thesis's second and third exercise, drawn upon the first: retry and delay; a timer of one's own."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import Page, expect
+
+from plutoc.compile import analyse
+from plutoc.source import Source
+from tests.editor.browser.conftest import Edit, Visit
+from tests.editor.browser.hand import Hand, block, edge, port
+from tests.editor.browser.serving import Editor, until
+
+Way = tuple[str, str, str]
+
+FIRST = """\
+pluto 1
+
+# The basic graph of nearly every app.
+app drugs "Drugs distribution" {
+  create = MissionCreator
+  allocate = DroneAllocator(policy: least_used)  # wears the drones evenly
+  launch = TripLauncher
+  watch = TripMonitor
+
+  start -> create -> allocate -> launch -> watch
+  # STANDBY: there is more to do.
+  watch -> allocate when STANDBY
+  watch -> end otherwise
+}
+"""
+
+
+def ways(editor: Editor) -> set[Way]:
+    """Return the edges of the app on the disk, each with the statuses that pass."""
+    checked, _ = analyse(Source(editor.file.name, editor.text))
+    return {
+        (one.source, one.target, " ".join(sorted(status.value for status in statuses)))
+        for one, statuses in checked.carries.items()
+    }
+
+
+def rename(page: Page, name: str, new: str) -> None:
+    """Give a block another name, in its properties."""
+    block(page, name).locator(".face").click()
+    field = page.get_by_label("Name", exact=True)
+    expect(field).to_have_value(name)
+    field.fill(new)
+    field.press("Enter")
+    expect(block(page, new)).to_be_visible()
+
+
+def put_between(page: Page, kind: str, source: str, target: str) -> None:
+    """Drag a kind of block from the list onto an edge."""
+    hand = Hand(page)
+    blocks = page.locator(".block").count()
+    hand.drag(page.locator(f'.kind-add[data-kind="{kind}"]'), edge(page, source, target))
+    expect(page.locator(".block")).to_have_count(blocks + 1)
+
+
+def lead(page: Page, source: str, target: str, end: str, to: str) -> None:
+    """Take one end of an edge to another block."""
+    edge(page, source, target).click()
+    handle = page.locator(f'.handle[data-end="{end}"]')
+    expect(handle).to_be_visible()
+    Hand(page).drag(handle, block(page, to))
+    ends = (to, target) if end == "source" else (source, to)
+    expect(edge(page, *ends)).to_be_visible()
+
+
+def add_from_port(page: Page, source: str, status: str, kind: str, name: str) -> None:
+    """Draw a wire into the open, and choose what stands at its end."""
+    start = port(page, source, status)
+    box = start.bounding_box()
+    assert box is not None
+    ground = page.locator(".viewport").bounding_box()
+    assert ground is not None
+    Hand(page).drag(start, (ground["x"] + ground["width"] - 60, box["y"] + 40))
+    page.get_by_role("combobox", name=f"Add a block behind {source}").fill(kind)
+    page.keyboard.press("Enter")
+    expect(block(page, name)).to_be_visible()
+
+
+def with_retry_and_delay(page: Page) -> None:
+    """Draw the second exercise upon the first."""
+    put_between(page, "Clock", "create", "allocate")
+    rename(page, "clock", "wait")
+    lead(page, "watch", "allocate", "target", "wait")
+    add_from_port(page, "watch", "FAILED", "PriorityManager", "manager")
+    rename(page, "manager", "retry")
+    hand = Hand(page)
+    hand.drag(port(page, "retry", "STANDBY"), block(page, "allocate"))
+    expect(edge(page, "retry", "allocate")).to_be_visible()
+    hand.drag(port(page, "retry", "FAILED"), block(page, "end"))
+    expect(edge(page, "retry", "end")).to_be_visible()
+
+
+SECOND = {
+    ("start", "create", "UNEXECUTED"),
+    ("create", "wait", "UNEXECUTED"),
+    ("wait", "allocate", "STANDBY UNEXECUTED"),
+    ("allocate", "launch", "STANDBY UNEXECUTED"),
+    ("launch", "watch", "RUNNING"),
+    ("watch", "wait", "STANDBY"),
+    ("watch", "retry", "FAILED"),
+    ("watch", "end", "COMPLETED"),
+    ("retry", "allocate", "STANDBY"),
+    ("retry", "end", "FAILED"),
+}
+
+
+def test_retry_and_delay(edit: Edit, visit: Visit) -> None:
+    editor = edit(text=FIRST)
+    page = visit(editor)
+    with_retry_and_delay(page)
+    until(lambda: ways(editor) == SECOND, lambda: editor.text)
+    for comment in re.findall(r"#.*", FIRST):
+        assert comment in editor.text
+
+
+def test_a_timer_of_ones_own(edit: Edit, visit: Visit) -> None:
+    editor = edit(text=FIRST)
+    page = visit(editor)
+    with_retry_and_delay(page)
+    # a gate behind the monitor, a modifier beside it
+    put_between(page, "GateFIFO", "watch", "wait")
+    rename(page, "fifo", "first")
+    lead(page, "watch", "retry", "source", "first")
+    lead(page, "watch", "end", "source", "first")
+    edge(page, "watch", "first").click()
+    page.get_by_role("radio", name="all that fits").check()
+    add_from_port(page, "launch", "RUNNING", "MissionModifier", "mission_modifier")
+    rename(page, "mission_modifier", "limit")
+    Hand(page).drag(port(page, "limit"), block(page, "first"))
+    expect(edge(page, "limit", "first")).to_be_visible()
+    # its hook: what it takes and gives
+    page.keyboard.press("Escape")
+    page.keyboard.press("Escape")
+    declaration = page.locator(".declarations input.mono").last
+    declaration.fill("modifier limit_trip(limit: time = 3 min) emits STANDBY, COMPLETED, FAILED")
+    declaration.press("Enter")
+    block(page, "limit").locator(".face").click()
+    value = page.locator('.field[data-field="limit"] input')
+    value.fill("2 metres")
+    expect(page.locator('.field[data-field="limit"] .field-problem')).to_contain_text(
+        "“metres” is no unit of a time"
+    )
+    value.fill("2 min")
+    value.press("Enter")
+    third = (SECOND - {way for way in SECOND if way[0] == "watch"}) | {
+        ("launch", "limit", "RUNNING"),
+        ("limit", "first", "COMPLETED FAILED STANDBY"),
+        ("watch", "first", "COMPLETED FAILED STANDBY"),
+        ("first", "wait", "STANDBY"),
+        ("first", "retry", "FAILED"),
+        ("first", "end", "COMPLETED"),
+    }
+    until(lambda: ways(editor) == third, lambda: editor.text)
+    assert "limit: 2 min" in editor.text
+
+
+def test_its_hook_is_written_in_the_editor(edit: Edit, visit: Visit) -> None:
+    editor = edit("drugs_distribution_timer", without="hooks.py")
+    page = visit(editor)
+    block(page, "limit").locator(".face").click()
+    page.get_by_role("button", name="Write its code: limit_trip").click()
+    code = page.get_by_role("textbox", name="hooks.py: your own code")
+    expect(code).to_contain_text("def limit_trip(")
+    # what is at hand is told beside it
+    given = page.get_by_role("region", name="What you can use in a hook")
+    given.get_by_text("context", exact=True).click()
+    expect(given.get_by_role("button", name="context.trip_ended")).to_be_visible()
+    expect(code).to_be_visible()
+    for line in ("does nothing yet", "await context.trip_ended"):  # what the stub does
+        code.locator(".cm-line", has_text=line).last.click()
+        page.keyboard.press("Control+Shift+K")
+    code.locator(".cm-line", has_text="return mission.status").last.click()
+    page.keyboard.press("Home")
+    page.keyboard.press("Enter")
+    page.keyboard.press("ArrowUp")
+    complete(page, "if not await context.trip_", "trip_ended")
+    complete(page, "(mission.curr", "current")
+    page.keyboard.insert_text(", within=limit):")
+    page.keyboard.press("Enter")  # goes in by itself
+    complete(page, "return Status.FAI", "FAILED")
+    wanted = """\
+    if not await context.trip_ended(mission.current, within=limit):
+        return Status.FAILED
+    return mission.status
+"""
+    until(lambda: wanted in editor.hooks, lambda: editor.hooks)
+
+
+def complete(page: Page, begun: str, whole: str) -> None:
+    """Type the beginning of a name, and take it from the list."""
+    page.keyboard.insert_text(begun[:-1])
+    page.keyboard.type(begun[-1])
+    found = page.locator(".cm-tooltip-autocomplete li[aria-selected]", has_text=whole)
+    found.click()
+    expect(found).to_be_hidden()

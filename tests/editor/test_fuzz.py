@@ -1,0 +1,167 @@
+"""Whatever a client sends: it is answered in a sentence, and all go on."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plutoc.editor.asked import Refused, parsed
+from plutoc.editor.session import Session
+from plutoc.editor.wire import Wire
+from plutoc.service.operations import KINDS
+
+from .editing import HOOKED, Page, app_in
+
+VALUES = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers(-5, 400)
+    | st.floats(allow_nan=False)
+    | st.sampled_from(
+        [
+            "",
+            "watch",
+            "judge",
+            "STANDBY",
+            "app",
+            "hooks",
+            "../x",
+            "\x00",
+            "é🚁",
+            "\ud800",
+            "a" * 200,
+        ]
+    ),
+    lambda inner: st.lists(inner, max_size=3)
+    | st.dictionaries(
+        st.sampled_from(["from", "to", "insert", "source", "target", "when", "do", "", "watch"]),
+        inner,
+        max_size=3,
+    ),
+    max_leaves=6,
+)
+OPS = (
+    *("edit", "type", "undo", "redo", "place", "tidy", "fix", "format", "stub", "resolve"),
+    *("complete", "hover", "definition", "references", "ports", "explain", "nothing"),
+)
+OPERATIONS = st.fixed_dictionaries(
+    {"do": st.sampled_from([*KINDS, "Nothing"])},
+    optional=dict.fromkeys(
+        ("kind", "name", "new", "names", "arrow", "source", "target", "text", "title", "value"),
+        VALUES,
+    ),
+)
+MESSAGES = st.fixed_dictionaries(
+    {"op": st.sampled_from(OPS)},
+    optional={
+        "id": VALUES,
+        "operation": OPERATIONS | VALUES,
+        "operations": st.lists(OPERATIONS | VALUES, max_size=3) | VALUES,
+        **dict.fromkeys(
+            (
+                "version",
+                "changes",
+                "file",
+                "positions",
+                "problem",
+                "name",
+                "keep",
+                "offset",
+                "source",
+                "when",
+                "code",
+            ),
+            VALUES,
+        ),
+    },
+)
+
+
+@settings(max_examples=300)
+@given(st.lists(MESSAGES, min_size=1, max_size=5))
+def test_no_message_is_met_with_more_than_a_sentence(messages: list[dict[str, object]]) -> None:
+    async def sent(folder: Path) -> None:
+        session = Session(app_in(folder, HOOKED))
+        page = Page(session)
+        for message in messages:
+            await session.hear(page.client, json.dumps(message))
+        assert await page.ask("undo", number=10_000) == {
+            "id": 10_000,
+            "version": session.files.history.version,
+            "new": [],
+        }
+        for push in page.pushes:
+            assert "P9001" not in str(push.get("error"))
+            assert "Traceback" not in json.dumps(push)
+
+    with TemporaryDirectory() as folder:
+        asyncio.run(sent(Path(folder)))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "null",
+        "[]",
+        '"x"',
+        "{",
+        '{"op": NaN}',
+        '{"op": 1e999}',
+        '{"id": 99999999999999999999999}',
+        "[" * 100_000,
+        '{"a":' * 100_000,
+        "\x00",
+        '{"op": "undo"',
+    ],
+)
+async def test_what_is_no_object_of_plain_data_is_refused(tmp_path: Path, text: str) -> None:
+    with pytest.raises(Refused):
+        parsed(text)
+    page = Page(Session(app_in(tmp_path)))
+    await page.session.hear(page.client, text)
+    await page.next()
+    assert (await page.next())["error"]
+
+
+async def test_any_text_however_broken_has_a_picture(tmp_path: Path) -> None:
+    """Typed over at random: the picture is drawn, and each client has the text of the file."""
+    chance = Random(7)
+    session = Session(app_in(tmp_path, HOOKED, "def judge(trip, candidates):\n    return 1\n"))
+    page = Page(session)
+    await page.next()
+    pieces = [
+        "{",
+        "}",
+        "->",
+        "when ",
+        "(",
+        '"',
+        "\n",
+        "🚁",
+        "= Clock",
+        "[",
+        "otherwise",
+        "",
+        "def ",
+        "app ",
+    ]
+    for _ in range(150):
+        file = chance.choice(["app", "app", "hooks"])
+        text = session.files.history.app if file == "app" else session.files.history.hooks or ""
+        length = Wire(text).length
+        start = chance.randrange(length + 1)
+        end = min(length, start + chance.choice([0, 0, 1, 5]))
+        answer = await page.type(start, chance.choice(pieces), end, file=file)
+        assert "error" not in answer
+    for push in page.pushes:
+        assert "P9001" not in [one["code"] for one in push["view"]["problems"]]
+        for block in push["view"]["blocks"]:
+            assert 0 <= block["from"] <= block["to"]

@@ -1,0 +1,50 @@
+"""The editor's pages as files: what the compiler's words say, small modules, and nobody else's address."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from plutoc.highlight.rules import RULES, Kind
+from tests.release.environments import ROOT
+
+PAGES = ROOT / "plutoc" / "editor" / "pages"
+OWN = sorted(
+    path
+    for path in PAGES.rglob("*")
+    if path.suffix in (".js", ".css", ".html") and "codemirror" not in path.parts
+)
+LONGEST = 400
+"""Lines of a file."""
+
+
+@pytest.mark.parametrize("path", OWN, ids=lambda path: path.relative_to(PAGES).as_posix())
+def test_a_file_of_the_pages_is_small_and_says_what_it_is(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= LONGEST
+    assert text.startswith(("//", "/*", "<!doctype html>"))
+    assert not re.search(r"https?://(?!www\.w3\.org/)", text)
+    assert "innerHTML" not in text
+
+
+def test_the_text_has_the_compilers_words() -> None:
+    """What stands out in the text pane is what stands out in Pygments and Visual Studio Code."""
+    mode = (PAGES / "text" / "pluto_mode.js").read_text(encoding="utf-8")
+    groups = [set(found.split("|")) for found in re.findall(r"\(\?:([A-Za-z_|]+)\)", mode)]
+    told = (Kind.WORD, Kind.CONSTANT, Kind.STATUS, Kind.TYPE, Kind.TERMINAL)
+    for rule in RULES:
+        if rule.kind in told:
+            (words,) = re.findall(r"\\b\(\?:([^)]+)\)", rule.pattern)
+            assert set(words.split("|")) in groups, rule
+
+
+def test_codemirror_is_as_the_script_says() -> None:
+    script = (ROOT / "editors" / "vendor_codemirror.py").read_text(encoding="utf-8")
+    pinned = dict(re.findall(r'"([@a-z/-]+[a-z0-9-]*)": \("([0-9.]+)"', script))
+    readme = (PAGES / "codemirror" / "README.md").read_text(encoding="utf-8")
+    listed = dict(re.findall(r"\| ([@\w/-]+) \| ([0-9.]+) \|", readme))
+    assert listed == pinned
+    for file in (PAGES / "codemirror").glob("*.js"):
+        assert not re.search(r"""^import .* from ['"](?!\./)""", file.read_text(), re.MULTILINE)
