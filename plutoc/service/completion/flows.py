@@ -8,12 +8,12 @@ from lark import Token
 
 from plutoc.block import IN_GRAPH
 from plutoc.graph.model import END, START
-from plutoc.service import describe
 from plutoc.service.answers import Sort
 from plutoc.service.completion.candidate import Candidate
 from plutoc.service.completion.declarations import keyword
 from plutoc.service.completion.hole import Hole
-from plutoc.service.completion.known import Known
+from plutoc.service.known import Known
+from plutoc.service.reading import describe
 from plutoc.syntax.tokens import ARROW, NAME
 from plutoc_runtime.domain.status import Status
 

@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from plutoc.block import IN_GRAPH
 from plutoc.graph.model import END, START
 from plutoc.report.block_page import first_line
-from plutoc.service import describe
 from plutoc.service.answers import Sort
 from plutoc.service.completion.arguments import required
 from plutoc.service.completion.candidate import Candidate
 from plutoc.service.completion.declarations import keyword, names
 from plutoc.service.completion.flows import blocks
 from plutoc.service.completion.hole import Hole
-from plutoc.service.completion.known import Known
+from plutoc.service.known import Known
+from plutoc.service.reading import describe
 from plutoc.service.symbols import Role
 from plutoc.syntax.tokens import ARROW, EQUAL
 from plutoc.syntax.tree import CategoryDecl, VersionDecl

@@ -11,11 +11,11 @@ from plutoc.service.completion.candidate import Candidate
 from plutoc.service.completion.declarations import category, hook, kinds
 from plutoc.service.completion.flows import flow
 from plutoc.service.completion.hole import Hole, hole
-from plutoc.service.completion.known import Known
 from plutoc.service.completion.outside import outside
 from plutoc.service.completion.statements import statement
 from plutoc.service.completion.trial import Trial, Trials
 from plutoc.service.document import Document
+from plutoc.service.known import Known
 
 MOST = 100
 """Of more completions the rest is not read: with more letters typed, others come in."""
