@@ -28,11 +28,13 @@ IsPoint = Callable[[Flow, Place], bool]
 
 def nearest(flow: Flow) -> Points:
     """Return for each place the points at which a mission interrupted there resumes."""
-    unfinished = _points(flow, _is_point)
-    over = _points(flow, _is_allocator)
+    number = {place: i for i, place in enumerate(flow.places)}
+    after = [(number[one], number[other]) for one, other in flow.after.edges]
+    unfinished = _points(flow, after, _is_point)
+    over = _points(flow, after, _is_allocator)
     return {
-        place: (over if place.status is Status.COMPLETED else unfinished)[place]
-        for place in flow.places
+        place: (over if place.status is Status.COMPLETED else unfinished)[i]
+        for place, i in number.items()
     }
 
 
@@ -83,18 +85,22 @@ def _named(graph: Graph, bits: int) -> tuple[str, ...]:
     return tuple(n for n, bit in zip(graph.node, lowest_first, strict=True) if bit == "1")
 
 
-def _points(flow: Flow, is_point: IsPoint) -> Points:
-    points = {p for p, step in flow.places.items() if step is None or is_point(flow, p)}
-    onward = nx.DiGraph()
-    onward.add_nodes_from(flow.places)
-    onward.add_edges_from((p, after) for p, after in flow.after.edges if after not in points)
-    parts = nx.condensation(onward)
+def _points(flow: Flow, after: Sequence[tuple[int, int]], is_point: IsPoint) -> Sequence[int]:
+    """Return the nearest points of each place; places go by their numbers, which are quick to hash."""
     bit = {name: 1 << i for i, name in enumerate(flow.graph.node)}
-    found: dict[int, int] = {}
-    for part in nx.topological_sort(parts):
-        own = [bit[place.node] for place in parts.nodes[part]["members"] if place in points]
-        found[part] = reduce(or_, (*own, *map(found.__getitem__, parts.pred[part])), 0)
-    return {place: found[part] for place, part in parts.graph["mapping"].items()}
+    found = [
+        bit[place.node] if step is None or is_point(flow, place) else 0
+        for place, step in flow.places.items()
+    ]
+    onward = nx.DiGraph()
+    onward.add_nodes_from(range(len(found)))
+    onward.add_edges_from(pair for pair in after if not found[pair[1]])
+    # Tarjan's algorithm gives a component after all that it leads to: reversed, each is last
+    for part in reversed(list(nx.strongly_connected_components(onward))):
+        bits = reduce(or_, (found[i] for one in part for i in (one, *onward.pred[one])))
+        for one in part:
+            found[one] = bits
+    return found
 
 
 def _is_point(flow: Flow, place: Place) -> bool:

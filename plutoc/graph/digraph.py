@@ -30,19 +30,33 @@ def reachable(graph: nx.DiGraph, beginnings: Iterable[Vertex]) -> set[Vertex]:
 
 def components(graph: nx.DiGraph) -> tuple[Vertices, ...]:
     """Return the strongly connected components, sorted by their first vertex."""
-    return _sorted(graph, nx.strongly_connected_components(graph))
+    vertices, numbers = _numbered(graph)
+    parts = sorted(map(sorted, nx.strongly_connected_components(numbers)))
+    return tuple(tuple(vertices[number] for number in part) for part in parts)
 
 
 def loops(graph: nx.DiGraph) -> tuple[Vertices, ...]:
     """Return the components with a cycle."""
-    parts = nx.strongly_connected_components(graph)
-    return _sorted(graph, (part for part in parts if len(part) > 1 or _is_loop(graph, *part)))
+    return tuple(part for part in components(graph) if len(part) > 1 or _is_loop(graph, *part))
 
 
 def endless_loops(graph: nx.DiGraph) -> tuple[Vertices, ...]:
     """Return the loops without an exit."""
-    parts = nx.attracting_components(graph)
-    return _sorted(graph, (part for part in parts if len(part) > 1 or _is_loop(graph, *part)))
+    return tuple(part for part in loops(graph) if _is_left_by_none(graph, set(part)))
+
+
+def _numbered(graph: nx.DiGraph) -> tuple[Vertices, nx.DiGraph]:
+    """Return the vertices, and the graph of their numbers: places take long to hash."""
+    vertices = tuple(graph)
+    number = {vertex: i for i, vertex in enumerate(vertices)}
+    numbers = nx.DiGraph()
+    numbers.add_nodes_from(range(len(vertices)))
+    numbers.add_edges_from((number[one], number[other]) for one, other in graph.edges)
+    return vertices, numbers
+
+
+def _is_left_by_none(graph: nx.DiGraph, part: set[Vertex]) -> bool:
+    return all(target in part for vertex in part for target in graph[vertex])
 
 
 def round_of(graph: nx.DiGraph, loop: Iterable[Vertex], head: Vertex) -> Vertices:
@@ -55,9 +69,3 @@ def round_of(graph: nx.DiGraph, loop: Iterable[Vertex], head: Vertex) -> Vertice
 def _is_loop(graph: nx.DiGraph, vertex: Vertex) -> bool:
     """Return whether a vertex has an edge to itself."""
     return bool(graph.has_edge(vertex, vertex))
-
-
-def _sorted(graph: nx.DiGraph, parts: Iterable[set[Vertex]]) -> tuple[Vertices, ...]:
-    place = {vertex: index for index, vertex in enumerate(graph)}
-    ordered = (tuple(sorted(part, key=place.__getitem__)) for part in parts)
-    return tuple(sorted(ordered, key=lambda part: place[part[0]]))

@@ -21,7 +21,7 @@ from plutoc.service.editing.edit import CannotEdit
 
 LARGE = 20_000
 """In characters: while a larger app is being typed, it is analysed in the pauses."""
-PAUSE = 0.05
+PAUSE = 0.02
 """In seconds."""
 
 _WATCHED = ("**/hooks.py", "**/*.pluto")
