@@ -79,7 +79,8 @@ class AppFiles:
 
     def document_of(self, text: str, hooks: Source | None) -> Document:
         """Return the app as it would be with another text, and other hooks."""
-        return Document(path=shown(self.path), text=text, find_hooks=lambda _: hooks)
+        before = self._document.sound if self._document else None
+        return Document(path=shown(self.path), text=text, find_hooks=lambda _: hooks, before=before)
 
     @property
     def hooks(self) -> Source | None:

@@ -12,11 +12,10 @@ from plutoc.editor.changes import Edit, Edits, between, in_order
 from plutoc.editor.history import Change, File
 from plutoc.editor.wire import Wire
 from plutoc.edits import applied
-from plutoc.emit.hooks_file import hooks_file
 from plutoc.format.run import TooLarge, format_source
-from plutoc.hooks.add import with_stubs
 from plutoc.service.document import Document
 from plutoc.service.edit import edit
+from plutoc.service.fixes import with_stub
 from plutoc.service.operations import AddBlock, Operation, RemoveBlocks, Rename, operation
 from plutoc.service.positions import Point
 from plutoc.source import Source
@@ -127,21 +126,17 @@ def formatted(files: AppFiles) -> Gesture:
 
 def stub(files: AppFiles, name: str) -> Gesture:
     """Add the stub of a hook to hooks.py, or make that file with the stubs of all."""
-    checked = files.document.checked
-    if checked is None:
+    document = files.document
+    if document.checked is None:
         raise Refused("the app has errors: a stub is written when they are mended")
-    graph = checked.graph
+    graph = document.checked.graph
     if name not in {*(one.name for one in graph.hooks), *(one.name for one in graph.actions)}:
         raise Refused(f"the app declares no hook `{name}`")
-    hooks = files.hooks
-    if hooks is None:
-        text = hooks_file(checked)
-        return Gesture(changes=[files.history.edited(File.HOOKS, (Edit(0, 0, text),))])
-    text = with_stubs(checked, hooks, only=name)
-    if text == hooks.text:
+    fixes = with_stub(document, name)
+    if not fixes:
         raise Refused(f"hooks.py defines `{name}` already, or cannot be read")
-    change = _change(files, File.HOOKS, [between(hooks.text, text)], text)
-    return Gesture(changes=[change])
+    text = files.hooks.text if files.hooks else ""
+    return Gesture(changes=[_change(files, File.HOOKS, [own_edits(text, fixes)], "")])
 
 
 def own_edits(text: str, fixes: Sequence[Fix]) -> Edits:

@@ -19,9 +19,8 @@ from plutoc.editor.compiling import Snapshot
 from plutoc.editor.disk import CannotSave, ChangedOutside
 from plutoc.editor.gestures import Gesture
 from plutoc.editor.history import NOBODY, File, Made, Stale, TooLarge
-from plutoc.editor.questions import QUESTIONS
+from plutoc.editor.questions import QUESTIONS, hook_function
 from plutoc.editor.wire import Wire
-from plutoc.hooks.module import read as read_hooks
 from plutoc.project.reading import UsageError
 from plutoc.service.document import Document
 from plutoc.service.edit import CannotEdit
@@ -136,7 +135,7 @@ class Session:
         answer: Data = {}
         try:
             asked = read.parsed(message)
-            if isinstance(asked.get("id"), int | str):
+            if type(asked.get("id")) in (int, str):
                 answer["id"] = asked["id"]
             if asked.get("op") in _SLOW and not slow:
                 client.start(self.hear(client, message, slow=True), answer)
@@ -268,14 +267,13 @@ class Session:
         return self._do(client, gestures.fix(self.files, read.number(asked, "problem")))
 
     def _stub(self, client: Client, asked: Asked) -> Data:
+        """Say where a hook's function is; where there is none yet, its stub is written first."""
         name = read.text(asked, "name")
+        there = hook_function(self.files, name)
+        if there is not None:
+            return there
         answer = self._do(client, gestures.stub(self.files, name))
-        hooks = self.files.hooks
-        assert hooks is not None  # it was just written
-        line = getattr(read_hooks(hooks).defined.get(name), "lineno", 1)
-        offset = sum(len(one) + 1 for one in hooks.text.split("\n")[: line - 1])
-        place = Wire(hooks.text, marked=False).on_wire(offset)
-        return answer | {"file": File.HOOKS.value, "line": line, "offset": place}
+        return answer | (hook_function(self.files, name) or {"file": File.HOOKS.value})
 
     def _resolve(self, client: Client, asked: Asked) -> Data:
         keep = asked.get("keep")

@@ -19,7 +19,7 @@ from plutoc.service.arguments import argument, arguments_of, parameter_of
 from plutoc.service.document import Document
 from plutoc.service.layout import laid_out
 from plutoc.service.positions import Positions
-from plutoc.service.symbols import Role, occurrences
+from plutoc.service.symbols import Role
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import (
     ActionDecl,
@@ -262,11 +262,7 @@ class _View:
 
     @cached_property
     def _block_names(self) -> list[_Named]:
-        return [
-            _Named(one.name, one.span)
-            for one in occurrences(self.document.file)
-            if one.role is Role.BLOCK
-        ]
+        return [_Named(one.name, one.span) for one in self.document.names if one.role is Role.BLOCK]
 
     def _problem(self, found: Diagnostic, blocks: Sequence[str]) -> Data:
         return {

@@ -39,9 +39,9 @@ class Page:
         self.pushes: list[Data] = []
         self._last = 0
 
-    async def ask(self, op: str, **given: object) -> Data:
+    async def ask(self, op: str, number: int | None = None, **given: object) -> Data:
         """Ask, and return the answer; pushes that come before are kept."""
-        self._last += 1
+        self._last = self._last + 1 if number is None else number
         await self.session.hear(self.client, json.dumps({"id": self._last, "op": op, **given}))
         while True:
             message = await self.next()

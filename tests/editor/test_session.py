@@ -148,15 +148,18 @@ async def test_stubs_are_written_where_there_is_no_file_and_where_there_is_one(
     answer = await page.ask("stub", name="judge")
     hooks = session.files.hooks
     assert hooks is not None
-    assert hooks.text[answer["offset"] :].startswith("def judge(")
+    assert hooks.text[answer["from"] :].startswith("def judge(")
     push = await page.told("change", file="hooks")
     assert push["hooks"] == "hooks.py"
     assert push["view"]["hooks"][0]["defined"] is True
     end = len(hooks.text)
     where = hooks.text.index("def judge(")
     await page.type(where, "", end, file="hooks")
-    assert (await page.ask("stub", name="judge"))["line"] > 1
-    assert "error" in await page.ask("stub", name="judge")
+    again = await page.ask("stub", name="judge")
+    assert again["line"] > 1
+    version = session.files.history.version
+    there = await page.ask("stub", name="judge")  # it is there already
+    assert (there["line"], session.files.history.version) == (again["line"], version)
     for _ in range(3):
         await page.ask("undo")
     assert session.files.history.hooks is None
@@ -179,6 +182,28 @@ async def test_names_are_found_everywhere(tmp_path: Path) -> None:
     assert len(answer["places"]) == 4
     (place,) = (await page.ask("definition", offset=offset + 1))["places"]
     assert place["from"] == APP.index("watch = ") + 1
+
+
+async def test_a_hook_leads_to_its_function(tmp_path: Path) -> None:
+    hooks = "# 🚁\r\n\r\ndef judge(trip, candidates):\r\n    return 1\r\n"
+    page = Page(Session(app_in(tmp_path, HOOKED, hooks)))
+    shown = (await page.next())["hooks"]["text"]
+    answer = await page.ask("definition", offset=HOOKED.index("judge)"))
+    declared, function = answer["places"]
+    assert (declared["file"], declared["from"]) == ("app", HOOKED.index("judge\n"))
+    assert (function["file"], function["line"]) == ("hooks", 3)
+    assert function["from"] == shown.index("def") + 1  # the helicopter counts two
+
+
+async def test_what_hooks_can_ask_is_told_with_the_fields_of_this_app(tmp_path: Path) -> None:
+    page = Page(
+        Session(app_in(tmp_path, HOOKED.replace("  launch =", "  wait = Clock\n  launch =")))
+    )
+    entities = {one["name"]: one for one in (await page.ask("entities"))["entities"]}
+    assert {"mission", "trip", "drone", "context"} <= entities.keys()
+    trip = {one["name"]: one["doc"] for one in entities["trip"]["attributes"]}
+    assert trip["delay"] == "Time to wait before the trip."
+    assert {"target", "action", "item"} <= trip.keys()
 
 
 async def test_where_an_edge_may_lead_and_why_not(tmp_path: Path) -> None:
@@ -253,3 +278,22 @@ def test_what_is_no_app_is_refused(tmp_path: Path, name: str) -> None:
     (tmp_path / "latin.pluto").write_bytes("app é".encode("latin-1"))
     with pytest.raises(UsageError):
         Session(tmp_path / name)
+
+
+async def test_what_may_stand_at_a_place_and_what_it_means(tmp_path: Path) -> None:
+    """In both texts, at the places that a browser counts."""
+    hooks = "\ufeff# 🚁\r\ndef judge(trip, candidates):\r\n    trip.\r\n"
+    page = Page(Session(app_in(tmp_path, "\ufeff" + HOOKED.replace("\n", "\r\n"), hooks)))
+    hello = await page.next()
+    before = HOOKED.index("STANDBY\n") + 1  # the helicopter before counts two
+    answer = await page.ask("complete", file="app", offset=before + 3)
+    (item,) = (one for one in answer["items"] if one["label"] == "STANDBY")
+    assert (item["from"], item["kind"]) == (before, "status")
+    answer = await page.ask("hover", file="app", offset=HOOKED.index("TripLauncher") + 2)
+    assert "TripLauncher" in answer["markdown"]
+    shown = hello["hooks"]["text"]
+    answer = await page.ask("complete", file="hooks", offset=shown.index("trip.\n") + 6)
+    assert "target" in {one["label"] for one in answer["items"]}
+    answer = await page.ask("hover", file="hooks", offset=0)
+    assert answer["markdown"] == ""
+    assert "error" in await page.ask("hover", file="hooks", offset=10_000)
