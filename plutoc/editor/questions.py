@@ -12,11 +12,11 @@ from plutoc.editor.wire import Wire
 from plutoc.explain.pages import code_meant, codes, page
 from plutoc.hooks.module import read as read_hooks
 from plutoc.hooks.python import Unreadable
-from plutoc.service import hook_help
-from plutoc.service.complete import complete
-from plutoc.service.hook_types import types_of
-from plutoc.service.hover import hover
-from plutoc.service.ports import targets
+from plutoc.service.completion.complete import complete
+from plutoc.service.hooks import help as hook_help
+from plutoc.service.hooks.types import types_of
+from plutoc.service.picture.ports import targets
+from plutoc.service.reading.hover import hover
 from plutoc.service.symbols import HOOKS, Occurrence, at, same
 from plutoc.source import Span
 

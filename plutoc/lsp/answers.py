@@ -13,13 +13,14 @@ from plutoc.hooks.python import Unreadable
 from plutoc.lsp import words
 from plutoc.lsp.apps import App, Apps, is_hooks, path_of, uri_of
 from plutoc.lsp.places import Places
-from plutoc.service import fixes, hook_help
-from plutoc.service.complete import complete
-from plutoc.service.hints import hints
-from plutoc.service.hook_places import definition_of, hook_at
-from plutoc.service.hover import hover
-from plutoc.service.outline import coloured, folds, outline
-from plutoc.service.rename import renamed
+from plutoc.service.completion.complete import complete
+from plutoc.service.editing.rename import renamed
+from plutoc.service.hooks import help as hook_help
+from plutoc.service.hooks.places import definition_of, hook_at
+from plutoc.service.reading import fixes
+from plutoc.service.reading.hints import hints
+from plutoc.service.reading.hover import hover
+from plutoc.service.reading.outline import coloured, folds, outline
 from plutoc.service.symbols import DECLARED, HOOKS, Occurrence, at, same
 from plutoc.source import Span
 

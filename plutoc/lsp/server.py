@@ -17,7 +17,7 @@ from plutoc.explain.pages import code_meant, codes, page
 from plutoc.lsp import words
 from plutoc.lsp.answers import COMPLETE_AT, EXPLAIN, Answers
 from plutoc.lsp.apps import Apps, is_hooks
-from plutoc.service.edit import CannotEdit
+from plutoc.service.editing.edit import CannotEdit
 
 LARGE = 20_000
 """In characters: while a larger app is being typed, it is analysed in the pauses."""

@@ -14,7 +14,7 @@ from plutoc.explain.pages import codes
 from plutoc.lsp.apps import App, uri_of
 from plutoc.lsp.places import Places
 from plutoc.service.answers import Hover, Item, Sort
-from plutoc.service.outline import Coloured, Symbol
+from plutoc.service.reading.outline import Coloured, Symbol
 from plutoc.service.symbols import Role
 
 SOURCE = "plutoc"

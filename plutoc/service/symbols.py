@@ -105,6 +105,7 @@ def _all(file: File, roles: dict[str, Role]) -> Iterator[Occurrence]:
     for use in file.uses:
         yield _named(use.alias or use.package, Role.PREFIX, declares=True)
     hooks = {s.name.text: s for s in file.app.statements if isinstance(s, HookDecl | ActionDecl)}
+    known = {name: role for name, role in roles.items() if role in HOOKS}
     for statement in file.app.statements:
         match statement:
             case CategoryDecl():
@@ -123,13 +124,13 @@ def _all(file: File, roles: dict[str, Role]) -> Iterator[Occurrence]:
                 yield from (_named(name, Role.STATUS) for name in statement.emits)
                 yield from (_named(name, Role.OPTION) for name in statement.writes)
             case BlockDecl():
-                yield from _block(statement, roles, hooks, file)
+                yield from _block(statement, known, hooks, file)
             case FlowDecl():
                 yield from _flow(statement)
 
 
 def _block(
-    block: BlockDecl, roles: dict[str, Role], hooks: dict[str, HookDecl | ActionDecl], file: File
+    block: BlockDecl, known: dict[str, Role], hooks: dict[str, HookDecl | ActionDecl], file: File
 ) -> Iterator[Occurrence]:
     yield _named(block.name, Role.BLOCK, declares=True)
     if block.prefix:
@@ -138,7 +139,6 @@ def _block(
     written = [file.source.quote(argument.value.span) for argument in block.arguments]
     called = [hooks[text] for text in written if text in hooks]
     passed = {each.name.text: hook.name.text for hook in called for each in hook.parameters}
-    known = {name: role for name, role in roles.items() if role in HOOKS}
     owner = f"{block.prefix.text}.{block.kind.text}" if block.prefix else block.kind.text
     for argument in block.arguments:
         name = argument.name.text

@@ -1,7 +1,7 @@
 """Reading a text once more after a change: only the statements that it touches are read anew.
 
 What lies around them was in order, and stays as it is. So a text is read that has only the touched
-statements in its app, with one on either side, and what comes out is put where it belongs.
+statements in its app, with two on either side, and what comes out is put where it belongs.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ from plutoc.syntax.parse import LARGEST, read
 from plutoc.syntax.tree import File, Statement
 
 T = TypeVar("T")
+_BESIDE = 2
+"""A touched statement may join the one beside it, and is then judged by the next."""
 Place = Callable[[int], int]
 """Where a character stands after a change."""
 
@@ -33,7 +35,7 @@ def read_again(source: Source, before: File | None) -> tuple[File, tuple[Diagnos
     gone, rest = start - opened - 1, closing - end
 
     def place(at: int) -> int:
-        if at <= opened:
+        if at <= opened + 1:
             return at
         return at + gone + (rest if at + gone > end else 0)
 
@@ -66,8 +68,8 @@ def _touched(source: Source, before: File) -> Part | None:
     statements = before.app.statements
     i = next((i for i, one in enumerate(statements) if one.span.end >= same), len(statements))
     j = next((j for j, one in enumerate(statements) if one.span.start > last), len(statements))
-    i = max(i - 1, 0)
-    j = min(j + 1, len(statements))
+    i = max(i - _BESIDE, 0)
+    j = min(j + _BESIDE, len(statements))
     while j < len(statements) and "\n" in old[slice(*statements[j - 1].span)]:
         j += 1  # its first line alone may not show that a statement begins there
     by = len(new) - len(old)

@@ -53,7 +53,7 @@ class Page:
         """Type at a place, in the version that is the newest."""
         change = {"from": at, "to": at if to is None else to, "insert": insert}
         version = given.pop("version", self.session.files.history.version)
-        return await self.ask("type", changes=[change], version=version, **given)
+        return await self.ask("type", None, changes=[change], version=version, **given)
 
     async def next(self) -> Data:
         """Return the next message."""

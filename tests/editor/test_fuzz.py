@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from plutoc.editor.asked import Refused, parsed
 from plutoc.editor.session import Session
 from plutoc.editor.wire import Wire
-from plutoc.service.operations import KINDS
+from plutoc.service.editing.operations import KINDS
 
 from .editing import HOOKED, Page, app_in
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from plutoc.diagnostic import Severity
-from plutoc.service.complete import complete
+from plutoc.service.completion.complete import complete
 from plutoc.service.document import Document
 from plutoc.service.symbols import occurrences
 from plutoc.source import Span

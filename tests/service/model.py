@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
-from plutoc.service.operations import (
+from plutoc.service.editing.operations import (
     AddBlock,
     Arrow,
     Bracket,

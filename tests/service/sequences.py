@@ -11,8 +11,8 @@ from random import Random
 from plutoc.diagnostic import Fix
 from plutoc.edits import applied
 from plutoc.service.document import Document
-from plutoc.service.edit import CannotEdit, Edited, edit
-from plutoc.service.operations import (
+from plutoc.service.editing.edit import CannotEdit, Edited, edit
+from plutoc.service.editing.operations import (
     AddBlock,
     Arrow,
     Bracket,

@@ -8,7 +8,7 @@ import pytest
 
 from plutoc.diagnostic import Severity
 from plutoc.service.answers import Item
-from plutoc.service.complete import complete
+from plutoc.service.completion.complete import complete
 from plutoc.service.document import Document
 from tests.lsp.holes import FIRST, cuts, mistakes, offered, rank
 from tests.service.test_hover import ALFALFA

@@ -9,8 +9,8 @@ import pytest
 
 from plutoc.edits import applied
 from plutoc.service.document import Document
-from plutoc.service.edit import CannotEdit, edit
-from plutoc.service.operations import (
+from plutoc.service.editing.edit import CannotEdit, edit
+from plutoc.service.editing.operations import (
     KINDS,
     AddBlock,
     Arrow,

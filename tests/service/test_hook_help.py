@@ -7,8 +7,8 @@ import pytest
 from plutoc.emit.hooks_file import MISSION_OFFERS, TRIP_OFFERS
 from plutoc.emit.stubs import EXPORTS
 from plutoc.service.document import Document
-from plutoc.service.hook_help import complete, hover
-from plutoc.service.hook_types import types_of
+from plutoc.service.hooks.help import complete, hover
+from plutoc.service.hooks.types import types_of
 from tests.service.test_hover import ALFALFA, EXAMPLES
 
 DOCUMENT = Document(path="app.pluto", text=ALFALFA)

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from plutoc.service.document import Document
-from plutoc.service.hints import hints
-from plutoc.service.hover import hover
+from plutoc.service.reading.hints import hints
+from plutoc.service.reading.hover import hover
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ALFALFA = (EXAMPLES / "alfalfa" / "app.pluto").read_text(encoding="utf-8")

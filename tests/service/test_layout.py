@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plutoc.service.document import Document
-from plutoc.service.layout import GRID, HEIGHT, WIDTH, laid_out
-from plutoc.service.positions import Point, positions_file, positions_in
+from plutoc.service.picture.layout import GRID, HEIGHT, WIDTH, laid_out
+from plutoc.service.picture.positions import Point, positions_file, positions_in
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/app.pluto"))
 NAMES = [f"b{i}" for i in range(12)]

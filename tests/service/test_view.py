@@ -10,11 +10,11 @@ import pytest
 
 from plutoc.block import Param
 from plutoc.registry import blocks_of
-from plutoc.service.arguments import as_written
 from plutoc.service.document import Document
-from plutoc.service.palette import palette
-from plutoc.service.ports import targets
-from plutoc.service.view import view
+from plutoc.service.picture.arguments import as_written
+from plutoc.service.picture.palette import palette
+from plutoc.service.picture.ports import targets
+from plutoc.service.picture.view import view
 from plutoc.source import Source
 from plutoc_runtime.domain.quantities import Type, to_si
 from tests.test_cases import FOLDERS, read
@@ -143,7 +143,9 @@ def test_the_palette_has_every_kind_with_its_page() -> None:
 def test_a_broken_package_is_told_and_the_others_are_offered(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("plutoc.service.palette.installed_packages", lambda: ("std", "nowhere"))
+    monkeypatch.setattr(
+        "plutoc.service.picture.palette.installed_packages", lambda: ("std", "nowhere")
+    )
     *ours, broken = palette()
     assert len(ours) == len(blocks_of("std"))
     assert broken == {

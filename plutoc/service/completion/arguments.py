@@ -10,11 +10,11 @@ from lark import Token
 from plutoc.block import AnyParam, Choice, HookParam, Param
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.values import EXAMPLES
-from plutoc.service import describe
 from plutoc.service.answers import Sort
 from plutoc.service.completion.candidate import Candidate
 from plutoc.service.completion.hole import Hole
-from plutoc.service.completion.known import Known, hook_of
+from plutoc.service.known import Known, hook_of
+from plutoc.service.reading import describe
 from plutoc.syntax.tokens import NAME
 from plutoc_runtime.domain.quantities import Type, units_of
 

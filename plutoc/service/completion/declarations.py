@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from plutoc.block import IN_GRAPH, HookParam
 from plutoc.graph.hooks import REPEATS
 from plutoc.report.block_page import first_line
-from plutoc.service import describe
 from plutoc.service.answers import Sort
 from plutoc.service.completion.arguments import required, units, values_of
 from plutoc.service.completion.candidate import Candidate
 from plutoc.service.completion.hole import Hole
-from plutoc.service.completion.known import Known
+from plutoc.service.known import Known
+from plutoc.service.reading import describe
 from plutoc.service.symbols import Role
 from plutoc.syntax.tokens import EQUAL
 from plutoc.syntax.tree import BlockDecl

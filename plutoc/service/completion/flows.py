@@ -8,12 +8,12 @@ from lark import Token
 
 from plutoc.block import IN_GRAPH
 from plutoc.graph.model import END, START
-from plutoc.service import describe
 from plutoc.service.answers import Sort
 from plutoc.service.completion.candidate import Candidate
 from plutoc.service.completion.declarations import keyword
 from plutoc.service.completion.hole import Hole
-from plutoc.service.completion.known import Known
+from plutoc.service.known import Known
+from plutoc.service.reading import describe
 from plutoc.syntax.tokens import ARROW, NAME
 from plutoc_runtime.domain.status import Status
 
@@ -65,7 +65,8 @@ def _to(known: Known, name: str, sources: Sequence[str]) -> int:
     """Rank a block by whether it lacks an arrow, and takes what the arrow can bring."""
     brings = frozenset().union(*(known.leaves(s) - known.taken_from(s) for s in sources))
     rank = 0 if brings & known.accepts(name) or not sources else _UNLIKELY
-    if name in sources:
+    there = (edge.target for s in sources for edge in known.graph.outgoing.get(s, ()))
+    if name in sources or name in there:
         rank += _UNLIKELY
     return rank + (_UNREACHED if not known.graph.incoming.get(name) else 0)
 

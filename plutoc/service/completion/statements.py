@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from plutoc.block import IN_GRAPH
 from plutoc.graph.model import END, START
 from plutoc.report.block_page import first_line
-from plutoc.service import describe
 from plutoc.service.answers import Sort
 from plutoc.service.completion.arguments import required
 from plutoc.service.completion.candidate import Candidate
 from plutoc.service.completion.declarations import keyword, names
 from plutoc.service.completion.flows import blocks
 from plutoc.service.completion.hole import Hole
-from plutoc.service.completion.known import Known
+from plutoc.service.known import Known
+from plutoc.service.reading import describe
 from plutoc.service.symbols import Role
 from plutoc.syntax.tokens import ARROW, EQUAL
 from plutoc.syntax.tree import CategoryDecl, VersionDecl
@@ -74,12 +74,13 @@ def _declarations(known: Known) -> Iterator[Candidate]:
 def _edges(known: Known) -> Iterator[Candidate]:
     """Give arrows that take statuses that no arrow takes yet."""
     given = 0
+    lonely = [name for name in known.blocks if not known.graph.incoming.get(name)]
+    every = tuple(dict.fromkeys((*lonely, *known.blocks[:_MOST_EDGES], END)))
     for name in (START, *known.blocks):
         free = known.leaves(name) - known.taken_from(name)
-        if name == START and known.graph.outgoing[START]:
+        if not free or (name == START and known.graph.outgoing[START]):
             continue
-        targets = [t for t in (*known.blocks, END) if t != name and free & known.accepts(t)]
-        targets.sort(key=lambda t: bool(known.graph.incoming.get(t)))
+        targets = [target for target in every if target != name and free & known.accepts(target)]
         for target in targets[:4]:
             passing = [s for s in IN_GRAPH if s in free & known.accepts(target)]
             first = not known.graph.outgoing.get(name)

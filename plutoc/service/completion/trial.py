@@ -18,8 +18,8 @@ from plutoc.registry import Blocks, blocks, standard
 from plutoc.service.completion.hole import Hole
 from plutoc.service.symbols import DECLARED, Occurrence, Role, occurrences
 from plutoc.source import Source
+from plutoc.syntax.again import read_again
 from plutoc.syntax.fragment import statements_of
-from plutoc.syntax.parse import read
 from plutoc.syntax.tree import ActionDecl, BadStatement, BlockDecl, File, HookDecl, Statement
 
 _NO_NAMES = frozenset({Role.KIND, Role.PARAMETER, Role.TYPE, Role.STATUS, Role.TERMINAL, Role.APP})
@@ -38,25 +38,29 @@ class Trial:
     statements: tuple[Statement, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(kw_only=True, eq=False)
 class Trials:
     """An app without the statement that is being written, to try others in its place."""
 
     path: str
     text: str
     hole: Hole
+    before: File | None = None
+    """The tree of an earlier text that was in order."""
+    looked_up: int = 0
+    """How many statements were looked up so far: what the trials have cost."""
 
     @cached_property
     def base(self) -> str:
         """The text with nothing where the statement stands."""
         start, end = self.hole.statement
         blank = "".join(c if c in "\r\n" else " " for c in self.text[start:end])
-        return self.text[:start] + blank + self.text[end:] + "\n"
+        return self.text[:start] + blank + self.text[end:]
 
     @cached_property
     def file(self) -> File:
         """The tree of the rest."""
-        return read(Source(self.path, self.base))[0]
+        return read_again(Source(self.path, self.base), self.before)[0]
 
     @cached_property
     def installed(self) -> Blocks:
@@ -140,7 +144,9 @@ class Trials:
 
     def _wrong(self, trial: Trial) -> Wrong:
         """Return what is wrong with the app's names and values then, and was not before."""
-        part = self._with(trial, self._near(trial.statements))
+        near = self._near(trial.statements)
+        self.looked_up += len(near)
+        part = self._with(trial, near)
         return _errors(resolved(part, self.installed)[1]) - self._rest[1]
 
     def _with(self, trial: Trial, others: Iterable[Statement]) -> File:

@@ -11,14 +11,16 @@ from plutoc.service.completion.candidate import Candidate
 from plutoc.service.completion.declarations import category, hook, kinds
 from plutoc.service.completion.flows import flow
 from plutoc.service.completion.hole import Hole, hole
-from plutoc.service.completion.known import Known
 from plutoc.service.completion.outside import outside
 from plutoc.service.completion.statements import statement
 from plutoc.service.completion.trial import Trial, Trials
 from plutoc.service.document import Document
+from plutoc.service.known import Known
 
 MOST = 100
 """Of more completions the rest is not read: with more letters typed, others come in."""
+MOST_LOOKED_UP = 5_000
+"""In statements: where each trial is dear, fewer completions are tried."""
 MOST_CHECKED = 50
 """In blocks: so much is checked anew at most to tell which completions fit the graph best."""
 
@@ -30,7 +32,7 @@ def complete(document: Document, offset: int) -> tuple[Item, ...]:
         return ()
     if not place.inside:
         return _outside(document, place)
-    trials = Trials(path=document.path, text=document.text, hole=place)
+    trials = Trials(path=document.path, text=document.text, hole=place, before=document.sound)
     known = Known(
         file=trials.file, graph=trials.graph, names=trials.names, installed=trials.installed
     )
@@ -69,8 +71,8 @@ def _legal(trials: Trials, found: list[Candidate]) -> list[tuple[Candidate, str]
         trial = trials.legal(candidate.forms or (candidate.label,))
         if trial is not None:
             legal.append((candidate, trial))
-            if len(legal) == MOST:
-                break
+        if len(legal) == MOST or trials.looked_up > MOST_LOOKED_UP:
+            break
     size = len(trials.graph.nodes)
     most = min(MOST_CHECKED // size, 8) if size else 0
     judged = [one for one in legal if one[0].judged][:most] if len(legal) > 1 else []

@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 from plutoc.diagnostic import Fix
 from plutoc.graph.model import END, START
-from plutoc.service import declaration_edits as declared
-from plutoc.service import flow_edits as edges
-from plutoc.service.copying import copied, pasted
 from plutoc.service.document import Document
-from plutoc.service.draft import Draft
-from plutoc.service.flow_edits import CannotEdit
-from plutoc.service.operations import (
+from plutoc.service.editing import declarations as declared
+from plutoc.service.editing import flows as edges
+from plutoc.service.editing.copying import copied, pasted
+from plutoc.service.editing.draft import Draft
+from plutoc.service.editing.flows import CannotEdit
+from plutoc.service.editing.operations import (
     AddBlock,
     Arrow,
     Bracket,
@@ -32,7 +32,7 @@ from plutoc.service.operations import (
     SetGuard,
     SetTitle,
 )
-from plutoc.service.rename import renamed
+from plutoc.service.editing.rename import renamed
 from plutoc.syntax.tree import ActionDecl, BlockDecl, CategoryDecl, HookDecl
 
 __all__ = ["CannotEdit", "Edited", "edit"]

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 from plutoc.diagnostic import Fix
 from plutoc.graph.names import Style, has_style, is_well_formed, reserved
-from plutoc.service.declaration_edits import taken
 from plutoc.service.document import Document
-from plutoc.service.flow_edits import CannotEdit
+from plutoc.service.editing.declarations import taken
+from plutoc.service.editing.flows import CannotEdit
 from plutoc.service.symbols import DECLARED, HOOKS, Occurrence, Role, occurrences
 from plutoc.source import Source, Span
 from plutoc_runtime.domain.actions import BUILT_IN

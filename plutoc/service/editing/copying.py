@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from plutoc.service.declaration_edits import (
+from plutoc.service.editing.declarations import (
     Declaration,
     added,
     declarations,
@@ -14,9 +14,9 @@ from plutoc.service.declaration_edits import (
     statements_in,
     taken,
 )
-from plutoc.service.draft import Draft
-from plutoc.service.flow_edits import CannotEdit, among
-from plutoc.service.flow_edits import added as with_flow
+from plutoc.service.editing.draft import Draft
+from plutoc.service.editing.flows import CannotEdit, among
+from plutoc.service.editing.flows import added as with_flow
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import BlockDecl, FlowDecl, RequiresDecl, Statement, VersionDecl
 

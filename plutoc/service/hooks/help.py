@@ -14,9 +14,9 @@ from plutoc.graph.model import Graph
 from plutoc.hooks.expected import PASSED
 from plutoc.service.answers import Hover, Item, Sort
 from plutoc.service.document import Document
-from plutoc.service.hook_names import Around, around, chain_before
-from plutoc.service.hook_types import HookType, Member, types_of
-from plutoc.service.hover import of_hook
+from plutoc.service.hooks.names import Around, around, chain_before
+from plutoc.service.hooks.types import HookType, Member, types_of
+from plutoc.service.reading.hover import of_hook
 from plutoc.source import Span
 
 _DEFINING = re.compile(r"(?:^|\n)[ \t]*(?:async[ \t]+)?(?:def[ \t]+)?$")

@@ -9,8 +9,8 @@ from itertools import pairwise, product
 
 from plutoc.diagnostic import Fix
 from plutoc.graph.model import END
-from plutoc.service.draft import Draft
-from plutoc.service.operations import Arrow
+from plutoc.service.editing.draft import Draft
+from plutoc.service.editing.operations import Arrow
 from plutoc.source import Span
 from plutoc.syntax.tree import File, FlowDecl, Guard, Stop
 

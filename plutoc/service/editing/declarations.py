@@ -7,8 +7,8 @@ from plutoc.diagnostic import Fix
 from plutoc.graph.names import in_snake_case, reserved
 from plutoc.graph.values import EXAMPLES
 from plutoc.registry import STD, RegistryError, blocks
-from plutoc.service.draft import Draft
-from plutoc.service.flow_edits import CannotEdit
+from plutoc.service.editing.draft import Draft
+from plutoc.service.editing.flows import CannotEdit
 from plutoc.source import Source, Span
 from plutoc.syntax.parse import read
 from plutoc.syntax.texts import ESCAPES

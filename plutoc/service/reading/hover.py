@@ -7,11 +7,11 @@ from plutoc.emit.stubs import stubs
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.hooks import REPEATS
 from plutoc.graph.model import END, START, Edge
-from plutoc.service import describe
 from plutoc.service.answers import Hover
-from plutoc.service.arrows import Arrow, arriving, arrows, carried, leaving, why_not
-from plutoc.service.completion.known import Known
 from plutoc.service.document import Document
+from plutoc.service.known import Known
+from plutoc.service.reading import describe
+from plutoc.service.reading.arrows import Arrow, arriving, arrows, carried, leaving, why_not
 from plutoc.service.symbols import HOOKS, Occurrence, Role, at
 from plutoc.source import Span
 from plutoc.syntax.fragment import word_at

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from plutoc.block import Block, HookParam
 from plutoc.registry import STD, RegistryError, blocks_of, installed_packages
 from plutoc.report.block_page import first_line, page
-from plutoc.service.arguments import argument
-from plutoc.service.view import kind_of
+from plutoc.service.picture.arguments import argument
+from plutoc.service.picture.view import kind_of
 
 Data = dict[str, object]
 

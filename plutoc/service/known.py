@@ -29,8 +29,11 @@ class Known:
     @cached_property
     def declared(self) -> dict[str, Role]:
         """What is declared, by name."""
-        found = (one for one in reversed(self.names) if one.declares and one.role in DECLARED)
-        return {one.name: one.role for one in found}
+        found: dict[str, Role] = {}
+        for one in self.names:
+            if one.declares and one.role in DECLARED:
+                found.setdefault(one.name, one.role)
+        return found
 
     @cached_property
     def taken(self) -> frozenset[str]:

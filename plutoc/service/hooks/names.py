@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from plutoc.service.hook_types import HookType, Member
+from plutoc.service.hooks.types import HookType, Member
 
 _DEF = re.compile(r"^([ \t]*)(?:async[ \t]+)?def[ \t]+(\w+)[ \t]*\(", re.MULTILINE)
 _PARAMETER = re.compile(r"(\w+)[ \t]*(?::[ \t]*([^,=]+))?(?:=.*)?")

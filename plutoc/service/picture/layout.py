@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from plutoc.graph.model import END, START
-from plutoc.service.positions import Point, Positions
+from plutoc.service.picture.positions import Point, Positions
 
 WIDTH, HEIGHT, GRID = 176, 52, 8
 """A block's size, and what positions are multiples of."""

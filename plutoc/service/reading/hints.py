@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from plutoc.service.arrows import arrows, carried
 from plutoc.service.document import Document
+from plutoc.service.reading.arrows import arrows, carried
 from plutoc.source import Span
 
 

@@ -1,0 +1,1 @@
+"""An app as an editor draws it: blocks with places, edges with statuses, forms, the palette."""
