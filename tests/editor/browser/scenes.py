@@ -90,6 +90,7 @@ def _wrong(page: Page, editor: Editor) -> Iterator[tuple[str, Page]]:
     until(lambda: "GateFunel" in editor.text, "it is on the disk")
     editor.file.write_text(before)
     expect(page.get_by_text("Sound", exact=True)).to_be_visible()
+    page.get_by_role("button", name="Close this notice").click()
 
 
 def _flown(page: Page) -> Iterator[tuple[str, Page]]:

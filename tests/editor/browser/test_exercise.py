@@ -7,6 +7,7 @@ import re
 from playwright.sync_api import Page, expect
 
 from plutoc.compile import analyse
+from plutoc.diagnostic import Rejected
 from plutoc.source import Source
 from tests.editor.browser.conftest import Edit, Visit
 from tests.editor.browser.hand import Hand, block, port, statuses
@@ -22,7 +23,10 @@ def is_drawn(editor: Editor) -> bool:
     """Return whether the app on the disk is the basic drugs distribution."""
     if "monitor -> end" not in editor.text:
         return False
-    checked, _ = analyse(Source(editor.file.name, editor.text))
+    try:
+        checked, _ = analyse(Source(editor.file.name, editor.text))
+    except Rejected:  # not all is saved yet
+        return False
     kinds = {node.name: node.block.name for node in checked.graph.nodes}
     named = {"start": "start", "end": "end"} | kinds
     found = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from playwright.sync_api import Locator, Page
+from playwright.sync_api import Locator, Page, expect
 
 
 def text_of(page: Page) -> Locator:
@@ -17,6 +17,8 @@ def shown(page: Page) -> str:
 
 def type_below(page: Page, line: str, text: str) -> None:
     """Type behind a line of the text."""
+    page.mouse.move(0, 0)  # an explanation of what the mouse was over goes
+    expect(page.locator(".cm-tooltip-hover")).to_have_count(0)
     text_of(page).locator(".cm-line", has_text=line).first.click()
     page.keyboard.press("End")
     page.keyboard.press("Enter")

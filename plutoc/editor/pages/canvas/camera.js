@@ -7,7 +7,7 @@ const LEAST = 0.04;
 const MOST = 2;
 const FAR = 0.45; // below, what is too small to be read is left out
 const FARTHER = 0.28;
-const MARGIN = 56;
+const MARGIN = 36;
 const READABLE = 0.42;
 
 export const camera = { x: 0, y: 0, k: 1, fitted: true }; // fitted: until it is moved by hand

@@ -21,8 +21,8 @@ const zoomer = h("div", { class: "zoomer", role: "group", "aria-label": "Zoom" }
 
 const hint = h("div", { class: "first-steps", hidden: true }, icon("plus", 22),
   h("p", {}, h("strong", {}, "Add the first block")),
-  h("p", {}, "Drag one from the list, double-click here, or press A. A block that is added is "
-    + "connected from the one that is selected."));
+  h("p", {}, "Click one in the list, or drag it here. Or double-click the ground, or press A, and type. "
+    + "A block is connected from the one that is selected."));
 
 export const fitAll = () => fit([...app.nodes.values()], true);
 

@@ -41,7 +41,11 @@ export function makeBar() {
   }
 
   begun.heard(() => { standing = "saved"; draw(); drawSaved(); });
-  changed.heard(() => { standing = standing === "failed" ? standing : "saving"; draw(); drawSaved(); });
+  changed.heard(({ by }) => { // by 0: the disk
+    if (by && standing !== "failed") standing = "saving";
+    draw();
+    drawSaved();
+  });
   pushes.heard((push) => {
     if (push.push === "cannot_save") standing = "failed";
     else if (push.push === "disk" && push.what === "saved") standing = "saved";
