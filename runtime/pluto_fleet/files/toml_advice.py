@@ -9,12 +9,16 @@ from ..shared.alone.files import USUAL
 _TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'[^']*')""")
 _COMMA = "a comma stands between two values"
 _PAIR = re.compile(r"""\s*([\w.-]+|"[^"]*")\s*=\s*(.*?)\s*""")
+_LONGEST = 200
+"""In characters: of a longer line no rule is tried, and nothing repeated."""
 _WORDS = {"yes": "true", "on": "true", "no": "false", "off": "false", "none": "", "null": ""}
 
 
 def advice(text: str, row: int) -> str:
     """Say what to do about this row, from 1, of a text that is not TOML."""
     lines = text.replace("\r\n", "\n").split("\n")
+    if len(lines[row - 1]) > _LONGEST:
+        return USUAL
     line = _without_comment(lines[row - 1])
     return (
         _left_open(lines, row)
