@@ -18,8 +18,10 @@ from plutoc.service.editing.operations import (
     Connect,
     Declare,
     Disconnect,
+    Duplicate,
     NotAnOperation,
     Operation,
+    Paste,
     RemoveBlocks,
     Rename,
     SetArgument,
@@ -122,6 +124,11 @@ def test_comments_of_what_is_taken_out_stay() -> None:
     assert done(text, RemoveBlocks(names=("one",))) == (
         "pluto 1\napp a {\n  # why\n  # beside\n  two = Clock\n  # amid\n  # behind\n}\n"
     )
+
+
+def test_copies_are_counted_on() -> None:
+    text = done(FORK, Duplicate(names=("x",)), Duplicate(names=("x_2",)), Paste(text="x_2 = Clock"))
+    assert list(app_of(text).blocks) == ["x", "y", "z", "x_2", "x_3", "x_4"]
 
 
 def test_a_kind_that_needs_a_hook_brings_one() -> None:

@@ -30,11 +30,11 @@ def copied(draft: Draft, names: Sequence[str]) -> str:
     return "\n".join([*lines, *among(draft.file, names, {})]) + "\n"
 
 
-def pasted(draft: Draft, text: str, *, fresh: bool = False) -> tuple[Draft, tuple[str, ...]]:
+def pasted(draft: Draft, text: str) -> tuple[Draft, tuple[str, ...]]:
     """Put statements into an app; return the names of the blocks that came in.
 
-    A block whose name is taken gets another one; of a copy, `fresh`, the number that it has counts
-    on. What else is declared already stays as it is: an app has one action of a name.
+    A block whose name is taken gets the next number. What else is declared already stays as it is:
+    an app has one action of a name.
     """
     source, statements = statements_in(text)
     if not statements:
@@ -44,8 +44,7 @@ def pasted(draft: Draft, text: str, *, fresh: bool = False) -> tuple[Draft, tupl
     if twice:
         raise CannotEdit(f"what is to be pasted declares `{twice}` twice")
     used, known = taken(draft.file), {each.name.text for each in declarations(draft.file)}
-    wanted = {name: re.sub(r"_\d+$", "", name) if fresh else name for name in blocks}
-    called = {name: free_name(wanted[name], used) for name in blocks}
+    called = {name: free_name(_without_number(name, used), used) for name in blocks}
     last = ""
     for one in statements:
         if isinstance(one, VersionDecl | RequiresDecl) or _is_known(one, known):
@@ -58,6 +57,11 @@ def pasted(draft: Draft, text: str, *, fresh: bool = False) -> tuple[Draft, tupl
         else:
             draft = added(draft, written, type(one))
     return draft, tuple(called.values())
+
+
+def _without_number(name: str, used: set[str]) -> str:
+    """Return a name that is taken without its number, from which it is counted on."""
+    return re.sub(r"_\d+$", "", name) if name.lower() in used else name
 
 
 def _is_known(one: Statement, known: set[str]) -> bool:

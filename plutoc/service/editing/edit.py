@@ -71,7 +71,7 @@ def _done(draft: Draft, operation: Operation) -> tuple[Draft, tuple[str, ...]]:
             )
             return draft, (name,)
         case Duplicate():
-            return pasted(draft, copied(draft, operation.names), fresh=True)
+            return pasted(draft, copied(draft, operation.names))
         case Paste():
             return pasted(draft, operation.text)
         case _:
