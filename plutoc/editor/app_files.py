@@ -11,7 +11,7 @@ from pathlib import Path
 
 from plutoc.editor.changes import between
 from plutoc.editor.disk import Kept
-from plutoc.editor.history import NOBODY, File, History, Made
+from plutoc.editor.history import NO_CLIENT, File, History, Made
 from plutoc.editor.merge import Conflict, merged
 from plutoc.editor.wire import Wire
 from plutoc.graph.app_names import taken_app_name
@@ -193,11 +193,11 @@ class AppFiles:
         names = {name for name in {*old, *new} if old.get(name) != new.get(name)}
         ours = self.history.positions
         moved = {name: new.get(name) for name in names if ours.get(name) == old.get(name)}
-        return self.history.change([self.history.placed(moved)], NOBODY)
+        return self.history.change([self.history.placed(moved)], NO_CLIENT)
 
     def _becomes(self, file: File, text: str) -> list[Made]:
         edits = between(self.history.text(file), text)
-        return self.history.change([self.history.edited(file, edits)], NOBODY)
+        return self.history.change([self.history.edited(file, edits)], NO_CLIENT)
 
     def _statements(self, file: File, base: str) -> list[tuple[int, int]]:
         if file is not File.APP:

@@ -40,7 +40,7 @@ class Kept:
         return None if data is None else decoded(data, shown(self.path))
 
     def read_bytes(self) -> bytes | None:
-        """Read the file afresh, whatever it holds; None where there is none."""
+        """Read the file afresh, text or not; None where there is none."""
         self.seen, self._mark = self._now()
         return self.seen
 

@@ -25,7 +25,7 @@ _REMEMBERED = 1_000
 _NONE: Edits = ()
 _MOST = 50_000_000
 """Characters that the steps to undo may hold; beyond, the oldest are forgotten."""
-NOBODY = 0
+NO_CLIENT = 0
 """The number of no client: the disk changed it."""
 
 
@@ -96,7 +96,7 @@ class _Step:
     """What is undone together."""
 
     changes: list[Change]
-    typed_by: int = NOBODY
+    typed_by: int = NO_CLIENT
     at: float = 0.0
     """When it was typed last."""
 
@@ -189,7 +189,7 @@ class History:
         if not self._undone:
             return []
         step = self._undone.pop()
-        self._remember(replace(step, typed_by=NOBODY))
+        self._remember(replace(step, typed_by=NO_CLIENT))
         return [self._make(one, by) for one in step.changes]
 
     def _since(self, version: int, file: File, by: int, edits: Edits) -> Edits:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 _LARGEST_HEAD = 16 * 1024
 _LARGEST_MESSAGE = 8 * LARGEST
-"""A text of the largest size, in whatever way JSON writes it."""
+"""A text of the largest size, each character escaped as JSON may."""
 _MOST_CLIENTS = 32
 _CONNECTIONS = 256
 _NO_TOKEN, _TOO_MANY, _GOING, _SLOW = 4401, 4429, 1012, 4408

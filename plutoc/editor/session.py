@@ -18,7 +18,7 @@ from plutoc.editor.asked import Asked, Refused
 from plutoc.editor.compiling import Snapshot
 from plutoc.editor.disk import CannotSave, ChangedOutside
 from plutoc.editor.gestures import Gesture
-from plutoc.editor.history import NOBODY, File, Made, Stale, TooLarge
+from plutoc.editor.history import NO_CLIENT, File, Made, Stale, TooLarge
 from plutoc.editor.questions import QUESTIONS, hook_function
 from plutoc.editor.wire import Wire
 from plutoc.project.reading import UsageError
@@ -86,7 +86,7 @@ class Session:
     def __init__(self, path: Path) -> None:
         self.files = AppFiles(path)
         self._clients: dict[int, Client] = {}
-        self._last = NOBODY
+        self._last = NO_CLIENT
         self._asked: object = None
         """The id of what is being done for a client: it knows its own changes by it."""
         self._changed = asyncio.Event()
@@ -228,7 +228,7 @@ class Session:
                     "push": "change",
                     "version": one.version,
                     "by": one.by,
-                    "asked": self._asked if one.by != NOBODY else None,
+                    "asked": self._asked if one.by != NO_CLIENT else None,
                     "file": one.file.value,
                     "changes": [{"from": e.start, "to": e.end, "insert": e.text} for e in one.sent],
                     "view": self.view(),

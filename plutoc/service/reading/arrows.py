@@ -79,7 +79,7 @@ def _reason(document: Document, edge: Edge, status: Status) -> str:
 
 
 def emitted(document: Document, name: str) -> frozenset[Status]:
-    """Return the statuses that a block can emit, whatever arrives."""
+    """Return the statuses that a block can emit at all."""
     if name == START:
         return frozenset({Status.UNEXECUTED})
     node = document.graph.node[name]
