@@ -37,8 +37,9 @@ class Editor:
 
     @property
     def printed(self) -> Path:
-        """What it has printed."""
-        return self.file.with_name(".printed")
+        """What it has printed; not beside the app, where Git would see it."""
+        folder = self.file.parent
+        return folder.with_name(f"{folder.name}.printed")
 
     def start(self) -> None:
         """Start it, and wait until it says where it is."""
