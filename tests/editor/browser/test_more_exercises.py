@@ -13,6 +13,7 @@ from tests.editor.browser.conftest import Edit, Visit
 from tests.editor.browser.drawing import add_from_port, complete, lead, put_between, rename
 from tests.editor.browser.hand import Hand, block, edge, port
 from tests.editor.browser.serving import Editor, until
+from tests.editor.browser.texts import text_of
 
 Way = tuple[str, str, str]
 
@@ -122,6 +123,25 @@ def test_a_timer_of_ones_own(edit: Edit, visit: Visit) -> None:
     }
     until(lambda: ways(editor) == third, lambda: editor.text)
     until(lambda: "limit: 2 min" in editor.text, lambda: editor.text)
+
+
+def test_f12_leads_to_the_definition(edit: Edit, visit: Visit) -> None:
+    page = visit(edit("drugs_distribution_timer"))
+    lines = text_of(page).locator(".cm-line")
+    at = text_of(page).locator(".cm-activeLine")
+    lines.filter(has_text="retry -> allocate").click(position={"x": 30, "y": 8})
+    page.keyboard.press("F12")
+    expect(at).to_have_text("  retry = PriorityManager(max_attempts: 3)")
+    page.keyboard.press("F12")
+    expect(page.get_by_text("This is its definition.")).to_be_visible()
+    # a hook is declared here, and written there
+    lines.filter(has_text="modifier limit_trip").click(position={"x": 115, "y": 8})
+    page.keyboard.press("F12")
+    code = page.get_by_role("textbox", name="hooks.py: your own code")
+    expect(code).to_be_focused()
+    expect(code.locator(".cm-activeLine")).to_contain_text("async def limit_trip(")
+    page.keyboard.press("F1")
+    expect(page.get_by_role("dialog")).to_contain_text("to the definition of a name")
 
 
 def test_its_hook_is_written_in_the_editor(edit: Edit, visit: Visit) -> None:
