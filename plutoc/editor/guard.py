@@ -88,12 +88,12 @@ def _address(text: str) -> IPv4Address | IPv6Address | None:
     return mapped or address
 
 
-def headers(*, nonce: str | None = None) -> dict[str, str]:
-    """Return the headers of every answer; `nonce` lets a page's own styles in, and no script."""
+def headers(*, page: bool = False) -> dict[str, str]:
+    """Return the headers of every answer; a page may load this editor's own files, and no other."""
     policy = "default-src 'none'; frame-ancestors 'none'; sandbox"
-    if nonce is not None:
+    if page:
         policy = (
-            f"default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}';"
+            "default-src 'none'; script-src 'self'; style-src 'self';"
             " img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; base-uri 'none';"
             " form-action 'none'; frame-ancestors 'none'"
         )

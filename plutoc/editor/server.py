@@ -8,7 +8,6 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext, suppress
-from secrets import token_urlsafe
 from typing import TYPE_CHECKING
 
 import uvicorn
@@ -20,7 +19,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from plutoc.editor.guard import Guard, headers, is_ours, is_own_page, knows
 from plutoc.editor.session import Client, Session
-from plutoc.editor.static import NONCE, PAGE, pages
+from plutoc.editor.static import PAGE, pages
 from plutoc.syntax.parse import LARGEST
 
 if TYPE_CHECKING:
@@ -65,9 +64,7 @@ class Web:
         found = pages().get(PAGE)
         if found is None:
             return _said(404, "This installation has no pages.")
-        nonce = token_urlsafe(16)
-        content = found.content.replace(NONCE.encode(), nonce.encode())
-        reply = Response(content, 200, headers(nonce=nonce), found.type)
+        reply = Response(found.content, 200, headers(page=True), found.type)
         reply.headers["Cache-Control"] = "no-store"
         return reply
 

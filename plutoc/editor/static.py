@@ -11,8 +11,6 @@ from pathlib import Path
 
 FOLDER = Path(__file__).parent / "pages"
 PAGE = "index.html"
-NONCE = "{{nonce}}"
-"""Stands in the page where a number goes by which its own styles are known."""
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9_.-]*")
 _KINDS = {

@@ -3,14 +3,18 @@
 
 import { bell } from "./dom.js";
 
+const NO_TOKEN = 4401; // with which server.py closes a line
+const SILENT = "The editor’s server does not answer. It is asked again; what you do meanwhile is not kept.";
 const FIRST_WAIT = 300;
 const LONGEST_WAIT = 4000;
 
 export const pushes = bell();
 export const linked = bell(); // true, false
+export const lost = { why: SILENT };
 
 let socket = null;
 let last = 0;
+let greeted = false; // by a server that knew this page's token
 let wait = FIRST_WAIT;
 const asked = new Map(); // id → [resolve, reject]
 
@@ -20,14 +24,9 @@ export function open() {
   const scheme = location.protocol === "https:" ? "wss:" : "ws:";
   socket = new WebSocket(`${scheme}//${location.host}/ws`);
   socket.addEventListener("message", ({ data }) => heard(JSON.parse(data)));
-  socket.addEventListener("open", () => {
-    wait = FIRST_WAIT;
-    linked.ring(true);
-  });
-  socket.addEventListener("close", () => {
-    for (const [, reject] of asked.values()) {
-      reject(new Refused("The editor’s server does not answer. It is asked again and again."));
-    }
+  socket.addEventListener("close", ({ code }) => {
+    lost.why = code === NO_TOKEN ? strange() : SILENT;
+    for (const [, reject] of asked.values()) reject(new Refused(lost.why));
     asked.clear();
     linked.ring(false);
     setTimeout(open, wait);
@@ -35,7 +34,15 @@ export function open() {
   });
 }
 
+const strange = () => (greeted ? "The editor was started again: open the address that it printed."
+  : "This page does not know the editor’s token: open the address that the editor printed.");
+
 function heard(message) {
+  if (message.push === "hello") { // a line that is open may be closed at once, for want of the token
+    greeted = true;
+    wait = FIRST_WAIT;
+    linked.ring(true);
+  }
   if (message.push) return pushes.ring(message);
   const [resolve, reject] = asked.get(message.id) ?? [];
   asked.delete(message.id);
@@ -53,7 +60,7 @@ export const nextId = () => (last += 1);
 
 // With an id that is known before: pushes that come of it name it.
 export function askAs(id, op, data) {
-  if (!isOpen()) return Promise.reject(new Refused("The editor’s server does not answer."));
+  if (!isOpen()) return Promise.reject(new Refused(lost.why));
   return new Promise((resolve, reject) => {
     asked.set(id, [resolve, reject]);
     socket.send(JSON.stringify({ id, op, ...data }));

@@ -23,7 +23,7 @@ import { focusProperties, makeProperties } from "./panes/properties.js";
 import { makeRun, seedField, simulate } from "./panes/run.js";
 import { makeSplitter } from "./panes/splitter.js";
 import { END, app, begun, changed, choose, chosenBlocks, isEnd, only, selected, selection } from "./state.js";
-import { focusText, makeText } from "./text/pane.js";
+import { focusText, hasText, makeText, toDefinition } from "./text/pane.js";
 
 const needsBlock = () => (chosenBlocks().length ? "" : "Select a block first.");
 const hasErrors = () => app.view.problems.some((one) => one.severity === "error");
@@ -78,6 +78,7 @@ define(
   { id: "one", title: "Zoom to 100 %", keys: ["0"], run: () => zoomTo(1) },
   { id: "graph", title: "To the graph", keys: ["F6"], where: "page", run: () => go(only() ?? "start") },
   { id: "text", title: "To the text", keys: ["Shift+F6"], where: "page", run: () => focusText() },
+  { id: "definition", title: "In the text: to the definition of a name", keys: ["F12"], where: "page", why: () => (hasText() ? "" : "The text is not there yet."), run: toDefinition },
   { id: "problem", title: "Next problem", keys: ["F8"], where: "page", why: () => (app.view.problems.length ? "" : "There are no problems."), run: () => nextProblem(1) },
   { id: "problem-back", title: "Previous problem", keys: ["Shift+F8"], where: "page", why: () => (app.view.problems.length ? "" : "There are no problems."), run: () => nextProblem(-1) },
   { id: "compile", title: "Compile", keys: ["Ctrl+Shift+B"], where: "page", why: broken, run: compile },

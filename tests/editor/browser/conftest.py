@@ -35,9 +35,11 @@ expect.set_options(timeout=A_STEP)
 
 
 class Edit(Protocol):
-    """Starts the editor of an example, of a text, or of a file that is not there yet."""
+    """Starts the editor of an example, of a text, of a file, or of one that is not there yet."""
 
-    def __call__(self, example: str = "", *, text: str = "", without: str = "") -> Editor: ...
+    def __call__(
+        self, example: str = "", *, text: str = "", without: str = "", file: Path | None = None
+    ) -> Editor: ...
 
 
 class Visit(Protocol):
@@ -72,22 +74,29 @@ def browser(browser_type: BrowserType) -> Iterator[Browser]:
     browser.close()
 
 
+def fresh(example: str, folder: Path) -> Path:
+    """Return the file of a copy of an example, or of an app that is not there yet."""
+    if example:
+        shutil.copytree(ROOT / "examples" / example, folder)
+    else:
+        folder.mkdir()
+    return folder / ("app.pluto" if example else NAME)
+
+
 @pytest.fixture
 def edit(tmp_path: Path) -> Iterator[Edit]:
     """Start editors; none of their processes is left behind."""
     editors: list[Editor] = []
 
-    def edit(example: str = "", *, text: str = "", without: str = "") -> Editor:
-        folder = tmp_path / f"app{len(editors)}"
-        if example:
-            shutil.copytree(ROOT / "examples" / example, folder)
-        else:
-            folder.mkdir()
-        file = folder / ("app.pluto" if example else NAME)
+    def edit(
+        example: str = "", *, text: str = "", without: str = "", file: Path | None = None
+    ) -> Editor:
+        if file is None:
+            file = fresh(example, tmp_path / f"app{len(editors)}")
         if text:
             file.write_text(text, encoding="utf-8")
         if without:
-            (folder / without).unlink()
+            file.with_name(without).unlink()
         editor = Editor(file=file)
         editors.append(editor)
         editor.start()

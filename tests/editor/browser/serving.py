@@ -37,12 +37,14 @@ class Editor:
 
     @property
     def printed(self) -> Path:
-        """What it has printed."""
-        return self.file.with_name(".printed")
+        """What it has printed; not beside the app, where Git would see it."""
+        folder = self.file.parent
+        return folder.with_name(f"{folder.name}.printed")
 
-    def start(self) -> None:
+    def start(self, port: int = 0) -> None:
         """Start it, and wait until it says where it is."""
-        words = [sys.executable, "-m", "plutoc", "edit", str(self.file), "--no-open", "--port", "0"]
+        words = [sys.executable, "-m", "plutoc", "edit", str(self.file), "--no-open"]
+        words += ["--port", str(port)]
         with self.printed.open("wb") as out:
             self._life = subprocess.Popen(
                 words,

@@ -120,6 +120,8 @@ def test_a_name_with_a_problem_in_the_text_is_mended_by_a_button(edit: Edit, vis
     editor = edit("alfalfa")
     page = visit(editor)
     type_below(page, "watch = TripMonitor", "more = GateFunel")
+    block(page, "more").locator(".face").click()
+    expect(page.locator(".passes")).to_have_text(["takesnot known", "givesnot known"])
     problem(page, "GateFunel")
     mend = page.get_by_role("tabpanel").get_by_role("button", name="Mend it")
     if mend.count():  # where the compiler is certain

@@ -10,8 +10,10 @@ from plutoc.compile import analyse
 from plutoc.diagnostic import Rejected
 from plutoc.source import Source
 from tests.editor.browser.conftest import Edit, Visit
+from tests.editor.browser.drawing import add_from_port, complete, lead, put_between, rename
 from tests.editor.browser.hand import Hand, block, edge, port
 from tests.editor.browser.serving import Editor, until
+from tests.editor.browser.texts import text_of
 
 Way = tuple[str, str, str]
 
@@ -43,47 +45,6 @@ def ways(editor: Editor) -> set[Way]:
         (one.source, one.target, " ".join(sorted(status.value for status in statuses)))
         for one, statuses in checked.carries.items()
     }
-
-
-def rename(page: Page, name: str, new: str) -> None:
-    """Give a block another name, in its properties."""
-    block(page, name).locator(".face").click()
-    field = page.get_by_label("Name", exact=True)
-    expect(field).to_have_value(name)
-    field.fill(new)
-    field.press("Enter")
-    expect(block(page, new)).to_be_visible()
-
-
-def put_between(page: Page, kind: str, source: str, target: str) -> None:
-    """Drag a kind of block from the list onto an edge."""
-    hand = Hand(page)
-    blocks = page.locator(".block").count()
-    hand.drag(page.locator(f'.kind-add[data-kind="{kind}"]'), edge(page, source, target))
-    expect(page.locator(".block")).to_have_count(blocks + 1)
-
-
-def lead(page: Page, source: str, target: str, end: str, to: str) -> None:
-    """Take one end of an edge to another block."""
-    edge(page, source, target).click()
-    handle = page.locator(f'.handle[data-end="{end}"]')
-    expect(handle).to_be_visible()
-    Hand(page).drag(handle, block(page, to))
-    ends = (to, target) if end == "source" else (source, to)
-    expect(edge(page, *ends)).to_be_visible()
-
-
-def add_from_port(page: Page, source: str, status: str, kind: str, name: str) -> None:
-    """Draw a wire into the open, and choose what stands at its end."""
-    start = port(page, source, status)
-    box = start.bounding_box()
-    assert box is not None
-    ground = page.locator(".viewport").bounding_box()
-    assert ground is not None
-    Hand(page).drag(start, (ground["x"] + ground["width"] - 60, box["y"] + 40))
-    page.get_by_role("combobox", name=f"Add a block behind {source}").fill(kind)
-    page.keyboard.press("Enter")
-    expect(block(page, name)).to_be_visible()
 
 
 def with_retry_and_delay(page: Page) -> None:
@@ -164,6 +125,25 @@ def test_a_timer_of_ones_own(edit: Edit, visit: Visit) -> None:
     until(lambda: "limit: 2 min" in editor.text, lambda: editor.text)
 
 
+def test_f12_leads_to_the_definition(edit: Edit, visit: Visit) -> None:
+    page = visit(edit("drugs_distribution_timer"))
+    lines = text_of(page).locator(".cm-line")
+    at = text_of(page).locator(".cm-activeLine")
+    lines.filter(has_text="retry -> allocate").click(position={"x": 30, "y": 8})
+    page.keyboard.press("F12")
+    expect(at).to_have_text("  retry = PriorityManager(max_attempts: 3)")
+    page.keyboard.press("F12")
+    expect(page.get_by_text("This is its definition.")).to_be_visible()
+    # a hook is declared here, and written there
+    lines.filter(has_text="modifier limit_trip").click(position={"x": 115, "y": 8})
+    page.keyboard.press("F12")
+    code = page.get_by_role("textbox", name="hooks.py: your own code")
+    expect(code).to_be_focused()
+    expect(code.locator(".cm-activeLine")).to_contain_text("async def limit_trip(")
+    page.keyboard.press("F1")
+    expect(page.get_by_role("dialog")).to_contain_text("to the definition of a name")
+
+
 def test_its_hook_is_written_in_the_editor(edit: Edit, visit: Visit) -> None:
     editor = edit("drugs_distribution_timer", without="hooks.py")
     page = visit(editor)
@@ -194,12 +174,3 @@ def test_its_hook_is_written_in_the_editor(edit: Edit, visit: Visit) -> None:
     return mission.status
 """
     until(lambda: wanted in editor.hooks, lambda: editor.hooks)
-
-
-def complete(page: Page, begun: str, whole: str) -> None:
-    """Type the beginning of a name, and take it from the list."""
-    page.keyboard.insert_text(begun[:-1])
-    page.keyboard.type(begun[-1])
-    found = page.locator(".cm-tooltip-autocomplete li[aria-selected]", has_text=whole)
-    found.click()
-    expect(found).to_be_hidden()

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from urllib.parse import urlsplit
+
 from playwright.sync_api import Page, expect
 
 from tests.editor.browser.conftest import Edit, Visit
 from tests.editor.browser.hand import Hand, block, edge, port
 from tests.editor.browser.serving import Editor, until
 from tests.editor.browser.texts import shown, text_of, type_below
+from tests.station.browser.watched import Watch
 
 SOURCE = """\
 pluto 1
@@ -108,6 +111,35 @@ def test_a_killed_server_loses_at_most_the_last_second(edit: Edit, visit: Visit)
     editor.kill()
     expect(page.get_by_role("alert").filter(has_text="does not answer")).to_be_visible()
     assert "retry = PriorityManager" in editor.text
+
+
+def test_a_page_whose_server_was_started_again_says_so(
+    edit: Edit, visit: Visit, watch: Watch
+) -> None:
+    watch.expected.append("net::ERR_CONNECTION_REFUSED")
+    editor = edit(text=SOURCE)
+    page = visit(editor)
+    expect(text_of(page)).to_be_visible()  # all of the page is there
+    editor.kill()
+    editor.start(urlsplit(page.url).port or 0)
+    again = page.get_by_role("alert").filter(
+        has_text="The editor was started again: open the address that it printed."
+    )
+    expect(again).to_be_visible()
+    expect(page.get_by_text("No server", exact=True)).to_be_visible()
+    other = page.context.new_page()
+    other.goto(editor.url)  # which has the token from now on
+    expect(again).to_be_hidden()
+    type_below(page, "watch = TripMonitor", "retry = PriorityManager")
+    same_everywhere(editor, page, other)
+
+
+def test_a_page_that_never_had_the_token_says_so(edit: Edit, visit: Visit) -> None:
+    editor = edit(text=SOURCE)
+    page = visit(editor)
+    page.context.clear_cookies()
+    page.reload()
+    expect(page.get_by_text("open the address that the editor printed")).to_be_visible()
 
 
 def test_undo_ends_at_the_first_byte(edit: Edit, visit: Visit) -> None:

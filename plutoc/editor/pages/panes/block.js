@@ -10,7 +10,7 @@ import { openHook } from "./hooks.js";
 import { problemRow } from "./problems.js";
 
 const sets = (label, statuses) => h("div", { class: "passes" }, h("span", { class: "hint" }, label),
-  statuses.length ? statuses.map((one) => [status(one), " "]) : h("span", { class: "hint" }, "nothing"));
+  statuses?.length ? statuses.map((one) => [status(one), " "]) : h("span", { class: "hint" }, statuses ? "nothing" : "not known"));
 
 export function blockPanel(name) {
   const input = h("input", {
@@ -44,7 +44,7 @@ export function blockPanel(name) {
       return field.element;
     }, (_element, one) => made.get(one.name).update(one));
     hook.replaceChildren(...hookLine(block));
-    statuses.replaceChildren(sets("takes", block.accepts), sets("gives", block.emits));
+    statuses.replaceChildren(sets("takes", block.known ? block.accepts : null), sets("gives", block.known ? block.emits : null));
     keyed(out, outOf(block.name), keyOf, () => h("li", {}), (item, edge) => {
       const guard = edge.otherwise ? "otherwise" : edge.when.length ? `when ${edge.when.join(", ")}` : "";
       item.replaceChildren(h("button", { type: "button", class: "way", title: edgeSaid(edge), onclick: () => toEdge(edge) },

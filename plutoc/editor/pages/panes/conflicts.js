@@ -2,7 +2,7 @@
 
 import { refused, tell } from "../announce.js";
 import { button, h, icon, put, shown } from "../dom.js";
-import { ask, linked, pushes } from "../link.js";
+import { ask, linked, lost, pushes } from "../link.js";
 import { app, begun } from "../state.js";
 import { showDialog } from "../dialogs/dialog.js";
 
@@ -39,9 +39,8 @@ export function makeConflicts() {
     }
   });
   linked.heard((yes) => {
-    if (yes === !line) return;
     line = !yes;
-    if (line) show("The editor’s server does not answer. It is asked again; what you do meanwhile is not kept.");
+    if (line) show(lost.why);
   });
   begun.heard(() => { line = false; hide(); });
   return bar;

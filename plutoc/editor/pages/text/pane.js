@@ -1,12 +1,14 @@
 // The text beside the picture, and hooks.py behind it: the same app, both ways at once.
 
-import { say } from "../announce.js";
+import { say, tell } from "../announce.js";
 import { reveal } from "../canvas/camera.js";
 import { h, put, shown } from "../dom.js";
+import { ask } from "../link.js";
 import { app, begun, changed, choose, isEnd, keyOf, selected, selection } from "../state.js";
 
 let editors = null; // their code is large: the graph is drawn before it is there
 let waiting = []; // what is to be done with them then
+export const hasText = () => editors !== null;
 const withEditors = (use) => (editors ? use(editors) : waiting.push(use));
 let turn = () => {};
 
@@ -107,8 +109,22 @@ export function typeInHooks(text) {
   withEditors(() => editors.hooks.type(text));
 }
 
+const fileShown = () => (document.getElementById("tab-app").getAttribute("aria-selected") === "true" ? "app" : "hooks");
+
+// From a name to where it is declared; from there to its function in hooks.py.
+export async function toDefinition() {
+  await typedAll();
+  const file = fileShown();
+  const offset = editors[file].view.state.selection.main.head;
+  const { places } = await ask("definition", { file, offset });
+  const isHere = (one) => one.file === file && one.from <= offset && offset <= one.to;
+  const place = places.find((one) => !isHere(one));
+  if (place) showPlace(place.file, place.from, place.to);
+  else tell(places.length ? "This is its definition." : "No name that is declared stands at the cursor.");
+}
+
 export function focusText() {
-  const file = document.getElementById("tab-app").getAttribute("aria-selected") === "true" ? "app" : "hooks";
+  const file = fileShown();
   withEditors(() => editors[file].view.focus());
   say(`${file === "app" ? app.file : "hooks.py"}: press Escape and then Tab to leave`);
 }
