@@ -26,8 +26,6 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     if creator is None or (found and not graph.outgoing[creator.name]):
         raise Rejected(in_order(found))  # no mission moves: nothing else can be checked
     flow = explore(graph, edges, (creation(creator.name),))
-    points = resume.nearest(flow)
-    stopped, points_then = _after_a_stop(flow, points)
     parallels = branches(flow)
     unclosed = forks.unclosed(flow, parallels)
     flown = forks.flown(parallels, unclosed)
@@ -39,13 +37,18 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     lacking = reach.unreached(flow, creator.name, _missed(open_forks, unwatched))
     if not flown:
         lacking += reach.starved(flow)
-        found += reach.untaken(flow, stopped)
         found += reach.spent(flow)
         found += parallel.written_twice(flow, parallels)
     found += _in_flight(sure, flow, parallels, lacking=bool(lacking or unwatched))
     found += open_forks
     found += lacking
     found += unwatched
+    if found and (flown or not reach.untaken(flow, flow)):
+        raise Rejected(in_order(found))  # what missions do after a Stop would change none of it
+    points = resume.nearest(flow)
+    stopped, points_then = _after_a_stop(flow, points)
+    if not flown:
+        found += reach.untaken(flow, stopped)
     if found or (found := forks.too_deep(flow, parallels)):
         raise Rejected(in_order(found))  # the same errors would recur after a Stop
     again = branches(stopped)
