@@ -6,6 +6,7 @@ Connections are bounded in number, size and time, and a refused one has touched 
 from __future__ import annotations
 
 import asyncio
+import signal
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext, suppress
 from typing import TYPE_CHECKING
@@ -20,6 +21,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from plutoc.editor.guard import Guard, headers, is_ours, is_own_page, knows
 from plutoc.editor.session import Client, Session
 from plutoc.editor.static import PAGE, pages
+from plutoc.foreign_code import Terminated
 from plutoc.syntax.parse import LARGEST
 
 if TYPE_CHECKING:
@@ -151,7 +153,31 @@ async def _nothing(request: Request, error: Exception) -> Response:
 async def serve(
     session: Session, guard: Guard, listener: socket.socket, ready: Callable[[], object]
 ) -> None:
-    """Serve on a listening socket until cancelled, and save what is not saved yet."""
+    """Serve on a listening socket until cancelled, and save what is not saved yet.
+
+    A signal to end raises `Terminated` here, and not in whichever callback it meets.
+    """
+    told: list[int] = []
+    serving = asyncio.create_task(_serve(session, guard, listener, ready))
+
+    def end(number: int) -> None:
+        told.append(number)
+        serving.cancel()
+
+    for one in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(one) != signal.SIG_IGN:  # as `nohup` has it
+            asyncio.get_running_loop().add_signal_handler(one, end, one)
+    try:
+        await serving
+    except asyncio.CancelledError:
+        if told:
+            raise Terminated(told[0]) from None
+        raise
+
+
+async def _serve(
+    session: Session, guard: Guard, listener: socket.socket, ready: Callable[[], object]
+) -> None:
     server = _server(Web(session, guard))
     serving = asyncio.create_task(server.serve([listener]))
     at_work = [
