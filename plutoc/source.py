@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
+LARGEST = 1 << 20
+"""So long a source is read: in bytes of UTF-8."""
+
 
 class Span(NamedTuple):
     """A stretch of a source, in characters from its beginning; the end is not included."""

@@ -22,7 +22,6 @@ CHOSEN: dict[str, tuple[object, str]] = {
     "networkx: reachability": (nx, "bfs_layers"),
     "networkx: components": (nx, "strongly_connected_components"),
     "networkx: loops that nothing leaves": (nx, "attracting_components"),
-    "networkx: topological order": (nx, "topological_sort"),
     "networkx: dominators": (nx, "immediate_dominators"),
     "Jinja2": (jinja2.Template, "render"),
     "Black": (black, "format_str"),

@@ -6,8 +6,7 @@ import sys
 from pathlib import Path
 
 from plutoc.project.reading import UsageError, decoded, shown, text_of, why
-from plutoc.source import Source
-from plutoc.syntax.parse import LARGEST
+from plutoc.source import LARGEST, Source
 
 STANDARD_INPUT = Path("-")
 _OTHER_FILES = (".toml", ".py")

@@ -16,8 +16,7 @@ from plutoc.emit.write import Change, Changes
 from plutoc.format.run import TooLarge, format_source
 from plutoc.project.patch import patch
 from plutoc.project.reading import shown
-from plutoc.source import Source
-from plutoc.syntax.parse import LARGEST
+from plutoc.source import LARGEST, Source
 from plutoc_runtime import output
 
 

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from plutoc.project.reading import UsageError, decoded, shown
-from plutoc.syntax.parse import LARGEST
+from plutoc.source import LARGEST
 
 _ASIDE = ".plutoc-"
 

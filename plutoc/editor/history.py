@@ -16,7 +16,7 @@ from types import MappingProxyType
 from plutoc.editor.changes import Edits, Overlap, in_order, inverse, length, made, rebased
 from plutoc.editor.wire import NoSuchPlace, Wire, units
 from plutoc.service.picture.positions import Point, Positions
-from plutoc.syntax.parse import LARGEST
+from plutoc.source import LARGEST
 
 TOGETHER = 1.0
 """Seconds within which one goes on typing: then it is undone together."""

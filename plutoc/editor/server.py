@@ -22,7 +22,7 @@ from plutoc.editor.guard import Guard, headers, is_ours, is_own_page, knows
 from plutoc.editor.session import Client, Session
 from plutoc.editor.static import PAGE, pages
 from plutoc.foreign_code import Terminated
-from plutoc.syntax.parse import LARGEST
+from plutoc.source import LARGEST
 
 if TYPE_CHECKING:
     import socket

@@ -7,8 +7,8 @@ from dataclasses import fields, is_dataclass
 
 from plutoc.diagnostic import Rejected
 from plutoc.format.canonical import canonical
-from plutoc.source import Source
-from plutoc.syntax.parse import LARGEST, parse
+from plutoc.source import LARGEST, Source
+from plutoc.syntax.parse import parse
 from plutoc.syntax.tree import File
 
 _BOM = "\ufeff"

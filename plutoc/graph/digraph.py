@@ -31,18 +31,18 @@ def reachable(graph: nx.DiGraph, beginnings: Iterable[Vertex]) -> set[Vertex]:
 def components(graph: nx.DiGraph) -> tuple[Vertices, ...]:
     """Return the strongly connected components, sorted by their first vertex."""
     vertices, numbers = _numbered(graph)
-    parts = sorted(map(sorted, nx.strongly_connected_components(numbers)))
-    return tuple(tuple(vertices[number] for number in part) for part in parts)
+    return _named(vertices, nx.strongly_connected_components(numbers))
 
 
 def loops(graph: nx.DiGraph) -> tuple[Vertices, ...]:
     """Return the components with a cycle."""
-    return tuple(part for part in components(graph) if len(part) > 1 or _is_loop(graph, *part))
+    return _with_a_cycle(graph, components(graph))
 
 
 def endless_loops(graph: nx.DiGraph) -> tuple[Vertices, ...]:
     """Return the loops without an exit."""
-    return tuple(part for part in loops(graph) if _is_left_by_none(graph, set(part)))
+    vertices, numbers = _numbered(graph)
+    return _with_a_cycle(graph, _named(vertices, nx.attracting_components(numbers)))
 
 
 def _numbered(graph: nx.DiGraph) -> tuple[Vertices, nx.DiGraph]:
@@ -55,8 +55,12 @@ def _numbered(graph: nx.DiGraph) -> tuple[Vertices, nx.DiGraph]:
     return vertices, numbers
 
 
-def _is_left_by_none(graph: nx.DiGraph, part: set[Vertex]) -> bool:
-    return all(target in part for vertex in part for target in graph[vertex])
+def _named(vertices: Vertices, parts: Iterable[set[int]]) -> tuple[Vertices, ...]:
+    return tuple(tuple(vertices[i] for i in part) for part in sorted(map(sorted, parts)))
+
+
+def _with_a_cycle(graph: nx.DiGraph, parts: Iterable[Vertices]) -> tuple[Vertices, ...]:
+    return tuple(part for part in parts if len(part) > 1 or _is_loop(graph, *part))
 
 
 def round_of(graph: nx.DiGraph, loop: Iterable[Vertex], head: Vertex) -> Vertices:

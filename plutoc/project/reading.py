@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from plutoc.syntax.parse import LARGEST
+from plutoc.source import LARGEST
 from plutoc_runtime.domain.text import printable
 
 

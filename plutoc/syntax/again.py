@@ -12,8 +12,8 @@ from functools import cache
 from typing import TypeVar, cast
 
 from plutoc.diagnostic import Diagnostic
-from plutoc.source import Source, Span
-from plutoc.syntax.parse import LARGEST, read
+from plutoc.source import LARGEST, Source, Span
+from plutoc.syntax.parse import read
 from plutoc.syntax.tree import File, Statement
 
 T = TypeVar("T")

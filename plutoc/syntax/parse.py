@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from lark import Token
 
 from plutoc.diagnostic import Diagnostic, accept_or_raise, in_order
-from plutoc.source import Source, Span
+from plutoc.source import LARGEST, Source, Span
 from plutoc.syntax import build, errors
 from plutoc.syntax.characters import HIDDEN
 from plutoc.syntax.grammar import end_of, lexed, tree_of
@@ -15,9 +15,6 @@ from plutoc.syntax.recover import recover
 from plutoc.syntax.texts import wrong_escapes
 from plutoc.syntax.tokens import END, NEWLINE, span
 from plutoc.syntax.tree import File
-
-LARGEST = 1 << 20
-"""In bytes of UTF-8."""
 
 _BOM = "\ufeff"
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from plutoc.editor.changes import Edit
 from plutoc.editor.history import File, History, Stale, TooLarge
 from plutoc.editor.wire import Wire
-from plutoc.syntax.parse import LARGEST
+from plutoc.source import LARGEST
 
 from .test_wire import TEXTS, edits_of, in_browser
 

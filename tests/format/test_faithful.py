@@ -8,7 +8,7 @@ import pytest
 
 from plutoc.format import run
 from plutoc.format.run import MeaningChanged, TooLarge, same_writing
-from plutoc.syntax.parse import LARGEST
+from plutoc.source import LARGEST
 from tests.format.promises import formatted
 
 TEXT = 'pluto 1\n\napp a "T" {\n  # why\n  b = K(x: 5 min)  # what\n  b -> c\n}\n'

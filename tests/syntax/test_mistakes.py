@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.report.json import render_line
 from plutoc.report.text import render
-from plutoc.source import Source
+from plutoc.source import LARGEST, Source
 from plutoc.syntax.layout import DEEPEST
-from plutoc.syntax.parse import LARGEST, parse
+from plutoc.syntax.parse import parse
 from tests.syntax.test_parse import SAMPLE, statements
 
 TOKENS = [match.span() for match in re.finditer(r"\w+|->|[^\w\s]", SAMPLE)]

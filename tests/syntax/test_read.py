@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plutoc.source import Source
-from plutoc.syntax.parse import LARGEST, parse, read
+from plutoc.source import LARGEST, Source
+from plutoc.syntax.parse import parse, read
 from plutoc.syntax.recover import MOST_MISTAKES
 from plutoc.syntax.tree import BadStatement, BlockDecl, File, FlowDecl, Statement
 from tests.syntax.test_parse import SAMPLE

@@ -21,8 +21,8 @@ _lost: ContextVar[list[str] | None] = ContextVar("lost", default=None)
 
 def all_awaited(step: Callable[[], T]) -> T:
     """Take a step of a hook, guarded; raise `RuntimeError` with the place of what it does not await."""
-    lost, depth = list[str](), sys.get_coroutine_origin_tracking_depth()
-    before = _lost.set(lost)
+    lost: list[str] = []
+    before, depth = _lost.set(lost), sys.get_coroutine_origin_tracking_depth()
     sys.set_coroutine_origin_tracking_depth(1)
     vars(warnings)[_WARN] = _note
     try:
