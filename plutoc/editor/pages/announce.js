@@ -1,6 +1,7 @@
 // What is said to people: read aloud where they cannot see it, and shown where it must not be missed.
 
 import { button, h, icon, signButton } from "./dom.js";
+import { Refused } from "./link.js";
 
 const STAYS = 7000;
 
@@ -32,6 +33,6 @@ export function tell(text, { kind = "info", stays = kind !== "bad", action = nul
 
 // What was refused is a sentence of the server; all else is a fault of this page and stays one.
 export function refused(error) {
-  if (error?.constructor?.name !== "Refused") throw error;
+  if (!(error instanceof Refused)) throw error;
   tell(error.message, { kind: "bad", stays: true });
 }

@@ -86,6 +86,9 @@ export function pressed({ key, ctrlKey, metaKey, shiftKey, altKey }) {
   ].filter(Boolean).join("+");
 }
 
+// Whether people have asked for less to move.
+export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
 // Who wants to know of a change: b.heard(ear); b.ring(what).
 export function bell() {
   const ears = new Set();

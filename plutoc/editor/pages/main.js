@@ -10,7 +10,7 @@ import { connectFrom } from "./dialogs/connect.js";
 import { showHelp } from "./dialogs/help.js";
 import { quickAdd } from "./dialogs/quick.js";
 import { h } from "./dom.js";
-import { linked, open } from "./link.js";
+import { Refused, linked, open } from "./link.js";
 import * as operations from "./operations.js";
 import { makeBar } from "./panes/bar.js";
 import { makeBelow, showBelow } from "./panes/below.js";
@@ -32,9 +32,10 @@ const broken = () => {
   return hasErrors() ? "The app has errors: see Problems." : "";
 };
 
-let problem = -1;
+let problem = null; // none was gone to yet
 function nextProblem(by) {
   const { problems } = app.view;
+  problem ??= by > 0 ? -1 : 0;
   problem = (problem + by + problems.length) % problems.length;
   showBelow("problems");
   showProblem(problems[problem]);
@@ -87,13 +88,18 @@ define(
   { id: "help", title: "Keys and gestures", keys: ["?", "F1"], where: "page", run: showHelp },
 );
 
+// Browsers keep pages from it where people have not allowed it.
+const clipboard = (use) => use(navigator.clipboard).catch(() => {
+  throw new Refused("The browser does not let this page use the clipboard: allow it for this address.");
+});
+
 async function copy() {
-  await navigator.clipboard.writeText(operations.asText());
+  await clipboard((board) => board.writeText(operations.asText()));
   say(`${chosenBlocks().length} copied as Pluto text.`);
 }
 
 async function paste() {
-  const text = await navigator.clipboard.readText();
+  const text = await clipboard((board) => board.readText());
   if (text.trim()) await operations.paste(text);
   else tell("There is no text to paste.");
 }

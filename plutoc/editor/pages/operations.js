@@ -44,7 +44,7 @@ export function origin(accepts) {
 const overlaps = (x, y) => [...app.nodes.values()].some((node) =>
   Math.abs(node.x - x) < WIDTH + 8 && Math.abs(node.y - y) < HEIGHT + 8);
 
-export function placeBehind(name) {
+function placeBehind(name) {
   const node = app.nodes.get(name);
   const y = node.y + HEIGHT + GAP;
   let x = node.x + (widthOf(node) - WIDTH) / 2;
@@ -124,8 +124,7 @@ export function asText() {
   const inner = app.view.edges.filter((edge) =>
     names.has(edge.source) && names.has(edge.target) && !edge.implicit);
   for (const edge of inner) {
-    const guard = edge.otherwise ? " otherwise" : edge.when.length ? ` when ${edge.when.join(", ")}` : "";
-    lines.push(`${edge.source} -> ${edge.target}${guard}`);
+    lines.push(`${edge.source} -> ${edge.target} ${guardSaid(edge)}`.trim());
   }
   return `${lines.join("\n")}\n`;
 }
@@ -149,11 +148,13 @@ export async function undo(op = "undo") {
   }
 }
 
+// An edge's guard as it is written.
+export const guardSaid = ({ when, otherwise }) =>
+  (otherwise ? "otherwise" : when.length ? `when ${when.join(", ")}` : "");
+
 // An edge's other words, for people.
 export function edgeSaid(edge) {
-  const guard = edge.otherwise ? "otherwise" : edge.when.length ? `when ${edge.when.join(", ")}` : "";
-  const statuses = edge.statuses.length ? edge.statuses.join(", ") : "nothing yet";
+  const guard = guardSaid(edge);
+  const statuses = edge.statuses.length ? edge.statuses.join(", ") : edge.known ? "nothing yet" : "not known";
   return `${edge.source} to ${edge.target}${guard && `, ${guard}`}: ${statuses}`;
 }
-
-

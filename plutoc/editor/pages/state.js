@@ -1,20 +1,21 @@
 // What is known: the app as the server sees it, and what is selected here.
 
 import { bell } from "./dom.js";
-import { linked, pushes } from "./link.js";
+import { pushes } from "./link.js";
 
 export const START = "start";
 export const END = "end";
 
 export const WIDTH = 176;
 export const HEIGHT = 52;
-export const END_WIDTH = 96; // of start and end
+const END_WIDTH = 96; // of start and end
 export const GRID = 8;
+export const snap = (value) => Math.round(value / GRID) * GRID;
 
 export const app = {
   client: 0, version: 0, file: "", text: "", hooks: null, palette: [], history: {},
   view: { title: "", blocks: [], edges: [], ends: { start: [0, 0], end: [0, 0] }, problems: [],
-    hooks: [], categories: [], unreadable: [] },
+    hooks: [], categories: [] },
   nodes: new Map(), // name → block, or start, or end
   edges: new Map(), // key → edge
 };
@@ -68,8 +69,6 @@ pushes.heard((push) => {
     changed.ring(push);
   }
 });
-
-linked.heard((yes) => { app.linked = yes; });
 
 export function choose(blocks, edge = null) {
   selection.blocks = new Set(blocks);

@@ -8,8 +8,8 @@ from playwright.sync_api import Page, expect
 
 from tests.editor.browser.conftest import Edit, Visit
 from tests.editor.browser.hand import Hand, block, edge, names, port, statuses
-from tests.editor.browser.serving import until
 from tests.editor.browser.texts import text_of, type_below
+from tests.station.browser.serving import until
 
 STUCK = """\
 pluto 1
@@ -116,16 +116,41 @@ def test_the_cursor_shows_in_both(edit: Edit, visit: Visit) -> None:
     expect(page.locator(".cm-chosen")).to_have_text(re.compile("launch = TripLauncher"))
 
 
-def test_a_name_with_a_problem_in_the_text_is_mended_by_a_button(edit: Edit, visit: Visit) -> None:
-    editor = edit("alfalfa")
-    page = visit(editor)
+def test_what_is_not_known_is_not_shown_as_nothing(edit: Edit, visit: Visit) -> None:
+    page = visit(edit("alfalfa"))
     type_below(page, "watch = TripMonitor", "more = GateFunel")
     block(page, "more").locator(".face").click()
     expect(page.locator(".passes")).to_have_text(["takesnot known", "givesnot known"])
+    type_below(page, "retry -> allocate when STANDBY", "more -> retry")
+    unknown = edge(page, "more", "retry")
+    expect(unknown).to_have_attribute("title", "more to retry: not known")
+    unknown.dispatch_event("pointerdown")
+    expect(page.locator(".passes")).to_have_text(["passesnot known"])
     problem(page, "GateFunel")
-    mend = page.get_by_role("tabpanel").get_by_role("button", name="Mend it")
-    if mend.count():  # where the compiler is certain
-        mend.first.click()
-        until(lambda: "GateFunnel" in editor.text, lambda: editor.text)
     page.get_by_role("tabpanel").get_by_role("button", name="P1012").first.click()
     expect(page.get_by_role("dialog")).to_contain_text("P1012")
+
+
+def test_where_the_mend_is_certain_a_button_does_it(edit: Edit, visit: Visit) -> None:
+    editor = edit("alfalfa")
+    page = visit(editor)
+    before = editor.text
+    type_below(page, "retry -> allocate when STANDBY", "retry -> allocate when STANDBY")
+    problem(page, "twice|again|already")
+    page.get_by_role("tabpanel").get_by_role("button", name="Mend it").first.click()
+    expect(page.get_by_text("Sound", exact=True)).to_be_visible()
+    until(lambda: editor.text.split() == before.split(), lambda: editor.text)
+
+
+def test_problems_are_gone_through_both_ways(edit: Edit, visit: Visit) -> None:
+    page = visit(
+        edit(text=STUCK.replace("TripMonitor", "TripMonitr").replace("MissionC", "MisionC"))
+    )
+    said = page.get_by_role("status")
+    count = page.locator("#panel-problems .problem").count()
+    assert count > 1
+    page.keyboard.press("F6")
+    for key, at in (("Shift+F8", count), ("F8", 1), ("F8", 2), ("Shift+F8", 1)):
+        page.locator(".viewport").focus()
+        page.keyboard.press(key)
+        expect(said.filter(has_text=f"Problem {at} of {count}:")).to_have_count(1)

@@ -4,9 +4,9 @@ import { say } from "../announce.js";
 import { pressed } from "../dom.js";
 import { edgeSaid, place } from "../operations.js";
 import { END, GRID, START, app, choose, into, keyOf, outOf, selection, widthOf } from "../state.js";
-import { elementOf, focusBlock } from "./blocks.js";
+import { focusBlock, moveBlock } from "./blocks.js";
 import { reveal, viewport } from "./camera.js";
-import { chipOf, edgeAt, middleOf } from "./wires.js";
+import { chipOf, edgeAt, middleOf, moveWires } from "./wires.js";
 
 const WAYS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] };
 
@@ -116,8 +116,9 @@ function shift([dx, dy], by) {
     const node = app.nodes.get(name);
     Object.assign(node, { x: node.x + dx * GRID * by, y: node.y + dy * GRID * by });
     moved.set(name, [node.x, node.y]);
-    elementOf(name).style.transform = `translate(${node.x}px, ${node.y}px)`;
+    moveBlock(name, node);
   }
+  moveWires(selection.blocks);
   clearTimeout(later);
   later = setTimeout(() => {
     place(Object.fromEntries(moved));

@@ -3,14 +3,15 @@
 import { say } from "../announce.js";
 import { h } from "../dom.js";
 import * as operations from "../operations.js";
-import { GRID, HEIGHT, app, choose, chosenBlocks, keyOf, outOf, into, selection, widthOf } from "../state.js";
+import {
+  HEIGHT, app, arrowOf, choose, chosenBlocks, into, keyOf, outOf, selection, snap, widthOf,
+} from "../state.js";
 import { elementOf, focusBlock, moveBlock } from "./blocks.js";
 import { camera, pan, toWorld, viewport, zoom } from "./camera.js";
 import { follow } from "./follow.js";
 import { chipOf, edgeAt, moveWires } from "./wires.js";
 import { drawWire, leadEdge } from "./wiring.js";
 
-const snap = (value) => Math.round(value / GRID) * GRID;
 const band = h("div", { class: "band", hidden: true });
 let space = false;
 let quick = () => {}; // opens the quick palette
@@ -128,7 +129,7 @@ function dragging(event, name, clicked) {
 function insert(edge, name) {
   const { x, y } = app.nodes.get(name);
   operations.edit([
-    { do: "Redirect", arrow: operations.arrow(edge.source, edge.target, edge.when, edge.otherwise), target: name },
+    { do: "Redirect", arrow: arrowOf(edge), target: name },
     { do: "Connect", arrow: operations.arrow(name, edge.target) },
   ], { [name]: [x, y] });
 }

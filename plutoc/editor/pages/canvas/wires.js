@@ -76,8 +76,8 @@ function write(chip, edge) {
   chip.replaceChildren(...shown.map((name) => status(name, {
     class: `status${passing.has(name) ? "" : " idle"}`,
   })));
-  chip.title = edge.statuses.length
-    ? `${edgeSaid(edge)}` : `${edge.source} to ${edge.target}: no mission comes along here yet`;
+  chip.title = edge.statuses.length || !edge.known
+    ? edgeSaid(edge) : `${edge.source} to ${edge.target}: no mission comes along here yet`;
 }
 
 // All, or those of these blocks, while they are dragged.

@@ -37,6 +37,7 @@ function show({ files, meaning, folder }) {
   list.append(...files.map((file, i) => h("li", { role: "option", id: `file-${i}`, onclick: () => open(i), "data-what": file.status },
     h("span", { class: "file-name" }, file.path), h("span", { class: "file-status" }, SIGNS[file.status] ?? file.status))));
   const write = button(changed.length ? `Write ${many(changed.length, "file")}` : "Nothing to write", async () => {
+    if (!changed.length) return;
     try {
       await ask("compile", { write: true });
       close();

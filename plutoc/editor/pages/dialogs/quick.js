@@ -1,10 +1,8 @@
 // The quick palette: type a part of a kind, press Enter, and the block is there, connected.
 
 import { add, guardTo, origin } from "../operations.js";
-import { GRID, HEIGHT, START, WIDTH, app } from "../state.js";
+import { HEIGHT, START, WIDTH, app, snap } from "../state.js";
 import { choose } from "./chooser.js";
-
-const snap = (value) => Math.round(value / GRID) * GRID;
 
 // at: where on the graph; from, when, statuses: the end of a wire that was let go of in the open.
 export async function quickAdd({ at = null, clientX, clientY, from, when = [], statuses = null } = {}) {

@@ -3,7 +3,7 @@
 import { toEdge } from "../canvas/keys.js";
 import { run } from "../commands.js";
 import { button, h, icon, keyed, put, status } from "../dom.js";
-import { edgeSaid, rename, setArgument } from "../operations.js";
+import { edgeSaid, guardSaid, rename, setArgument } from "../operations.js";
 import { app, keyOf, only, outOf } from "../state.js";
 import { fieldOf } from "./fields.js";
 import { openHook } from "./hooks.js";
@@ -46,9 +46,8 @@ export function blockPanel(name) {
     hook.replaceChildren(...hookLine(block));
     statuses.replaceChildren(sets("takes", block.known ? block.accepts : null), sets("gives", block.known ? block.emits : null));
     keyed(out, outOf(block.name), keyOf, () => h("li", {}), (item, edge) => {
-      const guard = edge.otherwise ? "otherwise" : edge.when.length ? `when ${edge.when.join(", ")}` : "";
       item.replaceChildren(h("button", { type: "button", class: "way", title: edgeSaid(edge), onclick: () => toEdge(edge) },
-        h("span", {}, `→ ${edge.target} `, h("span", { class: "hint" }, guard)),
+        h("span", {}, `→ ${edge.target} `, h("span", { class: "hint" }, guardSaid(edge))),
         h("span", { class: "chips-inline" }, edge.statuses.map((one) => status(one)))));
     });
     problems.replaceChildren(...block.problems.map((i) => problemRow(app.view.problems[i], i)));

@@ -55,7 +55,7 @@ function content(edge) {
       }, icon("trash", 16))),
     h("div", { class: "passes" }, h("span", { class: "hint" }, "passes"),
       edge.statuses.length ? edge.statuses.map((one) => [status(one), " "])
-        : h("span", { class: "hint" }, "nothing yet: no mission comes along here")),
+        : h("span", { class: "hint" }, edge.known ? "nothing yet: no mission comes along here" : "not known")),
     edge.fork && h("p", { class: "hint" }, "One of several ways for the same status: a clone of the mission goes along each."),
     edge.implicit ? h("p", { class: "hint" }, "Not written: no edge takes these statuses, so missions end. Draw an edge to end to say so.")
       : edge.source === START ? h("p", { class: "hint" }, "Every mission begins along this edge.")

@@ -7,7 +7,7 @@ const LIKE = {
 };
 
 // Why a value cannot be what is declared; "" where it can.
-export function wrongIn(argument, text) {
+function wrongIn(argument, text) {
   const value = text.trim();
   if (!value) return argument.required && argument.default === null ? "A value is needed here." : "";
   if (argument.choices || argument.type === "text") return "";

@@ -5,7 +5,7 @@ import { edgeUnder, markDrop } from "../canvas/pointer.js";
 import { camera, toWorld, viewport } from "../canvas/camera.js";
 import { h, icon, fill, status } from "../dom.js";
 import { add } from "../operations.js";
-import { GRID, HEIGHT, WIDTH, app, begun } from "../state.js";
+import { HEIGHT, WIDTH, app, begun, snap } from "../state.js";
 import { markdown } from "../text/markdown.js";
 
 const STILL = 5;
@@ -88,7 +88,7 @@ export function makePalette() {
     let far = false;
     const corner = (now) => {
       const [x, y] = toWorld(now.clientX, now.clientY);
-      return [Math.round((x - WIDTH / 2) / GRID) * GRID, Math.round((y - HEIGHT / 2) / GRID) * GRID];
+      return [snap(x - WIDTH / 2), snap(y - HEIGHT / 2)];
     };
     const move = (now) => {
       if (!far && Math.hypot(now.clientX - event.clientX, now.clientY - event.clientY) < STILL) return;

@@ -4,7 +4,7 @@ import { refused, say } from "../announce.js";
 import { light } from "../canvas/blocks.js";
 import { fit, reveal } from "../canvas/camera.js";
 import { lightEdges } from "../canvas/wires.js";
-import { button, h, icon, put } from "../dom.js";
+import { button, h, icon, put, still } from "../dom.js";
 import { ask } from "../link.js";
 import { app, begun, changed, choose, keyOf, outOf } from "../state.js";
 import { markdown, words } from "../text/markdown.js";
@@ -12,8 +12,6 @@ import { showPlace } from "../text/pane.js";
 import { showDialog } from "../dialogs/dialog.js";
 
 const STEP = 700; // milliseconds at each block of a walk
-
-const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 export function showProblem(problem, focus = false) {
   const nodes = problem.blocks.map((name) => app.nodes.get(name)).filter(Boolean);
@@ -63,7 +61,7 @@ export async function walk(path) {
   if (own === walking) choose([path.at(-1)[0]].filter((name) => app.nodes.has(name)));
 }
 
-export function stopWalking() {
+function stopWalking() {
   walking += 1;
   light(new Set());
   lightEdges(new Set());

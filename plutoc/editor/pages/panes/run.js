@@ -3,7 +3,7 @@
 import { refused, say } from "../announce.js";
 import { elementOf, light } from "../canvas/blocks.js";
 import { lightEdges } from "../canvas/wires.js";
-import { fill, h, icon, keyed, many, put, set, shown, signButton, status } from "../dom.js";
+import { fill, h, icon, keyed, many, put, set, shown, signButton, status, still } from "../dom.js";
 import { showDialog } from "../dialogs/dialog.js";
 import { ask } from "../link.js";
 import { END, app, changed, isEnd, keyOf, outOf } from "../state.js";
@@ -13,6 +13,7 @@ const SHOWS = 12; // seconds in which a whole run is played
 const FRESH = 0.03; // the part of a run for which an edge stays lit
 const HOPS = 0.5; // the part of it that is for moves, of which many are at one instant; the rest is for time
 const LINES = 60; // of what happened, up to now
+const KILLED = 128; // exits above are signals: it did not end by itself
 
 let run = null; // { events: [[time, mission, block, status, branch]], missions, duration_s, plan, log, exit }
 let place = 0; // in the run, from 0 to 1
@@ -30,7 +31,7 @@ const empty = h("p", { class: "none" }, icon("play"), h("span", {}, "Run the app
 const seed = h("input", { type: "number", min: 0, value: 1, id: "run-seed" });
 
 export function makeRun() {
-  changed.heard(({ file }) => { if (run && file !== "layout") forget(); });
+  changed.heard(({ file }) => { if (run && file !== "layout") forget("The app has changed since it was run."); });
   return h("div", { class: "run" }, empty, controls, result, h("div", { class: "run-split" }, list, log));
 }
 
@@ -38,10 +39,10 @@ export const seedField = () => h("div", { class: "row small" }, h("label", { for
 
 const minutes = (seconds) => (seconds < 60 ? `${seconds.toFixed(1)} s` : `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`);
 
-function forget() {
+function forget(why) {
   stop();
   run = null;
-  put(result, "The app has changed since it was run.");
+  put(result, why);
   shown(controls, false);
   fill(list);
   fill(log);
@@ -51,14 +52,12 @@ function forget() {
 }
 
 export async function simulate() {
-  stop();
+  forget("");
   shown(empty, true);
   put(empty.lastChild, "Compiling and simulating …");
-  put(result, "");
-  shown(controls, false);
   try {
     await typedAll();
-    run = await ask("run", { missions: null, seed: Number(seed.value) || 1 });
+    run = await ask("run", { missions: null, seed: Number(seed.value) });
   } catch (error) {
     put(empty.lastChild, "Run the app to see its missions move through the graph.");
     return refused(error);
@@ -70,15 +69,17 @@ export async function simulate() {
     shown(controls, false);
     return say("It was not flown.");
   }
-  const done = run.events.filter(([, , block, status_]) => block === END && status_ === "COMPLETED").length;
+  const ended = run.events.filter(([, , block, status_]) => block === END && status_ === "COMPLETED");
+  const done = new Set(ended.map(([, mission]) => mission)).size;
   const words = `${done} of ${many(run.missions.length, "mission")} completed in ${minutes(run.duration_s)}.`;
-  fill(result, h("span", {}, words), run.cut && " Only its first part is shown.",
+  fill(result, h("span", {}, words), run.cut && " Only its first part is counted and shown.",
+    run.exit > KILLED && " It was ended before it was over.",
     run.plan ? h("button", { type: "button", class: "link", onclick: showPlan }, "The missions were made up") : ` From ${run.file}.`,
     h("button", { type: "button", class: "link", onclick: showLog }, "What it printed"));
   say(words);
   run.places = placesOf(run);
   seek(0);
-  if (matchMedia("(prefers-reduced-motion: reduce)").matches) seek(1);
+  if (still()) seek(1);
   else start();
   play.focus();
   return run;

@@ -2,7 +2,7 @@
 
 import { say, tell } from "../announce.js";
 import { reveal } from "../canvas/camera.js";
-import { h, put, shown } from "../dom.js";
+import { h, many, put, shown } from "../dom.js";
 import { ask } from "../link.js";
 import { app, begun, changed, choose, isEnd, keyOf, selected, selection } from "../state.js";
 
@@ -72,7 +72,7 @@ function after(tabs) {
     put(count, found.length);
     const errors = found.some((one) => one.severity === "error");
     count.className = `count ${errors ? "bad" : "warn"}`;
-    count.setAttribute("aria-label", `${found.length} problems`);
+    count.setAttribute("aria-label", many(found.length, "problem"));
   }
   markChosen();
 }
