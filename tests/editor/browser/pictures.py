@@ -1,14 +1,13 @@
-"""Pictures of the editor for the docs: few colours, so that they are small."""
+"""Pictures of the editor for the docs: it has more colours than the station's pages."""
 
 from __future__ import annotations
 
-from io import BytesIO
 from pathlib import Path
 
-from PIL import Image
 from playwright.sync_api import Page
 
 from tests.release.environments import ROOT
+from tests.station.browser import pictures
 
 FOLDER = ROOT / "docs" / "graph-editor"
 COLOURS = 224
@@ -16,11 +15,7 @@ COLOURS = 224
 
 def picture(page: Page) -> bytes:
     """Return what is on the screen, as a PNG of few colours."""
-    shot = Image.open(BytesIO(page.screenshot(animations="disabled", caret="hide")))
-    few = shot.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
-    out = BytesIO()
-    few.save(out, "PNG", optimize=True)
-    return out.getvalue()
+    return pictures.picture(page, COLOURS)
 
 
 def kept(name: str) -> Path:

@@ -8,8 +8,9 @@ from playwright.sync_api import Page, expect
 
 from tests.editor.browser.conftest import Edit, Visit
 from tests.editor.browser.hand import Hand, block, edge, port
-from tests.editor.browser.serving import Editor, until
+from tests.editor.browser.serving import Editor
 from tests.editor.browser.texts import type_below
+from tests.station.browser.serving import until
 
 
 def scenes(edit: Edit, visit: Visit, size: tuple[int, int]) -> Iterator[tuple[str, Page]]:

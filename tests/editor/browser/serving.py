@@ -7,24 +7,13 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tests.kill.lives import eventually
-
-PATIENCE = 60.0
-"""Seconds until something that does not happen is called a failure."""
+from tests.station.browser.serving import PATIENCE, until
 
 SAID = re.compile(r"^.*: edit it at (http://\S+)$", re.MULTILINE)
 NAME = "drugs.pluto"
-
-
-def until(holds: Callable[[], bool], what: str | Callable[[], str]) -> None:
-    """Wait until something holds; what that is may be said by how things are at the end."""
-    if not eventually(holds, PATIENCE):
-        said = what if isinstance(what, str) else what()
-        raise AssertionError(f"it never came about that {said}")
 
 
 @dataclass(slots=True, kw_only=True)

@@ -11,7 +11,8 @@ from plutoc.diagnostic import Rejected
 from plutoc.source import Source
 from tests.editor.browser.conftest import Edit, Visit
 from tests.editor.browser.hand import Hand, block, port, statuses
-from tests.editor.browser.serving import Editor, until
+from tests.editor.browser.serving import Editor
+from tests.station.browser.serving import until
 
 FEW = 25
 """Gestures."""

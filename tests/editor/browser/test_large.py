@@ -9,7 +9,7 @@ from tests.editor.browser.conftest import DESKTOP, Edit, Visit
 from tests.editor.browser.hand import Hand, block
 from tests.editor.browser.large import large
 from tests.editor.browser.pictures import FOLDER, kept, picture
-from tests.editor.browser.serving import until
+from tests.station.browser.serving import until
 
 BLOCKS = 300
 

@@ -12,8 +12,9 @@ from plutoc.source import Source
 from tests.editor.browser.conftest import Edit, Visit
 from tests.editor.browser.drawing import add_from_port, complete, lead, put_between, rename
 from tests.editor.browser.hand import Hand, block, edge, port
-from tests.editor.browser.serving import Editor, until
+from tests.editor.browser.serving import Editor
 from tests.editor.browser.texts import text_of
+from tests.station.browser.serving import until
 
 Way = tuple[str, str, str]
 

@@ -17,8 +17,9 @@ from tests.editor.browser.conftest import Edit, Visit
 from tests.editor.browser.drawing import add_from_port, complete, lead, put_between, rename
 from tests.editor.browser.hand import Hand, block, edge, port
 from tests.editor.browser.pictures import picture
-from tests.editor.browser.serving import Editor, until
+from tests.editor.browser.serving import Editor
 from tests.examples.typed import ROOT, Reader, Step, is_shown, steps
+from tests.station.browser.serving import until
 
 LESSON = ROOT / "docs" / "tutorial" / "editor.md"
 PICTURES = LESSON.with_suffix("")

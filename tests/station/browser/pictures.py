@@ -14,10 +14,10 @@ FOLDER = ROOT / "docs" / "station"
 COLOURS = 128
 
 
-def picture(page: Page) -> bytes:
+def picture(page: Page, colours: int = COLOURS) -> bytes:
     """Return what is on the screen, as a PNG of few colours."""
     shot = Image.open(BytesIO(page.screenshot(animations="disabled", caret="hide")))
-    few = shot.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    few = shot.convert("RGB").quantize(colours, dither=Image.Dither.NONE)
     out = BytesIO()
     few.save(out, "PNG", optimize=True)
     return out.getvalue()
