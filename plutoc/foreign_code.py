@@ -9,6 +9,9 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import NoReturn
 
+ENDING = tuple(one for one in signal.Signals if one.name in ("SIGTERM", "SIGHUP"))
+"""The signals that ask the compiler to end; Windows has no SIGHUP."""
+
 
 class Terminated(BaseException):
     """A signal asks the compiler to end. Not an `Exception`, so that code which catches those lets it through."""

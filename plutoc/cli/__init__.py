@@ -23,6 +23,7 @@ from plutoc.cli.options import Options, all_commands, parse
 from plutoc.cli.say import say
 from plutoc.diagnostic import Rejected
 from plutoc.foreign_code import Terminated
+from plutoc.mistake import traceback_of
 from plutoc_runtime import output
 from plutoc_runtime.domain.text import printable
 
@@ -164,10 +165,8 @@ def _run(options: Options) -> int:
 
 
 def _report_bug(error: BaseException) -> None:
-    if os.environ.get("PLUTO_DEBUG") == "1":
-        import traceback
-
-        output.tell("".join(traceback.format_exception(error)).rstrip())
+    if where := traceback_of(error):
+        output.tell(where)
     output.tell(
         f"plutoc: internal error (P9001): {type(error).__name__}: {error}\n"
         "This is a mistake of ours: please report it, with your source if you can"

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from plutoc.cli.endings import UsageError
 from plutoc.emit.write import CannotWrite, Change, Changes, write
-from plutoc.project.reading import shown
+from plutoc.project.reading import shown, why
 from plutoc_runtime.domain.text import printable
 
 
@@ -37,5 +37,4 @@ def rewrite(path: Path, before: str, after: str) -> None:
     except CannotWrite as error:
         raise UsageError(f"{printable(str(error))}; {shown(path)} was not changed") from None
     except OSError as error:
-        why = error.strerror or str(error)
-        raise UsageError(f"{shown(path)} cannot be written: {why}") from None
+        raise UsageError(f"{shown(path)} cannot be written: {why(error)}") from None

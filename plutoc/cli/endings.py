@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from plutoc.foreign_code import Terminated
+from plutoc.foreign_code import ENDING, Terminated
 from plutoc.project.reading import UsageError
 
 __all__ = [
@@ -27,8 +27,6 @@ __all__ = [
 
 CLEAN, ERRORS, USAGE, REFUSED, INTERNAL, INTERRUPTED, CLOSED_PIPE = 0, 1, 2, 3, 70, 130, 141
 
-_SIGNALS = tuple(one for one in signal.Signals if one.name in ("SIGTERM", "SIGHUP"))
-
 
 @contextmanager
 def tidy_when_told_to_end() -> Iterator[None]:
@@ -36,7 +34,7 @@ def tidy_when_told_to_end() -> Iterator[None]:
 
     A second signal ends the program at once.
     """
-    before = {one: signal.getsignal(one) for one in _SIGNALS}
+    before = {one: signal.getsignal(one) for one in ENDING}
     try:
         for one, handler in before.items():
             if handler == signal.SIG_DFL:  # `nohup` has it ignored, and that shall stay
@@ -47,7 +45,7 @@ def tidy_when_told_to_end() -> Iterator[None]:
     try:
         yield
     finally:
-        for one in _SIGNALS:
+        for one in ENDING:
             if signal.getsignal(one) == _terminate:
                 signal.signal(one, signal.SIG_DFL)
 

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from plutoc.cli.changes import rewrite
 from plutoc.cli.endings import CLEAN, ERRORS, USAGE, UsageError
-from plutoc.cli.files import STANDARD_INPUT, read_app, read_standard_input
-from plutoc.cli.folders import apps_of
+from plutoc.cli.files import STANDARD_INPUT, apps_of, read_app, read_standard_input
 from plutoc.cli.options import Options
 from plutoc.cli.say import say
 from plutoc.diagnostic import Diagnostic, Rejected

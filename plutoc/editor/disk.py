@@ -11,7 +11,7 @@ import stat
 from contextlib import suppress
 from pathlib import Path
 
-from plutoc.project.reading import UsageError, decoded, shown
+from plutoc.project.reading import UsageError, decoded, shown, why
 from plutoc.source import LARGEST
 
 _ASIDE = ".plutoc-"
@@ -71,8 +71,7 @@ class Kept:
         except UsageError as error:
             raise CannotSave(str(error)) from None
         except OSError as error:
-            why = error.strerror or str(error)
-            raise CannotSave(f"{shown(self.path)} cannot be written: {why}") from None
+            raise CannotSave(f"{shown(self.path)} cannot be written: {why(error)}") from None
         self.seen, self._mark = data, mark
 
     def _replace(self, data: bytes) -> tuple[int, ...]:
@@ -115,8 +114,7 @@ class Kept:
         except FileNotFoundError:
             return None, None
         except OSError as error:
-            why = error.strerror or str(error)
-            raise UsageError(f"{shown(self.path)} cannot be read: {why}") from None
+            raise UsageError(f"{shown(self.path)} cannot be read: {why(error)}") from None
 
 
 def _mark_of(path: Path) -> tuple[int, ...] | None:
@@ -126,8 +124,7 @@ def _mark_of(path: Path) -> tuple[int, ...] | None:
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:
-        why = error.strerror or str(error)
-        raise UsageError(f"{shown(path)} cannot be read: {why}") from None
+        raise UsageError(f"{shown(path)} cannot be read: {why(error)}") from None
     return _mark(now)
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import errno
 import socket
 import webbrowser
-from errno import EACCES, EADDRINUSE, EADDRNOTAVAIL
 from pathlib import Path
 
 from plutoc.editor.guard import Guard
@@ -39,6 +39,9 @@ def run(path: Path, *, host: str, port: int, opens: bool) -> None:
                 return
             output.tell(f"not ended: {session.lost}; Ctrl-C again ends it, and loses that")
             asyncio.run(serve(session, guard, listener, lambda: None))
+        finally:
+            if session.lost:
+                output.tell(f"not saved: {session.lost}")
 
 
 def listening(host: str, port: int) -> socket.socket:
@@ -65,13 +68,13 @@ def listening(host: str, port: int) -> socket.socket:
 
 def _why(error: OSError, host: str, port: int) -> str:
     match error.errno:
-        case code if code == EADDRINUSE:
+        case errno.EADDRINUSE:
             return (
                 f"port {port} is taken: choose another one with --port (0 takes any that is free)"
             )
-        case code if code == EACCES:
+        case errno.EACCES:
             return f"port {port} needs special rights: choose one above 1023 with --port"
-        case code if code == EADDRNOTAVAIL:
+        case errno.EADDRNOTAVAIL:
             return f"--host {quoted(host)}: this machine has no such address"
         case _:
             return f"cannot listen at {quoted(host)}, port {port}: {error}"

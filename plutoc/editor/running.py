@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import signal
+import sys
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -113,7 +114,10 @@ async def _ended(command: list[str], environment: dict[str, str], folder: Path) 
         late = f"\nThis run was ended after {duration(LONGEST)}."
     finally:
         with suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
+            if sys.platform == "win32":  # it has no groups
+                process.kill()
+            else:
+                os.killpg(process.pid, signal.SIGKILL)
         await process.wait()
     code = process.returncode or 0
     text = said.decode("utf-8", "replace")

@@ -21,7 +21,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from plutoc.editor.guard import Guard, headers, is_ours, is_own_page, knows
 from plutoc.editor.session import Client, Session
 from plutoc.editor.static import PAGE, pages
-from plutoc.foreign_code import Terminated
+from plutoc.foreign_code import ENDING, Terminated
 from plutoc.source import LARGEST
 
 if TYPE_CHECKING:
@@ -164,9 +164,10 @@ async def serve(
         told.append(number)
         serving.cancel()
 
-    for one in (signal.SIGTERM, signal.SIGHUP):
+    for one in ENDING:
         if signal.getsignal(one) != signal.SIG_IGN:  # as `nohup` has it
-            asyncio.get_running_loop().add_signal_handler(one, end, one)
+            with suppress(NotImplementedError):  # Windows sends none
+                asyncio.get_running_loop().add_signal_handler(one, end, one)
     try:
         await serving
     except asyncio.CancelledError:

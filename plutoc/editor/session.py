@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-import os
 import time
-import traceback
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -21,6 +19,7 @@ from plutoc.editor.gestures import Gesture
 from plutoc.editor.history import NO_CLIENT, File, Made, Stale, TooLarge
 from plutoc.editor.questions import QUESTIONS, hook_function
 from plutoc.editor.wire import Wire
+from plutoc.mistake import traceback_of
 from plutoc.project.reading import UsageError
 from plutoc.service.document import Document
 from plutoc.service.editing.edit import CannotEdit
@@ -303,6 +302,10 @@ class Session:
             return await asyncio.to_thread(compiling.preview, app, self._package_text)
         if self.files.conflicts:
             raise Refused("others have changed this app: decide first which text is to be kept")
+        # a page that goes meanwhile ends neither the writing nor what follows from it
+        return await asyncio.shield(self._write_package(app))
+
+    async def _write_package(self, app: Snapshot) -> Data:
         answer = await asyncio.to_thread(compiling.written, app)
         self._package_text = app.text
         self._done(self.files.after_compile())
@@ -392,8 +395,8 @@ def _internal(error: Exception) -> str:
     """Tell of a mistake of ours, and return the sentence."""
     text = f"something went wrong inside the editor (P9001): {said(error)}"
     output.tell(f"plutoc edit: {text}")
-    if os.environ.get("PLUTO_DEBUG") == "1":
-        output.tell("".join(traceback.format_exception(error)).rstrip())
+    if where := traceback_of(error):
+        output.tell(where)
     return text
 
 

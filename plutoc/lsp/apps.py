@@ -46,7 +46,6 @@ class App:
     uri: str
     places: Places
     document: Document
-    version: int | None
     hooks: list[Path] = field(default_factory=list)
     """Where the hooks.py is that was looked at, if there is one."""
     refused: list[Diagnostic] = field(default_factory=list)
@@ -105,7 +104,7 @@ class Apps:
         app = self._apps.get(uri)
         if app is None or app.places is not file.places:
             sound = app.document.sound if app else None
-            app = self._apps[uri] = self._read(uri, file.places, file.version, sound)
+            app = self._apps[uri] = self._read(uri, file.places, sound)
         return app
 
     def app_of(self, uri: str) -> App | None:
@@ -119,7 +118,7 @@ class Apps:
         for beside in disk.apps_beside(path):
             text = disk.read_app(beside)
             if text is not None and uri_of(beside) not in self._open:
-                app = self._read(uri_of(beside), Places(text=text, encoding=self.encoding), None)
+                app = self._read(uri_of(beside), Places(text=text, encoding=self.encoding))
                 if path in self._places(app):
                     return app
         return None
@@ -137,9 +136,7 @@ class Apps:
         path = path_of(app.uri)
         return disk.hooks_places(app.document.graph, path) if path else ()
 
-    def _read(
-        self, uri: str, places: Places, version: int | None, before: File | None = None
-    ) -> App:
+    def _read(self, uri: str, places: Places, before: File | None = None) -> App:
         path = path_of(uri)
         found: list[Path] = []
         refused: list[Diagnostic] = []
@@ -159,26 +156,18 @@ class Apps:
 
         shown = str(path) if path else uri
         document = Document(path=shown, text=places.text, find_hooks=find, before=before)
-        return App(
-            uri=uri,
-            places=places,
-            document=document,
-            version=version,
-            hooks=found,
-            refused=refused,
-        )
+        return App(uri=uri, places=places, document=document, hooks=found, refused=refused)
 
     def _hooks(self, graph: Graph, app: Path) -> tuple[Path | None, Source | None]:
         """Return the hooks.py that counts: as it is in the editor, else on the disk."""
         on_disk = disk.read_hooks(graph, app)
         for place in disk.hooks_places(graph, app):
-            is_there = on_disk is not None and on_disk[0] == place
             opened = next((one for one in self._open.values() if one.path == place), None)
             if opened is not None:
                 text = opened.places.text.replace("\r\n", "\n").replace("\r", "\n")
                 return place, Source(str(place), text)
-            if is_there:
-                return on_disk or (None, None)
+            if on_disk is not None and on_disk[0] == place:
+                return on_disk
         return None, None
 
 

@@ -17,6 +17,7 @@ from plutoc.explain.pages import code_meant, codes, page
 from plutoc.lsp import words
 from plutoc.lsp.answers import COMPLETE_AT, EXPLAIN, Answers
 from plutoc.lsp.apps import Apps, is_hooks
+from plutoc.mistake import traceback_of
 from plutoc.service.editing.edit import CannotEdit
 
 LARGE = 20_000
@@ -65,6 +66,8 @@ class Server(LanguageServer):
         if source is FeatureRequestError:  # that is answered already
             return
         said = f"internal error (P9001): {type(error).__name__}: {error}"
+        if where := traceback_of(error):
+            said += f"\n{where}"
         self.window_log_message(types.LogMessageParams(type=types.MessageType.Error, message=said))
 
     def changed(self, uri: str) -> None:
@@ -85,7 +88,7 @@ class Server(LanguageServer):
         try:
             app = self.apps.app(uri)
             found = self.answers.diagnostics(app) if app else {}
-        except Exception as error:  # noqa: BLE001 - a mistake of ours, which is told
+        except Exception as error:  # noqa: BLE001 - told where one types; the next text may do
             self.report_server_error(error, JsonRpcException)
             return
         before = self._published.pop(uri, {})

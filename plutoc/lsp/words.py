@@ -67,7 +67,7 @@ LEGEND = types.SemanticTokensLegend(
 
 def diagnostic(app: App, one: Diagnostic) -> types.Diagnostic:
     """Say a finding."""
-    places = places_of(app, one)
+    places = _places(app, one.source.path)
     return types.Diagnostic(
         range=places.range(one.span),
         message="\n".join(filter(None, (one.message, one.help))),
@@ -102,11 +102,6 @@ def page_of(code: str) -> str:
 @cache
 def _pages() -> frozenset[str]:
     return frozenset(codes())
-
-
-def places_of(app: App, one: Diagnostic) -> Places:
-    """Return the places of the file that a finding is about."""
-    return _places(app, one.source.path)
 
 
 def uri_of_finding(app: App, one: Diagnostic) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
 import shutil
 import tomllib
@@ -174,6 +175,21 @@ async def test_compile_shows_what_it_would_change_and_then_changes_just_that(
     assert re.match("diff --git", changed["src/farm/flow.py"]["diff"])
     assert any("title" in sentence for sentence in shown["meaning"])
     assert {one["status"] for one in shown["files"]} == {"changed", "same"}
+
+
+async def test_a_package_is_written_to_its_end_when_its_page_is_closed(tmp_path: Path) -> None:
+    hooks = "def judge(trip, candidates):\n    return candidates[0]\n"
+    session = Session(app_in(tmp_path, HOOKED, hooks))
+    going, staying = Page(session), Page(session)
+    await session.hear(going.client, '{"id": 1, "op": "compile", "write": true}')
+    await asyncio.sleep(0)  # it has begun
+    session.leave(going.client)
+    own = tmp_path / "farm" / "src" / "farm" / "hooks.py"
+    async with asyncio.timeout(60):
+        while session.files.hooks_path != own:
+            await asyncio.sleep(0.01)
+    shown = await staying.ask("compile", write=False)
+    assert (shown["known"], {one["status"] for one in shown["files"]}) == (True, {"same"})
 
 
 async def test_the_package_of_an_earlier_day_is_compared_in_meaning_too(tmp_path: Path) -> None:

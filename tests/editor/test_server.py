@@ -267,6 +267,26 @@ def test_what_cannot_be_saved_is_not_given_up_at_the_first_ctrl_c(tmp_path: Path
     assert process.returncode == 0
 
 
+def test_what_a_signal_loses_is_said(tmp_path: Path) -> None:
+    path = app_in(tmp_path)
+    path.chmod(0o444)
+    with started("farm.pluto", cwd=tmp_path) as (process, line):
+        found = re.search(r"http://(\S+)/\?token=(\S+)", line)
+        assert found is not None
+        headers = {"Authorization": f"Bearer {found[2]}"}
+        with connect(
+            f"ws://{found[1]}/ws", additional_headers=headers, max_size=None, proxy=None
+        ) as socket:
+            change = {"from": 0, "to": 0, "insert": "# lost\n"}
+            socket.send(json.dumps({"id": 1, "op": "type", "version": 0, "changes": [change]}))
+            while json.loads(socket.recv(60)).get("push") != "cannot_save":
+                pass
+        process.send_signal(signal.SIGTERM)
+        _, err = process.communicate(timeout=60)
+    assert process.returncode == 143
+    assert "not saved: farm.pluto is read-only" in err
+
+
 @pytest.mark.parametrize(
     ("words", "why"),
     [

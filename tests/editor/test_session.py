@@ -250,8 +250,15 @@ async def test_a_mistake_of_ours_ends_nothing(
     assert push["view"]["problems"][0]["code"] == "P9001"
     assert push["view"]["blocks"]
     monkeypatch.setattr("plutoc.editor.gestures.formatted", broken)
+    monkeypatch.delenv("PLUTO_DEBUG", raising=False)
+    capsys.readouterr()
     assert "P9001" in (await page.ask("format"))["error"]
-    assert "P9001" in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert "P9001" in told
+    assert "Traceback" not in told
+    monkeypatch.setenv("PLUTO_DEBUG", "1")
+    await page.ask("format")
+    assert "Traceback" in capsys.readouterr().err
 
 
 def test_a_new_app_is_named_after_its_file(tmp_path: Path) -> None:
