@@ -12,7 +12,7 @@ from plutoc.service.editing.flows import CannotEdit
 from plutoc.source import Source, Span
 from plutoc.syntax.fragment import tokens_of
 from plutoc.syntax.parse import read
-from plutoc.syntax.texts import ESCAPES
+from plutoc.syntax.texts import quoted
 from plutoc.syntax.tokens import span
 from plutoc.syntax.tree import (
     ActionDecl,
@@ -202,9 +202,7 @@ def with_title(draft: Draft, title: str) -> Draft:
     if any(not char.isprintable() for char in title):
         raise CannotEdit("a title is one line, of signs that a screen shows")
     end = app.title.span.end if app.title else app.name.span.end
-    plain = title.replace("\\", "\\\\").replace('"', '\\"')
-    assert set(ESCAPES.values()) == {"\\", '"'}
-    text = f' "{plain}"' if title else ""
+    text = f" {quoted(title)}" if title else ""
     return draft.changed(Fix(span=Span(app.name.span.end, end), text=text))
 
 
