@@ -114,7 +114,7 @@ def starved(
             related_to(graph, edge.span, f"`{edge.source}` emits {listed(leaving[edge.source])}")
             for edge in edges
         ),
-        help=f"{_fed(graph, node, leaving)}",
+        help=_fed(graph, node, leaving),
         ways=(way,),
     )
 
@@ -200,7 +200,7 @@ def stuck(
             for edge in graph.outgoing[node.name]
             if edge.takes
         ),
-        help=f"{taken_by(node, statuses[0], taker)}",
+        help=taken_by(node, statuses[0], taker),
         ways=(way,),
     )
 
@@ -220,7 +220,7 @@ def flight_at_gate(
         (graph, gate.name_span),
         f"a mission that leaves `{gate.name}` RUNNING is stuck: {cause}",
         related=emits_nothing(graph, giver) if giver else (),
-        help=f"{mend}",
+        help=mend,
         ways=(way,),
     )
 
@@ -303,7 +303,7 @@ def spins(graph: Graph, head: Node, way: Way, round_: Sequence[str]) -> Diagnost
         (graph, head.name_span),
         f"a mission with nothing left to fly can go round at `{head.name}` for ever",
         label="it leaves only if a hook fails it, or never",
-        help=f"it goes round {_round(round_)}{_because(same)}: lead COMPLETED out of " f"this loop",
+        help=f"it goes round {_round(round_)}{_because(same)}: lead COMPLETED out of this loop",
         ways=(way,),
     )
 
@@ -341,7 +341,7 @@ def no_allocation(graph: Graph, node: Node, way: Way) -> Diagnostic:
         f"a mission can come to `{node.name}` without a drone allocated since its last launch",
         label=f"no {missing} before it",
         related=tuple(related_to(graph, edge.span, "on this way") for edge in edges),
-        help=f"{through}",
+        help=through,
         ways=(way,),
     )
 
@@ -369,7 +369,7 @@ def left_unlaunched(
         f"there is no {missing} between `{node.name}` and `{watch.name}`: no trip is launched",
         label="it watches a flight",
         related=tuple(related_to(graph, edge.span, "on this way") for edge in edges),
-        help=f"{through}",
+        help=through,
         ways=(way,),
     )
 

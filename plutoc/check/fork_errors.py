@@ -54,7 +54,7 @@ def astray(
             )
             for branch, other in branches[1:]
         ),
-        help=f"{mend}",
+        help=mend,
         ways=(way,),
     )
 
@@ -86,7 +86,7 @@ def never_closes(graph: Graph, branch: Branch, gates: Sequence[str], way: Way | 
         (graph, branch.edge.span),
         f"the branch to `{branch.edge.target}` of {fork_of(branch.fork)} can go round for ever",
         label="it does not always close",
-        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}" f"",
+        help=f"lead every way through it to {f'`{gates[0]}`' if gates else 'a gate'}",
         ways=(way,),
     )
 
@@ -121,7 +121,7 @@ def outside_fork(
             if edge.source == way[-2].node
         )
         + (emits_nothing(graph, giver) if giver else ()),
-        help=f"{mend}",
+        help=mend,
         ways=(way,),
     )
 
@@ -131,7 +131,7 @@ def closes_nothing(graph: Graph, node: Node, way: Way) -> Diagnostic:
         "P2017",
         (graph, node.name_span),
         f"`{node.name}` closes no fork: a gate needs at least two branches",
-        help="fork before it (two arrows that take the same status), or remove the gate" "",
+        help="fork before it (two arrows that take the same status), or remove the gate",
         ways=(way,),
     )
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
-from plutoc import diagnostic
 from plutoc.check.branches import Astray
 from plutoc.check.flow import Fork, Hop, Way, ordered
-from plutoc.diagnostic import Diagnostic, Fix, Related
+from plutoc.diagnostic import Diagnostic, Fix, Related, Severity
 from plutoc.graph.model import END, Edge, Graph, Node
 from plutoc.source import Span
 from plutoc.syntax.tokens import joined
@@ -70,56 +70,36 @@ def fork_of(fork: Fork) -> str:
     return f"the fork at `{fork[0]}` ({fork[1].value})"
 
 
-def error(
+def _found(
     code: str,
     at: tuple[Graph, Span],
     message: str,
     *,
-    label: str = "",
-    related: tuple[Related, ...] = (),
-    help: str,
-    ways: Sequence[Way | None] = (),
-) -> Diagnostic:
-    """An error of these facts; `ways` are shortest paths that show it."""
-    source, span = at[0].source, at[1]
-    shown = [way for way in ways if way is not None]
-    return diagnostic.error(
-        code,
-        message,
-        source,
-        span,
-        label=label,
-        related=related,
-        help=f"{help}{_there(shown)}".rstrip(),
-        path=_path(shown),
-    )
-
-
-def warning(
-    code: str,
-    at: tuple[Graph, Span],
-    message: str,
-    *,
+    severity: Severity,
     label: str = "",
     related: tuple[Related, ...] = (),
     help: str,
     ways: Sequence[Way | None] = (),
     fix: Fix | None = None,
 ) -> Diagnostic:
-    """A warning of these facts; `ways` are shortest paths that show it."""
-    source, span = at[0].source, at[1]
+    """A finding about these facts; `ways` are shortest paths that show it."""
     shown = [way for way in ways if way is not None]
-    return diagnostic.warning(
+    return Diagnostic(
         code,
         message,
-        source,
-        span,
+        at[0].source,
+        at[1],
+        severity=severity,
         label=label,
         related=related,
         help=f"{help}{_there(shown)}".rstrip(),
         fix=fix,
         path=_path(shown),
     )
+
+
+error = partial(_found, severity=Severity.ERROR)
+warning = partial(_found, severity=Severity.WARNING)
 
 
 def _path(ways: Sequence[Way]) -> tuple[tuple[str, str | None], ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from plutoc.block import Block, HookKind
+from plutoc.block import IN_GRAPH, Block, HookKind
 from plutoc.source import Source, Span
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
@@ -121,6 +121,11 @@ class Node:
             if dict(self.values).get(narrowed.param) == narrowed.value:
                 out &= narrowed.emits
         return out
+
+    @property
+    def emits(self) -> frozenset[Status]:
+        """The statuses that it can emit at all."""
+        return frozenset().union(*map(self.emitted, IN_GRAPH))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

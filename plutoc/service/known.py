@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from plutoc.block import IN_GRAPH, AnyParam, Block, Choice, HookKind, HookParam
-from plutoc.graph.model import END, START, Action, Graph, Hook, Parameter
+from plutoc.graph.model import START, Action, Graph, Hook, Parameter
 from plutoc.graph.names import in_snake_case, reserved
+from plutoc.graph.stops import accepts_by_guard
 from plutoc.registry import STD, Blocks, RegistryError
 from plutoc.service.symbols import DECLARED, Occurrence, Role
 from plutoc.source import Source
@@ -130,16 +131,11 @@ class Known:
         if name == START:
             return frozenset({Status.UNEXECUTED})
         node = self.graph.node.get(name)
-        if node is None:
-            return frozenset(IN_GRAPH)
-        return frozenset().union(*(node.emitted(status) for status in IN_GRAPH))
+        return node.emits if node else frozenset(IN_GRAPH)
 
     def accepts(self, name: str) -> frozenset[Status]:
         """Return the statuses that a block takes from an arrow with a guard."""
-        if name == END:
-            return frozenset({Status.COMPLETED, Status.FAILED})
-        node = self.graph.node.get(name)
-        return node.block.accepts_by_guard if node else frozenset(IN_GRAPH)
+        return accepts_by_guard(name, self.graph.node)
 
     def taken_from(self, name: str) -> frozenset[Status]:
         """Return the statuses that arrows of a block take already."""

@@ -28,17 +28,23 @@ def written_out(quantity: str) -> str | None:
     return f"{help}: `{plain}`" if sum(map(str.isdigit, plain)) <= _MOST_DIGITS else help
 
 
-def unescaped(quoted: str) -> str:
+def unescaped(written: str) -> str:
     """Return what a text says: without its quotes, its escapes resolved."""
-    text = quoted[1:-1]
+    text = written[1:-1]
     if "\\" not in text:
         return text
     return re.sub(_ESCAPE, lambda match: ESCAPES.get(match[0], match[0]), text)
 
 
-def wrong_escapes(quoted: str) -> Iterator[re.Match[str]]:
+def quoted(text: str) -> str:
+    """Return a text as an app writes it: in quotes, and escaped."""
+    plain = text.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{plain}"'
+
+
+def wrong_escapes(written: str) -> Iterator[re.Match[str]]:
     """Find the escapes that mean nothing."""
-    if "\\" in quoted:
-        for match in re.finditer(_ESCAPE, quoted):
+    if "\\" in written:
+        for match in re.finditer(_ESCAPE, written):
             if match[0] not in ESCAPES:
                 yield match

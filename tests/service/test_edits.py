@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.edits import applied
+from plutoc.registry import Blocks, standard
 from plutoc.service.document import Document
 from plutoc.service.editing.edit import CannotEdit, edit
 from plutoc.service.editing.operations import (
@@ -19,11 +20,13 @@ from plutoc.service.editing.operations import (
     Declare,
     Disconnect,
     Duplicate,
+    Move,
     NotAnOperation,
     Operation,
     Paste,
     RemoveBlocks,
     Rename,
+    Rewrite,
     SetArgument,
     SetGuard,
     SetTitle,
@@ -153,6 +156,7 @@ FORK = "pluto 1\napp a {\n  x = Clock\n  y = Clock\n  z = Clock\n  x -> [y, z]\n
         (SetGuard(arrow=Arrow(source="z", target="x")), "no edge from `z`"),
         (SetArgument(owner="x", parameter="p", value="1) -> y"), "no Pluto text"),
         (SetArgument(owner="x", parameter="p", value="1 # no"), "no Pluto text"),
+        (SetArgument(owner="x", parameter="p", value='1) # "'), "is no value"),
         (AddBlock(kind="Nothing"), "no kind of block `Nothing`"),
         (AddBlock(kind="survey.Grid"), "no package of blocks named survey"),
         (Declare(text="x -> y"), "not one declaration"),
@@ -163,6 +167,46 @@ FORK = "pluto 1\napp a {\n  x = Clock\n  y = Clock\n  z = Clock\n  x -> [y, z]\n
 def test_what_cannot_be_done_is_said(wanted: Operation, why: str) -> None:
     with pytest.raises(CannotEdit, match=why):
         edit(Document(path="a.pluto", text=FORK), wanted)
+
+
+@pytest.mark.parametrize(
+    "wanted",
+    [
+        Paste(text="w = Clock(\r\n  at: 5 min\r\n)\r\n"),
+        Rewrite(name="y", text="y = Clock(\r\n  at: 5 min\r\n)"),
+        Declare(text="w = Clock(\r\n  at: 5 min\r\n)"),
+        SetArgument(owner="y", parameter="at", value="[\r\n1]"),
+    ],
+    ids=lambda one: type(one).__name__,
+)
+def test_a_text_from_elsewhere_gets_the_line_ends_of_the_app(wanted: Operation) -> None:
+    written = done(FORK.replace("\n", "\r\n"), wanted)
+    assert written == done(FORK, wanted).replace("\n", "\r\n")
+
+
+def test_a_brace_in_a_comment_opens_no_app() -> None:
+    for text in ("pluto 1\napp a # {\n", 'pluto 1\napp a "x" # {\n{\n}\n'):
+        with pytest.raises(CannotEdit, match=r"has no `\{`"):
+            done(text, AddBlock(kind="Clock"))
+    assert done('pluto 1\napp a "{" {\n}\n', AddBlock(kind="Clock")) == (
+        'pluto 1\napp a "{" {\n  clock = Clock\n}\n'
+    )
+
+
+def test_a_declaration_moves_to_the_end_of_an_app_without_its_brace() -> None:
+    text = "pluto 1\napp a {\n  x = Clock\n  y = Clock"
+    assert done(text, Move(name="x")) == "pluto 1\napp a {\n  y = Clock\n  x = Clock"
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_a_package_comes_in_below_the_header(end: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    kit = Blocks(packages=("std", "kit"), of=lambda _: standard().of("std"))
+    monkeypatch.setattr("plutoc.service.editing.declarations.blocks", lambda: kit)
+    text = "# ours\npluto 1  # first\n\napp a {\n}\n".replace("\n", end)
+    whole = "# ours\npluto 1  # first\nuse kit\n\napp a {\n  clock = kit.Clock\n}\n"
+    assert done(text, AddBlock(kind="kit.Clock")) == whole.replace("\n", end)
+    with pytest.raises(CannotEdit, match="does not begin with `pluto 1`"):
+        done("app a {\n}\n", AddBlock(kind="kit.Clock"))
 
 
 HOOKS = """from . import Mission, Results, Verdict

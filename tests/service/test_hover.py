@@ -116,3 +116,10 @@ def test_a_graph_with_a_mistake_is_hinted_as_far_as_missions_get() -> None:
 @pytest.mark.parametrize("text", ["", "pluto 1", "# only this", "pluto 1\napp x {\n  a ->\n}"])
 def test_of_nothing_nothing_is_said(text: str) -> None:
     assert hover(Document(path="app.pluto", text=text), len(text)) is None
+
+
+def test_a_default_is_told_as_an_app_writes_it() -> None:
+    text = 'pluto 1\napp a {\n  action say(note: text = "a \\"b\\" \\\\") once\n}\n'
+    found = hover(Document(path="a.pluto", text=text), text.index("note"))
+    assert found is not None
+    assert r'default "a \"b\" \\"' in found.markdown

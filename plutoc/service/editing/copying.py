@@ -27,7 +27,7 @@ def copied(draft: Draft, names: Sequence[str]) -> str:
     lines = [draft.text(block.span) for block in blocks if isinstance(block, BlockDecl)]
     if len(lines) < len(blocks) or not lines:
         raise CannotEdit("only blocks are copied")
-    return "\n".join([*lines, *among(draft.file, names, {})]) + "\n"
+    return "\n".join([*lines, *among(draft.file, names)]) + "\n"
 
 
 def pasted(draft: Draft, text: str) -> tuple[Draft, tuple[str, ...]]:

@@ -10,8 +10,10 @@ from plutoc.registry import STD, RegistryError, blocks
 from plutoc.service.editing.draft import Draft
 from plutoc.service.editing.flows import CannotEdit
 from plutoc.source import Source, Span
+from plutoc.syntax.fragment import tokens_of
 from plutoc.syntax.parse import read
-from plutoc.syntax.texts import ESCAPES
+from plutoc.syntax.texts import quoted
+from plutoc.syntax.tokens import span
 from plutoc.syntax.tree import (
     ActionDecl,
     BadStatement,
@@ -66,12 +68,17 @@ def free_name(wanted: str, used: set[str]) -> str:
 
 def statements_in(text: str) -> tuple[Source, tuple[Statement, ...]]:
     """Read statements of an app; raise `CannotEdit` with what is wrong with them."""
-    source = Source("", f"pluto 1\napp pasted {{\n{text}\n}}\n")
+    source = Source("", f"pluto 1\napp pasted {{\n{one_ending(text)}\n}}\n")
     file, found = read(source)
     if found or file.bad:
         why = found[0].message if found else "it cannot be read"
         raise CannotEdit(f"this is no Pluto text: {why}")
     return source, file.app.statements
+
+
+def one_ending(text: str) -> str:
+    """Return a text, its lines ended as an edit writes them."""
+    return text.replace("\r\n", "\n")
 
 
 def added(draft: Draft, text: str, kind: type) -> Draft:
@@ -91,8 +98,9 @@ def _first(draft: Draft, text: str) -> Draft:
     if not app.name.text:
         raise CannotEdit("the line that begins the app cannot be read: mend it first")
     head = app.title.span.end if app.title else app.name.span.end
-    brace = draft.source.text.find("{", head)
-    if brace < 0:
+    line = draft.source.text[head : draft.line_end(head)].partition("#")[0]
+    brace = head + line.find("{")
+    if brace < head:
         raise CannotEdit("the line that begins the app has no `{`: mend it first")
     statements = app.statements
     indent = draft.indent(statements[0]) if statements else "  "
@@ -135,14 +143,7 @@ def with_argument(draft: Draft, owner: str, parameter: str, value: str | None) -
     if not isinstance(one, BlockDecl | CategoryDecl):
         raise CannotEdit(f"`{owner}` is declared by a text of its own: rewrite that")
     if value is not None:
-        _, parsed = statements_in(f"a = B({parameter}: {value})")
-        block = parsed[0] if len(parsed) == 1 else None
-        if (
-            not isinstance(block, BlockDecl)
-            or len(block.arguments) != 1
-            or "#" in value.split('"')[-1]
-        ):
-            raise CannotEdit(f"`{value}` is no value")
+        value = _plain_value(parameter, value)
     given = next((each for each in one.arguments if each.name.text == parameter), None)
     if value is None:
         return _without_argument(draft, one, parameter) if given else draft
@@ -157,6 +158,17 @@ def with_argument(draft: Draft, owner: str, parameter: str, value: str | None) -
         at = draft.source.text.index("(", end) + 1
         return draft.changed(Fix(span=Span(at, at), text=f"{parameter}: {value}"))
     return draft.changed(Fix(span=Span(end, end), text=f"({parameter}: {value})"))
+
+
+def _plain_value(parameter: str, value: str) -> str:
+    """Return a value without blanks around it; raise `CannotEdit` for what is more, as a comment."""
+    source, statements = statements_in(f"a = B({parameter}: {value})")
+    block = statements[0] if len(statements) == 1 else None
+    given = block.arguments if isinstance(block, BlockDecl) else ()
+    plain = one_ending(value).strip()
+    if [source.quote(one.value.span) for one in given] != [plain]:
+        raise CannotEdit(f"`{value}` is no value")
+    return plain
 
 
 def _without_argument(draft: Draft, one: BlockDecl | CategoryDecl, parameter: str) -> Draft:
@@ -190,9 +202,7 @@ def with_title(draft: Draft, title: str) -> Draft:
     if any(not char.isprintable() for char in title):
         raise CannotEdit("a title is one line, of signs that a screen shows")
     end = app.title.span.end if app.title else app.name.span.end
-    plain = title.replace("\\", "\\\\").replace('"', '\\"')
-    assert set(ESCAPES.values()) == {"\\", '"'}
-    text = f' "{plain}"' if title else ""
+    text = f" {quoted(title)}" if title else ""
     return draft.changed(Fix(span=Span(app.name.span.end, end), text=text))
 
 
@@ -208,10 +218,11 @@ def moved(draft: Draft, name: str, before: str) -> Draft:
         at = _lines(draft, declarations(draft.file)[-1]).end
     if lines.start <= at <= lines.end:
         return draft
-    text = draft.text(lines)
+    text = draft.text(lines).removesuffix("\n")
+    begins = draft.source.text[:at].endswith("\n")  # else it is the end of an app without its brace
     return draft.changed(
         Fix(span=lines, text=""),
-        Fix(span=Span(at, at), text=text if text.endswith("\n") else f"{text}\n"),
+        Fix(span=Span(at, at), text=f"{text}\n" if begins else f"\n{text}"),
     )
 
 
@@ -275,10 +286,17 @@ def _kind(draft: Draft, kind: str) -> tuple[Draft, Block]:
         raise CannotEdit(f"there is no kind of block `{kind}`")
     if prefix and prefix not in used:
         uses = draft.file.uses
-        head = uses[-1].span.end if uses else draft.source.text.find("\n")
-        blank = "" if uses else "\n" if head < 0 else ""
-        draft = draft.changed(draft.behind(max(head, 0), f"use {prefix}{blank}"))
+        head = uses[-1].span.end if uses else _header_end(draft)
+        draft = draft.changed(draft.behind(head, f"use {prefix}"))
     return draft, known[name]
+
+
+def _header_end(draft: Draft) -> int:
+    """Return where the line `pluto 1` ends: comments may stand above it."""
+    first = next(iter(tokens_of(draft.source.text)), None)
+    if first is None or first.type != "PLUTO":
+        raise CannotEdit("the app does not begin with `pluto 1`: mend it first")
+    return draft.line_end(span(first).end)
 
 
 def _hook(draft: Draft, kind: HookKind, block: str) -> tuple[Draft, str]:

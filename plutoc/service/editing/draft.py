@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from plutoc.diagnostic import Fix
-from plutoc.edits import applied
+from plutoc.edits import applied, without_statement
 from plutoc.source import Source, Span
 from plutoc.syntax.parse import read
 from plutoc.syntax.tree import File, Statement
@@ -110,20 +110,8 @@ class Draft:
     def without(self, statement: Statement) -> Fix:
         """Return the edit that takes a statement out, and leaves every comment."""
         comments = self.comments(statement.span)
-        text = self.source.text
-        first = text.rfind("\n", 0, statement.span.start) + 1
-        line_end = text.find("\n", statement.span.end)
-        end = len(text) if line_end < 0 else line_end
-        alone = not text[first : statement.span.start].lstrip("\ufeff").strip(" \t")
-        tail = text[statement.span.end : end].strip()
-        if comments or not alone or tail:
-            if tail.startswith("#") and not comments:
-                return Fix(
-                    span=Span(statement.span.start, text.index("#", statement.span.end)), text=""
-                )
-            return self.written(statement, "", comments)
-        start = first + text.startswith("\ufeff", first)
-        return Fix(span=Span(start, min(end + 1, len(text))), text="")
+        whole = None if comments else without_statement(self.source, statement.span)
+        return whole or self.written(statement, "", comments)
 
 
 def _before(pieces: tuple[Span | str, ...], at: int) -> list[Span | str]:

@@ -148,7 +148,7 @@ def _declare(draft: Draft, text: str) -> Draft:
         raise CannotEdit("this is not one declaration")
     if one.name.text.lower() in declared.taken(draft.file):
         raise CannotEdit(f"`{one.name.text}` is declared already")
-    return declared.added(draft, text.strip(), type(one))
+    return declared.added(draft, declared.one_ending(text).strip(), type(one))
 
 
 def _remove(draft: Draft, name: str) -> Draft:

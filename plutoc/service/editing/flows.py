@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise, product
@@ -177,19 +176,14 @@ def without_blocks(draft: Draft, names: Collection[str]) -> Draft:
     return draft
 
 
-def among(file: File, names: Collection[str], called: dict[str, str]) -> list[str]:
-    """Return the flows among some blocks, as text, under new names."""
+def among(file: File, names: Collection[str]) -> list[str]:
+    """Return the flows among some blocks, as text."""
     found = []
     for flow in flows(file):
         others = {n for stop in flow.stops for n in _names(stop)} - set(names)
         for part in _parts(flow, others, whole=False):
-            text = "".join(piece for piece in part if isinstance(piece, str))
-            found.append(text)
-    return [_renamed(text, called) for text in found]
-
-
-def _renamed(text: str, called: dict[str, str]) -> str:
-    return re.sub(r"\w+", lambda match: called.get(match[0], match[0]), text)
+            found.append("".join(piece for piece in part if isinstance(piece, str)))
+    return found
 
 
 def guard_text(arrow: Arrow) -> str:

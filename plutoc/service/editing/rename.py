@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 from plutoc.diagnostic import Fix
 from plutoc.graph.names import Style, has_style, is_well_formed, reserved
+from plutoc.hooks.module import Function, name_span, node_span
+from plutoc.hooks.python import Unreadable, parsed
 from plutoc.service.document import Document
 from plutoc.service.editing.declarations import taken
 from plutoc.service.editing.flows import CannotEdit
@@ -69,10 +71,10 @@ def _in_hooks(hooks: Source | None, name: str, new: str) -> tuple[Fix, ...]:
     if hooks is None:
         return ()
     try:
-        module = ast.parse(hooks.text)
-    except (SyntaxError, ValueError):
+        module = parsed(hooks)
+    except Unreadable:
         raise CannotEdit(f"{hooks.path} cannot be read as Python: mend it first") from None
-    top = {each.name for each in module.body if isinstance(each, _FUNCTIONS)}
+    top = {each.name for each in module.body if isinstance(each, Function)}
     if new in top:
         raise CannotEdit(f"{hooks.path} defines `{new}` already")
     fixes = []
@@ -82,25 +84,19 @@ def _in_hooks(hooks: Source | None, name: str, new: str) -> tuple[Fix, ...]:
     return tuple(sorted(fixes, key=lambda fix: fix.span))
 
 
-_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
-
-
 def _named(hooks: Source, module: ast.Module, name: str) -> Iterator[Span]:
     """Find a function's name where it is defined, and wherever it means that function."""
     for node in module.body:
-        if isinstance(node, _FUNCTIONS) and node.name == name:
-            start = _offset(hooks, node.lineno, node.col_offset)
-            at = hooks.text.index(name, hooks.text.index("def", start) + 3)
-            yield Span(at, at + len(name))
+        if isinstance(node, Function) and node.name == name:
+            yield name_span(hooks, node)
     for used in _uses(module, name):
-        start = _offset(hooks, used.lineno, used.col_offset)
-        yield Span(start, start + len(name))
+        yield node_span(hooks, used)
 
 
 def _uses(node: ast.AST, name: str) -> Iterator[ast.Name]:
     """Find the uses of a module's name, but not where a function has a variable of its own so called."""
     for child in ast.iter_child_nodes(node):
-        if isinstance(child, (*_FUNCTIONS, ast.Lambda)) and _hides(child, name):
+        if isinstance(child, Function | ast.Lambda) and _hides(child, name):
             continue
         if isinstance(child, ast.Name) and child.id == name:
             yield child
@@ -114,10 +110,3 @@ def _hides(function: ast.AST, name: str) -> bool:
         if isinstance(node, ast.Name) and node.id == name and isinstance(node.ctx, ast.Store):
             return True
     return False
-
-
-def _offset(source: Source, line: int, column: int) -> int:
-    """Return the offset of a place that Python counts in bytes of UTF-8."""
-    lines = source.text.split("\n")
-    before = sum(len(each) + 1 for each in lines[: line - 1])
-    return before + len(lines[line - 1].encode()[:column].decode())

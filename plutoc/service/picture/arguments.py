@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from plutoc.block import AnyParam, Choice, HookParam, Param
 from plutoc.graph.model import Action, Hook, Node, Parameter, Plain
 from plutoc.service.document import Document
+from plutoc.syntax.texts import quoted
 from plutoc.syntax.tree import BlockDecl
 from plutoc_runtime.domain.quantities import UNITS, Type, units_of
 
@@ -103,7 +104,7 @@ def as_written(value: Plain, kind: Type) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        return quoted(value)
     units = units_of(kind)
     if not units:
         return f"{value:g}"

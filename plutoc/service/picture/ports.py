@@ -18,7 +18,6 @@ def targets(document: Document, source: str, when: Sequence[str]) -> Mapping[str
     node = graph.node.get(source)
     names = [s.name.text for s in document.file.app.statements if isinstance(s, BlockDecl)]
     wanted = {status for status in IN_GRAPH if status.value in when}
-    out = {one for status in IN_GRAPH for one in node.emitted(status)} if node else set()
     edges = graph.outgoing.get(source, ())
     found: dict[str, str | None] = {}
     for name in dict.fromkeys([*names, END]):
@@ -34,7 +33,7 @@ def targets(document: Document, source: str, when: Sequence[str]) -> Mapping[str
         elif any(edge.target == name and _guard(edge) == wanted for edge in edges):
             found[name] = f"this edge from `{source}` to `{name}` is there already"
         else:
-            found[name] = _passing(node, name, target, wanted, out)
+            found[name] = _passing(node, name, target, wanted)
     return found
 
 
@@ -48,10 +47,9 @@ def _guard(edge: Edge) -> set[Status]:
     return set(edge.guard or ())
 
 
-def _passing(
-    source: Node, name: str, target: Node | None, wanted: set[Status], out: set[Status]
-) -> str | None:
+def _passing(source: Node, name: str, target: Node | None, wanted: set[Status]) -> str | None:
     """Return why no status can pass, or not all that are wanted."""
+    out = source.emits
     plain = END_ACCEPTS if target is None else target.block.accepts
     by_guard = END_ACCEPTS if target is None else target.block.accepts_by_guard
     refused = wanted - by_guard

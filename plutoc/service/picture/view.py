@@ -19,7 +19,7 @@ from plutoc.service.document import Document
 from plutoc.service.picture.arguments import argument, arguments_of, parameter_of
 from plutoc.service.picture.layout import laid_out
 from plutoc.service.picture.positions import Positions
-from plutoc.service.symbols import Role
+from plutoc.service.symbols import Occurrence, Role
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import (
     ActionDecl,
@@ -145,7 +145,7 @@ class _View:
             **self._at(declared.span),
             "accepts": _listed(block.accepts) if block else [],
             "accepts_by_guard": _listed(block.accepts_by_guard) if block else [],
-            "emits": _emitted(node),
+            "emits": _listed(node.emits) if node else [],
             "arguments": arguments_of(declared, node, self.document),
             "hook": node.hook.name if node and node.hook else None,
             "problems": [i for i, names in enumerate(self._marked) if name in names],
@@ -253,16 +253,12 @@ class _View:
             for name, declared in self.declared.items():
                 if _within(found.span, declared.span):
                     names.append(name)
-            names += [
-                one.name
-                for one in self._block_names
-                if found.span.start <= one.span.start and one.span.end <= found.span.end
-            ]
+            names += [one.name for one in self._block_names if _within(one.span, found.span)]
         yield from (name for name in dict.fromkeys(names) if name in self.declared)
 
     @cached_property
-    def _block_names(self) -> list[_Named]:
-        return [_Named(one.name, one.span) for one in self.document.names if one.role is Role.BLOCK]
+    def _block_names(self) -> list[Occurrence]:
+        return [one for one in self.document.names if one.role is Role.BLOCK]
 
     def _problem(self, found: Diagnostic, blocks: Sequence[str]) -> Data:
         return {
@@ -295,22 +291,10 @@ class _View:
         return {"from": to(span.start), "to": to(span.end)}
 
 
-@dataclass(frozen=True, slots=True)
-class _Named:
-    name: str
-    span: Span
-
-
 def _package(declared: BlockDecl, node: Node | None) -> str:
     if node is not None:
         return node.package
     return declared.prefix.text if declared.prefix else ""
-
-
-def _emitted(node: Node | None) -> list[str]:
-    if node is None:
-        return []
-    return _listed({out for status in IN_GRAPH for out in node.emitted(status)})
 
 
 def kind_of(block: Block) -> Data:

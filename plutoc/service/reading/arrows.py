@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from plutoc.block import IN_GRAPH
-from plutoc.graph.model import END, START, Edge
-from plutoc.graph.stops import END_ACCEPTS
+from plutoc.graph.model import START, Edge
+from plutoc.graph.stops import accepts_by_guard
 from plutoc.service.document import Document
 from plutoc.source import Span
 from plutoc.syntax.tree import FlowDecl
@@ -82,13 +82,12 @@ def emitted(document: Document, name: str) -> frozenset[Status]:
     """Return the statuses that a block can emit at all."""
     if name == START:
         return frozenset({Status.UNEXECUTED})
-    node = document.graph.node[name]
-    return frozenset().union(*(node.emitted(status) for status in IN_GRAPH))
+    return document.graph.node[name].emits
 
 
 def accepted(document: Document, name: str) -> frozenset[Status]:
     """Return the statuses that a block accepts, with or without a guard."""
-    return END_ACCEPTS if name == END else document.graph.node[name].block.accepts_by_guard
+    return accepts_by_guard(name, document.graph.node)
 
 
 def arriving(document: Document, name: str) -> frozenset[Status]:

@@ -10,6 +10,7 @@ from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import Action, Category, Hook, Node, Parameter, Plain
 from plutoc.graph.values import EXAMPLES
 from plutoc.report.block_page import page, param_line
+from plutoc.syntax.texts import quoted
 from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.quantities import UNITS, Type, units_of
 from plutoc_runtime.domain.status import Status
@@ -153,7 +154,7 @@ def of_action(name: str) -> str:
 def _default(value: Plain | None) -> str:
     if value is None:
         return ""
-    return f' = "{value}"' if isinstance(value, str) else f" = {value}"
+    return f" = {quoted(value)}" if isinstance(value, str) else f" = {value}"
 
 
 def of_param(param: Param) -> str:
@@ -193,8 +194,10 @@ def in_units(value: Plain, kind: Type) -> str:
     units = units_of(kind)
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if not units or isinstance(value, str):
-        return f'"{value}"' if isinstance(value, str) else f"{value:g}"
+    if isinstance(value, str):
+        return quoted(value)
+    if not units:
+        return f"{value:g}"
     ways = []
     for unit in units:
         _, factor, offset = UNITS[unit]
