@@ -123,6 +123,7 @@ def _checked(app: App, options: Any) -> int:
     from .alone.faults import Faults
     from .alone.files import load_fleet, load_missions
     from .alone.simulate import default_fleet, simulate
+    from .domain.app import moving
     from .fleet.reach import idle_actions, problems
 
     beside = options.missions.parent / "fleet.toml"
@@ -130,6 +131,7 @@ def _checked(app: App, options: Any) -> int:
         options.fleet = beside
         _tell(f"fleet: {printable(str(beside))}, beside the missions; or name one: --fleet")
     fleet = load_fleet(options.fleet, app) if options.fleet else default_fleet(app)
+    app = moving(app, fleet.motion)
     missions = load_missions(options.missions, app, fleet.airspace)
     forever = options.command == "check" or options.until is not None
     if found := problems(app, missions, fleet, forever=forever):
