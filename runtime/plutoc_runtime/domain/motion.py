@@ -62,6 +62,11 @@ class Motion:
         """Whether each leg begins and ends at rest."""
         return self.legs == "smooth"
 
+    @property
+    def exact(self) -> Motion:
+        """The same without its spread."""
+        return replace(self, spread=0.0, action_spread=0.0)
+
     def rises(self, metres: float, speed: float) -> float:
         """Return the seconds of a take-off, from the command until it hovers."""
         return self.take_off + self.climb(metres, speed) + self.settles
