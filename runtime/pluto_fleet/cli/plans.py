@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +41,8 @@ class LoadedPlan:
 def load(app: App, options: Options) -> LoadedPlan:
     """Return the plan of a command's files; raise `BadInput` if it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
+    if options.no_spread or options.dry_run:
+        fleet = replace(fleet, motion=fleet.motion.exact)
     app = moving(app, fleet.motion)
     missions_text = text_of(options.missions)
     missions = missions_of(parsed(str(options.missions), missions_text), app, fleet.airspace)

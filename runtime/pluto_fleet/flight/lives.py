@@ -217,7 +217,13 @@ async def _real(flight: FlightSetup, folder: Path, known: Recovered | None) -> R
     from ..crtp.process import start, told  # rarely needed
 
     homes = {drone.id: drone.home for drone in flight.fleet.drones}
-    uris = await asyncio.to_thread(start, folder, homes)
+    kinds = {one.name: one for one in flight.app.categories}
+    batteries = {
+        drone.id: (kind.flight_time / flight.fleet.motion.drain, kind.charge_time)
+        for drone in flight.fleet.drones
+        for kind in (kinds[drone.category],)
+    }
+    uris = await asyncio.to_thread(start, folder, homes, None, batteries)
     camera = await asyncio.to_thread(told, folder, "camera")
     drones = (
         replace(drone, uri=uris[drone.id], options=fitted(drone.options, camera))

@@ -62,6 +62,11 @@ class Motion:
         """Whether each leg begins and ends at rest."""
         return self.legs == "smooth"
 
+    @property
+    def exact(self) -> Motion:
+        """The same without its spread."""
+        return replace(self, spread=0.0, action_spread=0.0)
+
     def rises(self, metres: float, speed: float) -> float:
         """Return the seconds of a take-off, from the command until it hovers."""
         return self.take_off + self.climb(metres, speed) + self.settles
@@ -139,10 +144,10 @@ STRAIGHT = Motion()
 CRAZYFLIE = Motion(
     legs="smooth",
     limit=1.0,
-    take_off=1.3,
-    settles=0.8,
-    landing=2.3,
-    spread=0.03,
+    take_off=0.3,
+    settles=0.15,
+    landing=2.1,
+    spread=0.01,
     action_spread=0.03,
     taper=0.2,
     slack=SLACK,
