@@ -21,7 +21,8 @@ from tests.gateway.traffic.skies import ENDURING, Sky, is_home
 
 CASES = 10
 APART = 0.5
-LATER = 2.0
+LATER = 2.0 + 4 * PRECISE.settles
+"""Two seconds, and what it takes to settle after four legs more than alone."""
 ROWS = [(0.5 + column, 0.5 + 2.5 * row, 0.0) for row in range(2) for column in range(5)]
 """Ten docks, a metre apart in each row."""
 NEXT = [(0.5 + (column + 1) % 5, 1.7 + 2.5 * row, 0.5) for row in range(2) for column in range(5)]
