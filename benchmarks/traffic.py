@@ -27,7 +27,7 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.gateway.traffic.real_skies import SLACK
+from tests.gateway.traffic.real_skies import PRECISE
 from tests.gateway.traffic.real_skies import late as late_for_real
 from tests.gateway.traffic.skies import Sky
 
@@ -150,7 +150,7 @@ def lateness(
     With a speed they fly as real drones do.
     """
     chance = Random(seed)
-    apart = APART if speed is None else APART + SLACK
+    apart = APART if speed is None else APART + PRECISE.slack
     homes = places(chance, drones, side, 0.0, apart)
     hovering = places(chance, drones, side, HEIGHT, apart)
     if speed is not None:
