@@ -19,6 +19,8 @@ from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_fli
 if TYPE_CHECKING:
     from ..app import App
 
+MOST_JOBS = 256
+
 
 @dataclass
 class Options:
@@ -29,6 +31,7 @@ class Options:
     fleet: Path | None = None
     seed: int = 0
     runs: int | None = None
+    jobs: int | None = None
     until: float | None = None
     fail: dict[str, float] = field(default_factory=dict)
     trace: Path | None = None
@@ -135,6 +138,8 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
         simulate.error("--trace writes down one run: it does not go with --runs")
     if options.command == "fly" and options.until is not None and not options.dry_run:
         fly.error("--until goes with --dry-run: to end a flight, stop it")
+    if options.jobs is not None and options.runs is None and options.command == "simulate":
+        simulate.error("--jobs is for many runs: it goes with --runs")
     if options.plot is not None and options.runs is None:
         simulate.error("--plot draws many runs: it goes with --runs")
     return options
@@ -205,6 +210,15 @@ def _chance(parser: ArgumentParser, only: str = "") -> None:
     )
 
 
+def _jobs(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--jobs",
+        metavar="N",
+        type=whole_number(1, MOST_JOBS),
+        help="how many runs at once, each in a process of its own; default: one for each core",
+    )
+
+
 def _simulation(parser: ArgumentParser) -> None:
     _chance(parser)
     parser.add_argument(
@@ -213,6 +227,7 @@ def _simulation(parser: ArgumentParser) -> None:
         type=whole_number(1),
         help="simulate N times, with N seeds from --seed on",
     )
+    _jobs(parser)
     parser.add_argument(
         "--plot",
         metavar="FILE",

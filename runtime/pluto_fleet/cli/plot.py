@@ -1,4 +1,4 @@
-"""The plot of many runs, drawn by matplotlib."""
+"""Plots of many runs, drawn by matplotlib."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _BINS = 20
 _INK = "#4c72b0"
 
 
-def picture(kind: str, title: str, panels: Sequence[tuple[str, Sequence[float]]]) -> bytes:
+def histograms(kind: str, title: str, panels: Sequence[tuple[str, Sequence[float]]]) -> bytes:
     """Return an svg or a png with a histogram a panel: the same figures give the same bytes."""
     shape = Figure(figsize=(10, 3.2), layout="constrained")
     for axes, (what, values) in zip(shape.subplots(1, len(panels)), panels, strict=True):
@@ -24,6 +24,10 @@ def picture(kind: str, title: str, panels: Sequence[tuple[str, Sequence[float]]]
             axes.set(xticks=[], yticks=[])
     shape.axes[0].set_ylabel("runs")
     shape.suptitle(title.replace("$", r"\$"))
+    return _drawn(shape, kind)
+
+
+def _drawn(shape: Figure, kind: str) -> bytes:
     drawn = BytesIO()
     metadata = {"Date": None} if kind == "svg" else {"Software": None}
     with rc_context({"svg.hashsalt": "pluto"}):
