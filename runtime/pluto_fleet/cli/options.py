@@ -15,6 +15,7 @@ from ..shared.command_line import CommandLine
 from ..shared.domain.errors import BadInput
 from ..shared.domain.quantities import time_from, typed
 from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_flies
+from .size_flags import Deadline, add_size
 
 if TYPE_CHECKING:
     from ..app import App
@@ -33,6 +34,11 @@ class Options:
     no_spread: bool = False
     runs: int | None = None
     jobs: int | None = None
+    by: Deadline | None = None
+    confidence: float = 0.99
+    most: int | None = None
+    swap: float | None = None
+    write: Path | None = None
     until: float | None = None
     fail: dict[str, float] = field(default_factory=dict)
     trace: Path | None = None
@@ -114,6 +120,11 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     simulate = command("simulate", "Fly the missions in virtual time, with simulated drones.")
     _files(simulate)
     _simulation(simulate)
+    size = command("size", "Say how many drones the missions need, to be sure of them.")
+    _files(size)
+    _chance(size)
+    _jobs(size)
+    add_size(size, typed(time_from))
     _files(command("check", "Say whether the fleet can fly the missions; nothing flies."))
     fly = command("fly", "Fly the missions in real time.")
     _files(fly)
@@ -141,7 +152,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
         fly.error("--until goes with --dry-run: to end a flight, stop it")
     if options.jobs is not None and options.runs is None and options.command == "simulate":
         simulate.error("--jobs is for many runs: it goes with --runs")
-    if options.plot is not None and options.runs is None:
+    if options.command == "simulate" and options.plot is not None and options.runs is None:
         simulate.error("--plot draws many runs: it goes with --runs")
     return options
 

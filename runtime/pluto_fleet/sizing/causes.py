@@ -13,7 +13,7 @@ from statistics import median
 from typing import TYPE_CHECKING
 
 from ..shared.alone.faults import Faults
-from ..shared.domain.text import counted, duration, number, percent, quoted
+from ..shared.domain.text import counted, duration, number, quoted
 from .batteries import swapping
 from .tries import Tally, flown
 
@@ -95,13 +95,12 @@ class Causes:
             if self._holds(calm, fleet):
                 text = f"mishaps: without --fail, {drones} would do"
                 yield Cause("faults", text)
-        if fleet.max_airborne is not None:
-            if self._holds(question, replace(fleet, max_airborne=None)):
-                text = (
-                    f"max_airborne = {fleet.max_airborne} keeps drones on the ground: without it,"
-                    f" {drones} would do"
-                )
-                yield Cause("airborne", text)
+        limit = fleet.max_airborne
+        if limit is not None and self._holds(question, replace(fleet, max_airborne=None)):
+            text = (
+                f"max_airborne = {limit} keeps drones on the ground: without it, {drones} would do"
+            )
+            yield Cause("airborne", text)
         quick = replace(question, app=swapping(question.app, AT_ONCE))
         if self._holds(quick, fleet):
             text = (

@@ -52,7 +52,7 @@ class Search:
             if enough is not None:
                 used = [place for place, count in enumerate(first) if count]
                 orders = list(permutations(used))[:_MOST_ORDERS]
-                found |= {self._reduced(enough, order) for order in orders}
+                found |= {self.reduced(enough, order) for order in orders}
         return min(found, key=lambda counts: (sum(counts), counts), default=None)
 
     def _holds(self, counts: Counts) -> bool:
@@ -73,7 +73,7 @@ class Search:
 
     def _first_able(self, chosen: frozenset[int]) -> Counts | None:
         """Return the fewest drones of these categories that can: not every home is near enough."""
-        one = tuple(int(place in chosen) for place in range(len(self._stock.kinds)))
+        one: Counts = tuple(int(place in chosen) for place in range(len(self._stock.kinds)))
         return next(filter(self._able, self._multiples(one)), None)
 
     def _multiples(self, first: Counts) -> Iterator[Counts]:
@@ -84,7 +84,7 @@ class Search:
 
     def _grown(self, first: Counts) -> Counts | None:
         """Return a multiple of a fleet that holds: of its doubles, or else near the best of them."""
-        all_ = list(self._multiples(first))
+        all_: list[Counts] = list(self._multiples(first))
         doubled = [2**power - 1 for power in range(len(all_).bit_length())]
         tried = list(dict.fromkeys([*doubled, len(all_) - 1]))
         for place in tried:
@@ -95,13 +95,13 @@ class Search:
         best = max(range(len(tried)), key=lambda which: self._rate(all_[tried[which]]))
         around = [0, *tried, tried[-1]][best : best + 3]
         between = range(around[0], around[-1] + 1)
-        return next((all_[place] for place in between if self._holds(all_[place])), None)
+        return next(filter(self._holds, (all_[place] for place in between)), None)
 
     def _rate(self, counts: Counts) -> float:
         tally = self._tries.tallies.get(counts)
         return tally.succeeded / len(tally.runs) if tally is not None else 0.0
 
-    def _reduced(self, counts: Counts, order: Sequence[int]) -> Counts:
+    def reduced(self, counts: Counts, order: Sequence[int]) -> Counts:
         """Return a fleet from which no drone can be taken away, nor two exchanged for one."""
         for place in order:
             counts = self._halved(counts, place)
