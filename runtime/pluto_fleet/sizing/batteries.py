@@ -12,6 +12,7 @@ from dataclasses import replace
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
+from ..shared.domain.motion import charging
 from ..shared.fleet.reach import docked
 
 if TYPE_CHECKING:
@@ -44,25 +45,27 @@ def most_charging(
 
     `app` says how long that takes. A drone's battery is swapped whenever it has landed in its dock.
     """
-    charge_time = {category.name: category.charge_time for category in app.categories}
+    categories = {category.name: category for category in app.categories}
     drones = {drone.id: drone for drone in fleet.drones}
     flown = dict.fromkeys(drones, False)
-    charging: dict[str, list[float]] = {}
+    chargers: dict[str, list[float]] = {}
+    """When each battery will be full, by category."""
     most: dict[str, int] = {}
     for event in events:
-        kind: Any = event["event"]
-        if kind == "trip.launched":
+        what = event["event"]
+        if what == "trip.launched":
             flown[str(event["drone"])] = True
-        elif kind in _DOCKED and flown[(id := str(event["drone"]))]:
+        elif what in _DOCKED and flown[(id := str(event["drone"]))]:
             data: Any = event
             drone, now, level = drones[id], data["t"], data["battery"]
             if level >= FULL or not docked(tuple(data["at"]), drone.home):
                 continue
             flown[id] = False
-            on = charging.setdefault(drone.category, [])
+            on = chargers.setdefault(drone.category, [])
             while on and on[0] <= now:
                 heappop(on)
-            heappush(on, now + (1.0 - level) * charge_time[drone.category])
+            kind = categories[drone.category]
+            heappush(on, now + charging(level, 1.0, kind.charge_time, kind.motion.taper))
             most[drone.category] = max(most.get(drone.category, 0), len(on))
     return tuple(sorted(most.items()))
 

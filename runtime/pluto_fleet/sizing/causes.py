@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from statistics import median
 from typing import TYPE_CHECKING
 
@@ -46,17 +47,13 @@ class Causes:
 
     def __init__(self, tries: Tries) -> None:
         self._tries, self._question = tries, tries.question
-        self._late: Cause | None = None
 
     def any_is_late_alone(self) -> bool:
         """Return whether a mission takes too long by itself: then no fleet can help."""
-        self._late = next(self._alone(), None) if self._tries.tallies else None
         return self._late is not None
 
     def found(self) -> list[Cause]:
         """Return the causes, the surest first."""
-        if not self._tries.tallies:
-            return []
         if self._late is not None:
             return [self._late]
         best = self._best
@@ -69,23 +66,23 @@ class Causes:
         tallies = self._tries.tallies.values()
         return max(tallies, key=lambda one: (one.succeeded / len(one.runs), one.drones))
 
-    def _alone(self) -> Iterator[Cause]:
-        within, best = self._question.within, self._best
+    @cached_property
+    def _late(self) -> Cause | None:
+        within, fleet = self._question.within, self._tries.stock.largest
         if within is None:
-            return
-        late = {mission for mission, reason in best.failures if not reason}
-        for name in sorted(late):
-            alone = replace(self._question.alone(name), by=None)
-            fleet = self._fleet(best)
+            return None
+        for mission in sorted(self._question.missions, key=lambda one: -len(one.trips)):
+            alone = self._question.alone(mission.name)
             runs = list(flown(alone, fleet, self._tries.seed, 0, _FEW, self._tries.jobs))
             if all(run.success and run.seconds > within for run in runs):
                 took = duration(median(run.seconds for run in runs))
                 drones = counted(len(fleet.drones), "drone")
                 text = (
-                    f"mission {quoted(name)} takes {took} even if it has {drones} for itself and nothing"
-                    f" goes wrong: more than {duration(within)}"
+                    f"mission {quoted(mission.name)} takes {took} even if it has {drones} for itself and"
+                    f" nothing goes wrong: more than {duration(within)}"
                 )
-                yield Cause("alone", text)
+                return Cause("alone", text)
+        return None
 
     def _changes(self, best: Tally) -> Iterator[Cause]:
         question, fleet = self._question, self._fleet(best)
@@ -93,25 +90,27 @@ class Causes:
         if question.faults != Faults():
             calm = replace(question, faults=Faults())
             if self._holds(calm, fleet):
-                text = f"mishaps: without --fail, {drones} would do"
+                text = f"mishaps (--fail): without them {drones} would do, or fewer"
+                if any("aboard" in reason for _, reason in best.failures):
+                    text += (
+                        "; one with an item aboard ends its mission, however many drones there are"
+                    )
                 yield Cause("faults", text)
         limit = fleet.max_airborne
         if limit is not None and self._holds(question, replace(fleet, max_airborne=None)):
-            text = (
-                f"max_airborne = {limit} keeps drones on the ground: without it, {drones} would do"
-            )
+            text = f"max_airborne = {limit} keeps drones on the ground: without it {drones} would do, or fewer"
             yield Cause("airborne", text)
         quick = replace(question, app=swapping(question.app, AT_ONCE))
         if self._holds(quick, fleet):
             text = (
-                f"drones wait for their batteries: if these were full at once, {drones} would do"
-                " (--swap says how long it takes to swap one)"
+                f"drones wait for their batteries: if these were full at once, {drones} would do, or"
+                " fewer (--swap says how long it takes to swap one)"
             )
             yield Cause("charging", text)
         if fleet.apart and self._holds(question, replace(fleet, apart=0.0)):
             text = (
                 f"drones wait for one another: if they need not keep {number(fleet.apart)} m apart,"
-                f" {drones} would do"
+                f" {drones} would do, or fewer"
             )
             yield Cause("apart", text)
 

@@ -78,6 +78,13 @@ class Stock:
         chosen.sort(key=lambda drone: known.get(drone.id, inf))
         return replace(self.fleet, drones=tuple(chosen))
 
+    @cached_property
+    def largest(self) -> FleetFile:
+        """The most drones, as many of each category; of the fleet file, if there is no room for them."""
+        each = self.most // len(self.kinds)
+        counts = tuple(min(each, len(self.drones[kind])) for kind in self.kinds)
+        return self.of(counts) or self.fleet
+
 
 def _names(kind: str, number: int, taken: set[str]) -> Iterator[str]:
     """Yield names that no drone has."""

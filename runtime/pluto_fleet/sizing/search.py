@@ -31,7 +31,7 @@ class Search:
     ) -> None:
         """`able` says whether a fleet could do each trip if it had the time.
 
-        `in_vain` is asked once no fleet that was tried has held: whether none ever will.
+        `in_vain` is asked when no fleet that was tried has held: whether none ever will.
         """
         self._tries, self._able, self._in_vain = tries, able, in_vain
         self._stock: Stock = tries.stock
@@ -60,12 +60,15 @@ class Search:
         return there and self._able(counts) and self._tries.hopeful(counts)
 
     def _able_sets(self) -> Iterator[Counts]:
-        """Yield the least sets of categories that can do all trips, with few drones of each."""
+        """Yield the least sets of categories that can do all trips, with few drones of each.
+
+        All categories are the last one, since hooks may add trips that only others can do.
+        """
         found: list[frozenset[int]] = []
         kinds = range(len(self._stock.kinds))
         for size in range(1, len(kinds) + 1):
             for chosen in map(frozenset, combinations(kinds, size)):
-                if not any(known <= chosen for known in found):
+                if size == len(kinds) or not any(known <= chosen for known in found):
                     first = self._first_able(chosen)
                     if first is not None:
                         found.append(chosen)
@@ -85,7 +88,7 @@ class Search:
     def _grown(self, first: Counts) -> Counts | None:
         """Return a multiple of a fleet that holds: of its doubles, or else near the best of them."""
         all_: list[Counts] = list(self._multiples(first))
-        doubled = [2**power - 1 for power in range(len(all_).bit_length())]
+        doubled = [(1 << power) - 1 for power in range(len(all_).bit_length())]
         tried = list(dict.fromkeys([*doubled, len(all_) - 1]))
         for place in tried:
             if self._holds(all_[place]):
