@@ -13,8 +13,7 @@ from .orders import Message, Order
 if TYPE_CHECKING:
     from ..shared.brain import Brain
     from ..shared.domain.trace import Event
-    from ..shared.time.kernel import Timer
-    from ..shared.time.kernel import Kernel
+    from ..shared.time.kernel import Kernel, Timer
 
 
 class Driver:

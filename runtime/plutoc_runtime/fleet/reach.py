@@ -12,11 +12,11 @@ from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
+from ..domain.airspace import Airspace
 from ..domain.fields import FieldType
 from ..domain.text import mass, percent, place, quoted
 
 if TYPE_CHECKING:
-    from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
     from ..domain.model import Category, Item, Mission, Point, Trip
@@ -121,14 +121,8 @@ def miss_of(
     app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
 ) -> Miss | None:
     """Return what a drone of this category and home lacks for the chain; None: nothing."""
-    for trip in chain:
-        if not category.can(trip.action):
-            return Miss(Lacks.ACTION, 0.0, f"{category.name} cannot {trip.action}")
-    for trip in chain:
-        if trip.item is not None and trip.item.mass > category.payload:
-            most, weighs = mass(category.payload), mass(trip.item.mass)
-            reason = f"{category.name} carries at most {most}, the item weighs {weighs}"
-            return Miss(Lacks.PAYLOAD, trip.item.mass - category.payload, reason)
+    if (miss := _unfit(category, chain)) is not None:
+        return miss
     stops = stops_of(app, airspace, chain)
     share = needed(category, airspace, home, stops, home)
     if share is None:
@@ -139,6 +133,19 @@ def miss_of(
             f"{place(home)} and back, and {percent(category.reserve)} must be left"
         )
         return Miss(Lacks.ENERGY, share + category.reserve - 1, reason)
+    return None
+
+
+def _unfit(category: Category, chain: Sequence[Trip]) -> Miss | None:
+    """Return what drones of this category lack for the chain wherever it leads; None: nothing."""
+    for trip in chain:
+        if not category.can(trip.action):
+            return Miss(Lacks.ACTION, 0.0, f"{category.name} cannot {trip.action}")
+    for trip in chain:
+        if trip.item is not None and trip.item.mass > category.payload:
+            most, weighs = mass(category.payload), mass(trip.item.mass)
+            reason = f"{category.name} carries at most {most}, the item weighs {weighs}"
+            return Miss(Lacks.PAYLOAD, trip.item.mass - category.payload, reason)
     return None
 
 
@@ -224,7 +231,7 @@ def idle_actions(app: App, fleet: FleetData) -> list[str]:
 
 
 class Reach:
-    """A cheap upper bound of the battery for a trip: most free drones are above it.
+    """The battery for a trip, and cheap bounds of it: most free drones are above or below.
 
     So the exact answer, which takes a route search, is seldom needed.
     """
@@ -236,6 +243,17 @@ class Reach:
             for action in app.actions
         }
         self._unknown = dict.fromkeys(app.categories, inf)
+        self.a_metre = {category: _a_metre(category) for category in app.categories}
+        """The share of a battery that a metre takes at least, for each category."""
+
+    def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
+        """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
+        if _unfit(category, chain):
+            return inf
+        share = needed(
+            category, self.airspace, here, stops_of(self.app, self.airspace, chain), home
+        )
+        return inf if share is None else share + category.reserve
 
     def levels(self, trip: Trip) -> Mapping[Category, float]:
         """Return for each category a battery level that surely suffices for the trip.
@@ -256,3 +274,11 @@ class Reach:
         # to the source, to the target, and home
         seconds = 3 * across / category.speed + up_and_down + self.app.actions[action].seconds
         return seconds / category.flight_time + category.reserve
+
+
+def _a_metre(category: Category) -> float:
+    """Return the share that a metre of a long straight leg takes: on a short one it is no less."""
+    far = 1e6
+    space = Airspace(size=(far, far))
+    seconds = flight_seconds(category, space, (0.0, 0.0, 1.0), [(far, 0.0, 1.0)], 0.0)
+    return seconds / far / category.flight_time * (1 - 1e-9)
