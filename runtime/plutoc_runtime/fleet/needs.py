@@ -8,7 +8,7 @@ from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from ..time.future import Future
-from .reach import Reach, chain_of, why_not
+from .reach import Reach, a_metre, chain_of, why_not
 
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Point, Trip
@@ -69,7 +69,7 @@ class Needs:
     def __init__(self, reach: Reach, drone: Drone, arrived: Sequence[Request]) -> None:
         """`arrived`: the requests, to which later ones are appended."""
         self.place, self._drone, self._arrived, self._seen = drone.location, drone, arrived, 0
-        self._reserve, self._a_metre = drone.category.reserve, reach.a_metre[drone.category]
+        self._reach, self._a_metre = reach, a_metre(drone.category)
         self._heap: list[tuple[float, int, bool, Request]] = []
 
     @property
@@ -92,8 +92,10 @@ class Needs:
 
     def at_least(self, request: Request) -> float:
         """Return a lower bound of the level that a request needs: the straight way there and home."""
-        (x, y, _), (a, b, _), (c, d, _) = request.goal, self.place, self._drone.home
-        return self._reserve + self._a_metre * (hypot(x - a, y - b) + hypot(x - c, y - d))
+        (x, y, _), (a, b, z), (c, d, _) = request.goal, self.place, self._drone.home
+        upright = self._reach.upright(self._drone.category, request.trip) if z <= 0.0 else 0.0
+        level = upright + self._a_metre * (hypot(x - a, y - b) + hypot(x - c, y - d))
+        return max(0.0, level)  # where it leads may not be a number
 
     def up_to(self, level: float, most: int) -> list[Request]:
         """Return the requests that need no more than a level; of many, one more than `most`."""

@@ -157,7 +157,7 @@ class Queue:
             below, request = place, self._waiting[place]
             if isinstance(request.policy, Batch):
                 below = self._share_among(place, request.policy)
-            else:
+            elif any(map(request.able, self._ready)):
                 try:
                     choice = request.policy(request.trip, self._ready, request.able)
                 except HookFault as fault:
@@ -166,12 +166,11 @@ class Queue:
                     self._give(request, choice)
 
     def _places(self) -> Iterator[int]:
-        """Yield the places of requests in turn; after a few in vain, of those for which a ready drone suffices."""
-        place, tries = len(self._waiting), _TRIES
-        while place and tries:
+        """Yield the places of requests in turn; after one in vain, of those for which a ready drone suffices."""
+        place, ready = len(self._waiting), len(self._ready) + 1
+        while place and len(self._ready) < ready:
             place, ready = place - 1, len(self._ready)
             yield place
-            tries -= len(self._ready) == ready
         suited = set[Request]()
         for drone in self._ready if place else ():
             some = self._needs_of(drone).up_to(drone.battery_level, _MANY)
@@ -254,9 +253,11 @@ class Queue:
         """Make drones ready again that have charged, or that suffice for a new request."""
         fresh = [request for request in self._fresh if not request.is_set]
         for drone, (until, wanted, needs) in list(self._low.items()):
-            less = [one for one in fresh if needs.at_least(one) < wanted]
-            least = min((one.level(drone) for one in less), default=inf)
-            if until <= self._kernel.now or drone.battery_level >= least:
+            least = wanted
+            for request in fresh:
+                if needs.at_least(request) < least:
+                    least = min(least, request.level(drone))
+            if until <= self._kernel.now or (least < wanted and drone.battery_level >= least):
                 del self._low[drone]
             elif least < wanted:
                 self._low[drone] = min(until, self._charged(drone, least)), least, needs
@@ -275,8 +276,7 @@ class Queue:
         """Return when a drone has this level where it stands; infinite: it never will."""
         if level == inf or not docked(drone.location, drone.home):
             return inf
-        missing = level - drone.battery_level
-        return self._kernel.now + (missing * drone.category.charge_time + 0.001)
+        return self._kernel.now + (drone.charging(level) + 0.001)
 
     def _look_again_when_charged(self, soonest: float) -> None:
         if soonest == self._recheck_at:
@@ -288,5 +288,5 @@ class Queue:
             self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
 
 
-_TRIES, _MANY = 3, 30
-"""How many requests are looked at in vain before it is asked which to look at; so many are all looked at."""
+_MANY = 30
+"""For more requests than so many it is not worth while to find out for which a drone suffices."""

@@ -12,11 +12,11 @@ from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
-from ..domain.airspace import Airspace
 from ..domain.fields import FieldType
 from ..domain.text import mass, percent, place, quoted
 
 if TYPE_CHECKING:
+    from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
     from ..domain.model import Category, Item, Mission, Point, Trip
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 Stop = tuple["Point", float]
 """A point to fly to, and the seconds that the drone is busy there."""
 Stops = Sequence[Stop]
-
-CLIMB_SPEED = 0.3
-"""Metres a second, straight up and straight down."""
 
 DOCK_REACH = 0.2
 """How near its home a drone must land to be charged there, in metres."""
@@ -45,26 +42,23 @@ def flight_seconds(
     A start on the ground (z = 0) counts the take-off to cruise height; a last point on the ground
     counts the landing there, from the height flown before. Infinite where no route leads.
     """
-    seconds, here = actions, start
+    seconds, here, motion, speed = actions, start, category.motion, category.speed
     if points and start[2] <= 0:
         here = (start[0], start[1], airspace.cruise_height)
-        seconds += here[2] / CLIMB_SPEED
+        seconds += motion.rises(here[2], speed)
     for i, point in enumerate(points, 1):
         there = point
         if i == len(points) and point[2] <= 0:
             there = (point[0], point[1], here[2])
-            seconds += there[2] / CLIMB_SPEED
+            seconds += motion.lands(there[2], speed)
         way = airspace.route(here, there)
         if way is None:
             return inf
-        seconds += length(here, way) / category.speed
+        for place_ in way:
+            seconds += motion.flies(dist(here, place_), speed)
+            here = place_
         here = there
     return seconds
-
-
-def length(start: Point, way: Sequence[Point]) -> float:
-    """Return the metres of a way, from its start on."""
-    return sum(dist(a, b) for a, b in zip((start, *way), way, strict=False))
 
 
 def needed(
@@ -78,7 +72,7 @@ def needed(
     actions = sum(seconds for _, seconds in stops)
     ground = (home[0], home[1], 0.0)
     seconds = flight_seconds(category, airspace, start, [*points, ground], actions)
-    return None if seconds == inf else seconds / category.flight_time
+    return None if seconds == inf else seconds * category.motion.drain / category.flight_time
 
 
 class Lacks(IntEnum):
@@ -123,7 +117,7 @@ def miss_of(
     """Return what a drone of this category and home lacks for the chain; None: nothing."""
     if (miss := _unfit(category, chain)) is not None:
         return miss
-    stops = stops_of(app, airspace, chain)
+    stops = stops_of(app, category, airspace.cruise_height, chain)
     share = needed(category, airspace, home, stops, home)
     if share is None:
         return Miss(Lacks.WAY, 0.0, _no_way(category, airspace, home, stops))
@@ -149,7 +143,7 @@ def _unfit(category: Category, chain: Sequence[Trip]) -> Miss | None:
     return None
 
 
-def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> Stops:
+def stops_of(app: App, category: Category, cruise: float, chain: Sequence[Trip]) -> Stops:
     """Return the stops of a chain, with the seconds that the drone is busy at each.
 
     Between two trips of a chain it lands with its item, and takes off again.
@@ -160,7 +154,8 @@ def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> Stops:
             stops.append((trip.source, 0.0))
         busy = app.actions[trip.action].seconds
         if place_ < len(chain):
-            busy += (trip.target[2] + airspace.cruise_height) / CLIMB_SPEED
+            motion, speed = category.motion, category.speed
+            busy += motion.lands(trip.target[2], speed) + motion.rises(cruise, speed)
         stops.append((trip.target, busy))
     return stops
 
@@ -243,17 +238,26 @@ class Reach:
             for action in app.actions
         }
         self._unknown = dict.fromkeys(app.categories, inf)
-        self.a_metre = {category: _a_metre(category) for category in app.categories}
-        """The share of a battery that a metre takes at least, for each category."""
+        self._upright: dict[tuple[Category, str, float], float] = {}
 
     def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
         """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
         if _unfit(category, chain):
             return inf
-        share = needed(
-            category, self.airspace, here, stops_of(self.app, self.airspace, chain), home
-        )
+        stops = stops_of(self.app, category, self.airspace.cruise_height, chain)
+        share = needed(category, self.airspace, here, stops, home)
         return inf if share is None else share + category.reserve
+
+    def upright(self, category: Category, trip: Trip) -> float:
+        """Return what a trip needs beside the way, from the ground: a lower bound."""
+        key = category, trip.action, trip.target[2]
+        if key not in self._upright:
+            motion, height = category.motion, min(trip.target[2], self.airspace.cruise_height)
+            seconds = motion.rises(height, category.speed) + motion.lands(height, category.speed)
+            seconds += self.app.actions[trip.action].seconds
+            share = seconds * motion.drain / category.flight_time
+            self._upright[key] = category.reserve + share * _LESS
+        return self._upright[key]
 
     def levels(self, trip: Trip) -> Mapping[Category, float]:
         """Return for each category a battery level that surely suffices for the trip.
@@ -269,16 +273,20 @@ class Reach:
         space = self.airspace
         if space.no_fly or not category.can(action):
             return inf
-        across = hypot(*space.size, space.ceiling)
-        up_and_down = (space.cruise_height + space.ceiling) / CLIMB_SPEED
+        motion, speed = category.motion, category.speed
         # to the source, to the target, and home
-        seconds = 3 * across / category.speed + up_and_down + self.app.actions[action].seconds
-        return seconds / category.flight_time + category.reserve
+        seconds = 3 * motion.flies(hypot(*space.size, space.ceiling), speed)
+        seconds += motion.rises(space.cruise_height, speed) + motion.lands(space.ceiling, speed)
+        seconds += self.app.actions[action].seconds
+        return seconds * motion.drain / category.flight_time + category.reserve
 
 
-def _a_metre(category: Category) -> float:
+def a_metre(category: Category) -> float:
     """Return the share that a metre of a long straight leg takes: on a short one it is no less."""
     far = 1e6
-    space = Airspace(size=(far, far))
-    seconds = flight_seconds(category, space, (0.0, 0.0, 1.0), [(far, 0.0, 1.0)], 0.0)
-    return seconds / far / category.flight_time * (1 - 1e-9)
+    seconds = category.motion.flies(far, category.speed)
+    return seconds * category.motion.drain / category.flight_time / far * _LESS
+
+
+_LESS = 1 - 1e-9
+"""Sums of floats are not exact, and a bound must be one."""
