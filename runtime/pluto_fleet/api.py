@@ -13,7 +13,7 @@ from typing import Any
 
 from .app import App, described
 from .cli.preflight import check_real
-from .files.fleet import FleetFile, as_flown, default_fleet, load_fleet
+from .files.fleet import FleetFile, default_fleet, load_fleet
 from .files.fleet_text import fleet_text
 from .files.missions import load_missions
 from .files.missions_text import missions_text
@@ -30,6 +30,7 @@ from .seam import checked, is_older
 from .shared.alone.faults import Faults
 from .shared.alone.simulate import SimulationResult
 from .shared.domain.airspace import Airspace
+from .shared.domain.app import moving
 from .shared.domain.errors import BadInput
 from .shared.domain.model import Item, Mission, Point, Trip
 from .shared.domain.status import Status, TripStatus
@@ -122,7 +123,7 @@ async def fly(
     called with each event once that is durable; `stops.stop(…)` brings all drones down.
     """
     on = fleet or default_fleet(app)
-    flown = as_flown(app, on) if real else app
+    flown = moving(app, on.motion)
     _refuse(flown, missions, on, [])
     if real:
         check_real(flown, on, "the fleet", stand_ins=False)

@@ -21,6 +21,7 @@ from .shared.domain.actions import Action, Parameter
 from .shared.domain.errors import BadInput
 from .shared.domain.fields import Entity, Field, FieldType
 from .shared.domain.model import Category, Mission, Trip
+from .shared.domain.motion import PEAK
 from .shared.domain.quantities import Type
 
 if TYPE_CHECKING:
@@ -50,10 +51,9 @@ class App(shared.App):
         self, fleet: Mapping[str, Any], *, space: Airspace, hooks: HookRunner | None = None
     ) -> Brain:
         """Return a brain of this app, for drones that are as fast as these categories say."""
-        speeds = {one.name: [one.speed, one.top_speed] for one in self.categories}
-        made: Brain = self.brain.Brain(
-            self.given, {**fleet, "speeds": speeds}, space=space, hooks=hooks
-        )
+        speeds = {one.name: _mean_and_top(one) for one in self.categories}
+        told = {**fleet, "speeds": speeds}  # seam 3.0 knows no motion but the mean speed
+        made: Brain = self.brain.Brain(self.given, told, space=space, hooks=hooks)
         return made
 
     def perform(self, brain: Any, request: Mapping[str, Any], now: float) -> str:
@@ -129,7 +129,14 @@ def _field(data: Mapping[str, Any]) -> Field:
 
 def _category(data: Mapping[str, Any]) -> Category:
     able = data["actions"]
-    return Category(**{**data, "actions": None if able is None else frozenset(able)})
+    known = {key: value for key, value in data.items() if key not in ("motion", "top_speed")}
+    return Category(**{**known, "actions": None if able is None else frozenset(able)})
+
+
+def _mean_and_top(category: Category) -> list[float | None]:
+    if not category.motion.smooth:
+        return [category.speed, None]
+    return [category.speed / PEAK, category.speed]
 
 
 def _action(data: Mapping[str, Any], hook: Callable[..., Any] | None) -> Action:

@@ -13,7 +13,7 @@ from .shared.domain.errors import BadInput
 
 Seam = tuple[int, int]
 
-OLDEST, NEWEST = (2, 0), (3, 0)
+OLDEST, NEWEST = (2, 0), (3, 1)
 """The range of seams that this library supports."""
 
 

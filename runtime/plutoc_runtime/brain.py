@@ -8,13 +8,13 @@ mappings, except for the app, the space and the hooks. Seconds since the app's s
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from .domain.app import SEAM, about
+from .domain.app import SEAM, about, moving
 from .domain.errors import BadInput
 from .domain.guard import put_guard
 from .domain.model import AfterTrip, Drone, ResultStore
+from .domain.motion import Motion
 from .domain.status import DroneStatus
 from .domain.trace import Trace
 from .fleet.fleet import Fleet
@@ -62,13 +62,12 @@ class Brain:
     ) -> None:
         """`fleet` has the `drones` (`id`, `category`, `home`), and perhaps `after_trip`, `max_airborne`.
 
-        `speeds` are those of categories that fly at others than the app says: the mean, and the top one;
-        `midnight` is how many seconds after midnight the app has started.
+        `motion` is how they move; `midnight` is how many seconds after midnight the app has started.
         With `recorded` in it, the events say all from which a later brain can go on; no drone is free
         before `go_on` has said how it is, and the brain must be told what is `durable`. With `silent`
         nothing is kept for `events`. Without `hooks` they are called at once.
         """
-        app = _as_fast(app, fleet.get("speeds", {}))
+        app = moving(app, Motion(**fleet.get("motion", {})))
         self._app, recorded = app, fleet.get("recorded", False)
         self._kernel = kernel = ToldTime(hooks, fleet.get("midnight", 0.0))
         self._events: list[Event] = []
@@ -77,7 +76,9 @@ class Brain:
         self._recording = Recording(app, self._states, results, self._events)
         hear = self._recording.hear if recorded else self._events.append
         trace = Trace(kernel, () if fleet.get("silent") else (hear,))
-        self._orders = orders = Orders(kernel, {one["id"]: _home(one) for one in fleet["drones"]})
+        self._orders = orders = Orders(
+            kernel, {one["id"]: _home(one) for one in fleet["drones"]}, app.categories[0].motion
+        )
         drones = _drones(app, fleet, orders, DroneStatus.OFFLINE if recorded else DroneStatus.FREE)
         queue = Queue(kernel, Reach(app, space), drones, fleet.get("max_airborne"))
         after_trip = AfterTrip(fleet.get("after_trip", "home"))
@@ -262,15 +263,6 @@ def _drones(
         )
         for index, one in enumerate(fleet["drones"])
     )
-
-
-def _as_fast(app: App, speeds: Mapping[str, Any]) -> App:
-    """Return the app with its categories as fast as their drones fly."""
-    kinds = {one.name: one for one in app.categories}
-    for name in kinds.keys() & speeds.keys():
-        speed, top_speed = speeds[name]
-        kinds[name] = replace(kinds[name], speed=speed, top_speed=top_speed)
-    return replace(app, categories=tuple(kinds.values())) if speeds else app
 
 
 def _nothing(_: object) -> None:

@@ -31,7 +31,7 @@ _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]", "-
 _EXTRAS |= dict.fromkeys(("fly", "resume", "journal", "tell", "decide", "gateway", "crtp"), "")
 """What needs the library, and with which of its extras."""
 _WORDS = [*_EXTRAS, "check", "simulate", "--version"]
-_WORDS += ["--fleet", "--seed", "--fail", "--until", "--trace", "--json"]
+_WORDS += ["--fleet", "--seed", "--no-spread", "--fail", "--until", "--trace", "--json"]
 _WORLD = "each drone alone in the air"
 
 
@@ -120,9 +120,12 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
 
 
 def _checked(app: App, options: Any) -> int:
+    from dataclasses import replace
+
     from .alone.faults import Faults
     from .alone.files import load_fleet, load_missions
     from .alone.simulate import default_fleet, simulate
+    from .domain.app import moving
     from .fleet.reach import idle_actions, problems
 
     beside = options.missions.parent / "fleet.toml"
@@ -130,6 +133,9 @@ def _checked(app: App, options: Any) -> int:
         options.fleet = beside
         _tell(f"fleet: {printable(str(beside))}, beside the missions; or name one: --fleet")
     fleet = load_fleet(options.fleet, app) if options.fleet else default_fleet(app)
+    if options.no_spread:
+        fleet = replace(fleet, motion=fleet.motion.exact)
+    app = moving(app, fleet.motion)
     missions = load_missions(options.missions, app, fleet.airspace)
     forever = options.command == "check" or options.until is not None
     if found := problems(app, missions, fleet, forever=forever):
@@ -193,12 +199,14 @@ def _parser(app: App) -> ArgumentParser:
     new = partial(commands.add_parser, allow_abbrev=False)
     check = new("check", help="say whether the fleet can fly the missions")
     simulate = new("simulate", help=f"fly the missions in virtual time, {_WORLD}")
+    check.set_defaults(no_spread=True)
     check.add_argument("missions", metavar="M.toml", type=Path, nargs="?", default="missions.toml")
     simulate.add_argument("missions", metavar="M.toml", type=Path)
     for one in (check, simulate):
         one.add_argument("--fleet", metavar="F.toml", type=Path, help="the map and the drones")
     add = simulate.add_argument
     add("--seed", metavar="N", type=int, default=0, help="what chance depends on (default 0)")
+    add("--no-spread", action="store_true", help="let all take exactly as long as expected")
     add("--fail", metavar="WHAT=SHARE,…", type=typed(shares), default={}, help="such as crash=2%%")
     add("--until", metavar="TIME", type=typed(time_from), help='stop then, such as "2 h"')
     add("--trace", metavar="FILE", type=Path, help="write every event there, as a JSON object")

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.crazyflie import driver, messages, trajectory
 from pluto_fleet.crazyflie.driver import cache_folder
-from pluto_fleet.crazyflie.health import AlarmDetector, BatteryGauge, level_at_rest
+from pluto_fleet.crazyflie.health import AlarmDetector, BatteryGauge
 from pluto_fleet.crazyflie.options import LOST_BEYOND, SURE_WITHIN, options_of
 from pluto_fleet.crazyflie.state import PositionConfidence, State, state_of
 from pluto_fleet.crazyflie.trajectory import SpeedLimits
@@ -25,6 +25,7 @@ from pluto_fleet.crtp.body import AxisState as Start
 from pluto_fleet.crtp.body import Body, profile
 from pluto_fleet.drones.errors import LinkLost
 from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
+from pluto_fleet.lithium import level_at
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Point
 
@@ -203,7 +204,7 @@ def test_a_course_is_followed_on_each_axis() -> None:
 
 @given(volts=st.floats(2.5, 4.5), more=st.floats(0.0, 1.0))
 def test_a_battery_with_more_volts_is_fuller(volts: float, more: float) -> None:
-    assert 0.0 <= level_at_rest(volts) <= level_at_rest(volts + more) <= 1.0
+    assert 0.0 <= level_at(volts) <= level_at(volts + more) <= 1.0
 
 
 def test_volts_in_the_air_are_corrected_by_what_flying_costs() -> None:
@@ -214,13 +215,13 @@ def test_volts_in_the_air_are_corrected_by_what_flying_costs() -> None:
         battery.hear(state(tick / 10, volts=3.55, bits=FLYING))
         assert isclose(battery.level, resting, abs_tol=0.02)
     battery.hear(state(10.0, volts=3.9))
-    assert battery.level == level_at_rest(3.9)
+    assert battery.level == level_at(3.9)
 
 
 def test_a_drone_that_is_met_in_the_air_loses_what_is_usual() -> None:
     battery = BatteryGauge()
     battery.hear(state(0.0, volts=3.5, bits=FLYING))
-    assert battery.level == level_at_rest(3.8)
+    assert battery.level == level_at(3.8)
 
 
 def test_a_battery_without_volts_says_nothing() -> None:

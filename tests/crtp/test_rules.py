@@ -6,9 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from pluto_fleet.crtp.battery import CHARGE
 from pluto_fleet.crtp.faults import let
 from pluto_fleet.crtp.packets import NULL, LossyChannel, Port
 from pluto_fleet.crtp.server import collide
+from pluto_fleet.lithium import volts_at
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, charged
 from tests.crtp.bench import CF1, Bench, hovering
 
 ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED, ACTIVE, DONE = 1, 3, 4, 5, 6, 7, 8, 9
@@ -258,7 +261,7 @@ def test_a_battery_of_3_volts_switches_it_off_only_where_its_build_does_that(
 
 def test_a_battery_of_two_cells_has_twice_the_volts_and_is_low_at_twice_as_many() -> None:
     bench = Bench(replace(CF1, cells=2))
-    assert bench.drone.battery.volts == pytest.approx(8.4)
+    assert bench.drone.battery.volts == pytest.approx(2 * volts_at(1.0))
     bench.up()
     let(bench.drone, _air(), "volts", 6.5)
     bench.passes(6.0)
@@ -299,7 +302,7 @@ def test_a_firmware_speaks_the_protocol_of_its_release(protocol: int, release: b
 def test_a_pad_charges_what_stands_on_it() -> None:
     bench = Bench(replace(CF1, level=0.5))
     bench.passes(60.0)
-    assert bench.drone.battery.level == pytest.approx(0.55)
+    assert bench.drone.battery.level == pytest.approx(charged(0.5, 60.0, CHARGE, CRAZYFLIE.taper))
     assert bench.drone.battery.state == 1
 
 

@@ -90,7 +90,7 @@ def test_cflib_connects_logs_sets_and_commands(reach: Any, tmp_path: Path) -> No
         try:
             assert client.cf.platform.get_protocol_version() == 12
             told = client.log("stateEstimate.x", "stateEstimate.y", "pm.vbat", "supervisor.info")
-            assert told["stateEstimate.x"] == 3.0 and told["pm.vbat"] == pytest.approx(4.2)
+            assert told["stateEstimate.x"] == 3.0 and told["pm.vbat"] == pytest.approx(4.18)
             set_back = Event()
             client.cf.param.add_update_callback("gripper", "closed", lambda *_: set_back.set())
             client.cf.param.set_value("gripper.closed", 1)

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from ..drones.protocol import Acts
-from ..drones.real_fleet import SLACK, RequiredAction, real_fleet
+from ..drones.real_fleet import RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
 from ..files.toml import toml_value
 from ..flight.simulate import simulate
@@ -25,8 +25,8 @@ from ..report.sentences import line_of
 from ..shared import output
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
+from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import counted, number
-from ..shared.fleet.reach import CLIMB_SPEED
 from .plans import load
 from .preflight import OR_SIMULATED, check_real, made
 
@@ -55,9 +55,9 @@ def dry_run(app: App, options: Options) -> int:
     _refuse_what_does_not_go_together(options)
     plan = load(app, options)
     given: list[CommandLog] = []
-    top = {one.name: one.top_speed or one.speed for one in plan.app.categories}
+    top = {one.name: one.speed for one in plan.app.categories}
     speeds = {drone.id: top[drone.category] for drone in plan.fleet.drones}
-    climb = CLIMB_SPEED if options.sim else CLIMB_LIMIT
+    climb = CLIMB_LIMIT if plan.fleet.motion.smooth else CLIMB_SPEED
 
     def around(kernel: Kernel, drones: Controls) -> CommandLog:
         given.append(CommandLog(kernel, drones, speeds, climb))
@@ -72,7 +72,6 @@ def dry_run(app: App, options: Options) -> int:
         until=options.until,
         on_event=None,
         around=around,
-        slack=0.0 if options.sim else SLACK,
     )
     for line in _lines(plan, outcome, given[0].commands):
         output.line(line)

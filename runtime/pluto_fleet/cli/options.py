@@ -28,6 +28,7 @@ class Options:
     missions: Path = field(default_factory=Path)
     fleet: Path | None = None
     seed: int = 0
+    no_spread: bool = False
     runs: int | None = None
     until: float | None = None
     fail: dict[str, float] = field(default_factory=dict)
@@ -207,6 +208,11 @@ def _chance(parser: ArgumentParser, only: str = "") -> None:
 
 def _simulation(parser: ArgumentParser) -> None:
     _chance(parser)
+    parser.add_argument(
+        "--no-spread",
+        action="store_true",
+        help="let every leg and action take exactly as long as expected, as --dry-run does",
+    )
     parser.add_argument(
         "--runs",
         metavar="N",

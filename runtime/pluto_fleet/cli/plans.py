@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..files.crtp_fleet import fleet_from, missing_categories
-from ..files.fleet import FleetFile, as_flown, fleet_of, too_fast
+from ..files.fleet import FleetFile, fleet_of, too_fast
 from ..files.missions import missions_of
 from ..files.plan_check import endless, look_alikes, problems
 from ..files.reading import parsed, shortened, text_of
 from ..shared import output
+from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, printable
 from ..shared.fleet.reach import idle_actions
@@ -28,7 +29,7 @@ class LoadedPlan:
     """What is to be flown, with which fleet."""
 
     app: App
-    """With its categories' speeds adapted to the fleet's drones."""
+    """Its drones move as the fleet's."""
     missions: list[Mission[Any]]
     fleet: FleetFile
     missions_text: str = ""
@@ -40,8 +41,9 @@ class LoadedPlan:
 def load(app: App, options: Options) -> LoadedPlan:
     """Return the plan of a command's files; raise `BadInput` if it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
-    if options.is_real:
-        app = as_flown(app, fleet)
+    if options.no_spread or options.dry_run:
+        fleet = replace(fleet, motion=fleet.motion.exact)
+    app = moving(app, fleet.motion)
     missions_text = text_of(options.missions)
     missions = missions_of(parsed(str(options.missions), missions_text), app, fleet.airspace)
     found = problems(missions, app, fleet, fleet.airspace)

@@ -10,7 +10,7 @@ from ..crazyflie.driver import require
 from ..drones import plugins
 from ..drones.loading import hears, load_localization, load_navigation
 from ..drones.real_fleet import real_fleet
-from ..drones.team import make_one, top_speed
+from ..drones.team import make_one
 from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real
 from ..files.reading import shortened
 from ..shared.domain.errors import BadInput
@@ -64,4 +64,4 @@ def made(app: App, fleet: FleetFile, drone: DroneEntry, folder: Path) -> DroneNa
     """Create a drone's navigation, not connected; raise `BadInput` if its options are wrong."""
     (category,) = (one for one in app.categories if one.name == drone.category)
     (how,) = (one for one in real_fleet(fleet, ()).drones if one.id == drone.id)
-    return make_one(how, drone.home, top_speed(category), folder)
+    return make_one(how, drone.home, category.speed, folder)

@@ -11,7 +11,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..files.fleet import as_flown
 from ..files.reading import text_of
 from ..flight.mission_status import finished, records_in
 from ..jobs.reports import Down
@@ -20,6 +19,7 @@ from ..process import respawn as again
 from ..process.forked import not_for_children
 from ..process.text import in_shell
 from ..shared import output
+from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..station.config import StationConfig
 from ..station.plan.plan import MissionPlan
@@ -52,11 +52,11 @@ def serve(app: App, options: Options) -> int:
     options.refuse_what_is_simulated()
     serve_web = _web_server(app.name)  # before anything is written or flown
     config = _config(app, options)
+    app = moving(app, config.fleet.motion)
     if options.is_real:
         where = str(options.fleet or app.name)
         sim = options.crtp_sim is not None
         check_real(app, config.fleet, where, stand_ins=sim, instead=OR_SIMULATED)
-        app = as_flown(app, config.fleet)
     _make_room(config)
     if options.supervise:
         return _supervised(app, options, config)

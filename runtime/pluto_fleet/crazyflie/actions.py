@@ -17,7 +17,7 @@ from struct import Struct
 from typing import TYPE_CHECKING
 
 from ..drones.errors import ActionNotDone, PositionLost, Rejected
-from ..shared.domain.actions import PICK, RELEASE
+from ..shared.domain.actions import MEASURE, PHOTO, PICK, RELEASE
 from ..shared.domain.model import Photo
 from ..shared.domain.text import quoted
 from . import logs, messages, parameters
@@ -94,7 +94,6 @@ async def _part(reader: asyncio.StreamReader) -> bytes:
     return await reader.readexactly(max(0, length - _WAY))
 
 
-MEASURE, PHOTO = "measure", "take_photo"
 _DOUBTS = 2.0
 """Seconds after which a drone that is still unsure of its position has lost it."""
 

@@ -7,12 +7,12 @@ each take-off, as batteries age.
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterator
 from statistics import fmean
 from typing import TYPE_CHECKING
 
 from ..drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST, DroneEvent
+from ..lithium import SAG, level_at
 from . import messages
 from .state import LOW_POWER
 
@@ -20,12 +20,8 @@ if TYPE_CHECKING:
     from .state import State
 
 
-# One lithium cell at rest.
-_VOLTS = (3.27, 3.61, 3.69, 3.73, 3.77, 3.80, 3.84, 3.87, 3.95, 4.02, 4.11, 4.18)
-_LEVELS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
-
-_USUAL, _LEAST, _MOST = 0.3, 0.05, 0.6
-"""The voltage drop of hovering: the default until it is measured, and its bounds."""
+_LEAST, _MOST = 0.05, 0.6
+"""The bounds of the voltage drop of hovering, which is the usual one until it is measured."""
 _SETTLED, _MEASURED = 1.0, 3.0
 """Seconds after take-off, between which the drop is measured."""
 _SMOOTH = 1.0
@@ -38,17 +34,6 @@ _LAST = 0.02
 """The level at that voltage."""
 
 
-def level_at_rest(volts: float) -> float:
-    """Return the charge, from 0 to 1."""
-    at = bisect_right(_VOLTS, volts)
-    if at == 0:
-        return 0.0
-    if at == len(_VOLTS):
-        return 1.0
-    share = (volts - _VOLTS[at - 1]) / (_VOLTS[at] - _VOLTS[at - 1])
-    return _LEVELS[at - 1] + share * (_LEVELS[at] - _LEVELS[at - 1])
-
-
 class BatteryGauge:
     """The charge of one drone's battery."""
 
@@ -59,7 +44,7 @@ class BatteryGauge:
         """From 0 to 1."""
         self.rest: float | None = None
         """The last voltage of a cell without load; None: not measured yet."""
-        self._sag, self._sags = _USUAL, list[float]()
+        self._sag, self._sags = SAG, list[float]()
         self._smooth: float | None = None
         self._time = self._since = 0.0
         self._flew = False
@@ -76,7 +61,7 @@ class BatteryGauge:
         passed, self._time = state.time - self._time, state.time
         if not state.flies:
             self.rest, self._flew, self._smooth = volts, False, None
-            self.level = level_at_rest(volts)
+            self.level = level_at(volts)
             return
         if not self._flew:
             self._flew, self._since, self._sags = True, state.time, []
@@ -86,7 +71,7 @@ class BatteryGauge:
         self._smooth += (volts - self._smooth) * share
         self._measure(state, volts)
         if self.rest is None or state.time - self._since > _MEASURED:
-            self.level = level_at_rest(self._smooth + self._sag)
+            self.level = level_at(self._smooth + self._sag)
         if state.power == LOW_POWER or self._smooth < LOW:
             self.level = min(self.level, _LAST)  # whatever the gauge says
 

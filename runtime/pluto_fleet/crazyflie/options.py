@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from math import sqrt
 from sys import float_info
 
+from ..shared.domain.actions import BUILT_IN, PICK
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import number, quoted
 
@@ -18,7 +19,7 @@ class Gripper:
     parameter: str
     pick: float
     release: float
-    seconds: float = 1.0
+    seconds: float = BUILT_IN[PICK].seconds
     """How long it takes to close or to open."""
 
 
@@ -173,7 +174,9 @@ class _OptionReader:
             case {"parameter": str(name), "pick": pick, "release": release, **rest} if _is_name(
                 name
             ) and rest.keys() <= {"seconds"}:
-                match _number(pick), _number(release), _number(rest.get("seconds", 1.0)):
+                match _number(pick), _number(release), _number(
+                    rest.get("seconds", BUILT_IN[PICK].seconds)
+                ):
                     case (float(on), float(off), float(seconds)) if seconds >= 0.0:
                         return Gripper(parameter=name, pick=on, release=off, seconds=seconds)
         wanted = 'a table, such as { parameter = "gripper.closed", pick = 1, release = 0 }'

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from math import dist, inf, sqrt
 from typing import TYPE_CHECKING
 
-from ..shared.fleet.reach import CLIMB_SPEED
+from ..shared.domain.motion import CLIMB_SPEED, MOST, PEAK, PUSH, SHORTEST, SINKS
 from . import messages, parameters
 
 if TYPE_CHECKING:
@@ -23,12 +23,6 @@ if TYPE_CHECKING:
     from .state import State
 
 
-PEAK = 2.19
-"""Peak speed over mean speed."""
-_PUSH, _MOST = 7.52, 4.0
-"""Peak acceleration over distance and squared time; and its limit in metres per second squared."""
-SHORTEST = 1.0
-"""The shortest duration in seconds: three metres in half a second have flipped a drone."""
 NEAR = 0.08
 """Metres from its target within which it has arrived: it sways, and must stay within ten centimetres."""
 SLACK = 8.0
@@ -55,7 +49,7 @@ _LOWEST = 0.2
 
 def shortest_duration(metres: float, speed: float) -> float:
     """Return how long a trajectory must take for its peak speed to stay below this."""
-    return max(SHORTEST, PEAK * metres / speed, sqrt(_PUSH * metres / _MOST))
+    return max(SHORTEST, PEAK * metres / speed, sqrt(PUSH * metres / MOST))
 
 
 def hovers(states: Sequence[State], off: Callable[[State], float]) -> bool:
@@ -84,7 +78,7 @@ def braking(before: State | None, state: State) -> tuple[Point, float]:
     if before is not None and _SOON <= passed <= _RECENT:
         speed = state.distance(before.position) / passed
         if speed <= _FASTEST:
-            seconds = max(SHORTEST, _BRAKE * speed / _MOST)
+            seconds = max(SHORTEST, _BRAKE * speed / MOST)
             share = min(_AHEAD * seconds, _FARTHEST / speed if speed else 0.0) / passed
             x, y, z = (
                 now + (now - then) * share
@@ -99,8 +93,6 @@ DEFAULT_LIMIT = 1.0
 """The firmware's default speed limit in metres per second, until its parameters are known."""
 _CLIMB = 2 * CLIMB_SPEED
 """The largest vertical speed of an app, in metres per second."""
-_SINKS = 0.5
-"""The share of its upward limit up to which it follows a landing closely enough to touch down."""
 _ROUNDING = 1e-3
 
 
@@ -119,9 +111,7 @@ class SpeedLimits:
 
     def seconds_down(self, height: float, speed: float) -> float:
         """Return the duration of a landing: its motors stop at its end, wherever it is then."""
-        return self.seconds(
-            (0.0, 0.0, height), (0.0, 0.0, 0.0), min(speed, _SINKS * self.limits[2])
-        )
+        return self.seconds((0.0, 0.0, height), (0.0, 0.0, 0.0), min(speed, SINKS * self.limits[2]))
 
     def too_slow_for(self, speed: float) -> Iterator[str]:
         """Yield why a drone cannot follow its maximum speed."""

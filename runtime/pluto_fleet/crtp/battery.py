@@ -2,34 +2,18 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from dataclasses import dataclass
-from itertools import pairwise
+
+from ..lithium import SAG, level_at, volts_at
+from ..shared.domain.motion import CRAZYFLIE, charged
 
 LOW, EMPTY = 3.2, 3.0
 """Volts of a cell under load: below the first it is said to be low; below the second it switches
 itself off, if its build does that at all."""
 _LONG = 5.0
 """Seconds for which a low voltage must last."""
-_SAG = 0.3
-"""The voltage drop of hovering."""
 FLIGHT, CHARGE = 420.0, 1200.0
 """Seconds from full to empty in the air, and from empty to full on the pad."""
-
-_REST = (
-    (0.0, 3.27),
-    (0.05, 3.50),
-    (0.10, 3.68),
-    (0.20, 3.74),
-    (0.30, 3.77),
-    (0.40, 3.79),
-    (0.50, 3.82),
-    (0.60, 3.87),
-    (0.70, 3.92),
-    (0.80, 3.98),
-    (0.90, 4.06),
-    (1.00, 4.20),
-)
 
 ON_BATTERY, CHARGING, CHARGED, LOW_POWER = 0, 1, 2, 3
 
@@ -41,6 +25,8 @@ class SimulatedBattery:
     level: float = 1.0
     flight: float = FLIGHT
     """Seconds from full to empty in the air."""
+    charge: float = CHARGE
+    """Seconds from empty to full on the pad."""
     cells: int = 1
     shuts_down: bool = False
     """Whether its build switches it off before it is empty."""
@@ -58,7 +44,7 @@ class SimulatedBattery:
     @property
     def _cell(self) -> float:
         """Volts of each cell."""
-        return _rest(self.level) - (_SAG if self.loaded else 0.0)
+        return volts_at(self.level) - (SAG if self.loaded else 0.0)
 
     @property
     def state(self) -> int:
@@ -71,7 +57,7 @@ class SimulatedBattery:
 
     def set_volts(self, volts: float) -> None:
         """Set the charge so that this voltage is measured now."""
-        self.level = _level(volts / self.cells + (_SAG if self.loaded else 0.0))
+        self.level = level_at(volts / self.cells + (SAG if self.loaded else 0.0))
 
     def step(self, seconds: float, *, loaded: bool, charging: bool) -> bool:
         """Advance the time; return whether it has switched off: by its build, or because it is empty."""
@@ -79,27 +65,10 @@ class SimulatedBattery:
         if loaded:
             self.level = max(0.0, self.level - seconds / self.flight)
         elif charging:
-            self.level = min(1.0, self.level + seconds / CHARGE)
+            self.level = charged(self.level, seconds, self.charge, CRAZYFLIE.taper)
         volts = self._cell
         self._below_low = self._below_low + seconds if volts < LOW else 0.0
         self._below_empty = self._below_empty + seconds if volts < EMPTY else 0.0
         self.low = self._below_low > _LONG
         used_up = loaded and self.level <= 0.0
         return used_up or (self.shuts_down and self._below_empty > _LONG)
-
-
-def _rest(level: float) -> float:
-    """Return the volts at rest."""
-    at = bisect_right(_REST, (level, 9.0))
-    if at == len(_REST):
-        return _REST[-1][1]
-    (low, bottom), (high, top) = _REST[at - 1], _REST[at]
-    return bottom + (top - bottom) * (level - low) / (high - low)
-
-
-def _level(volts: float) -> float:
-    """Return how full it is at these volts at rest."""
-    for (low, bottom), (high, top) in pairwise(_REST):
-        if volts <= top:
-            return max(0.0, low + (high - low) * (volts - bottom) / (top - bottom))
-    return 1.0

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random
 
-from .battery import FLIGHT, SimulatedBattery
+from .battery import CHARGE, FLIGHT, SimulatedBattery
 from .body import Body
 from .commander import META, RELEASE, command, target_of
 from .estimator import NOISE, RATE, Estimator
@@ -50,6 +50,8 @@ class Build:
     """Its initial charge."""
     flight: float = FLIGHT
     """Seconds that a full battery lasts in the air."""
+    charge: float = CHARGE
+    """Seconds from an empty battery to a full one on the pad."""
     cells: int = 1
     """How many its battery has: a Bolt or a Flapper has two."""
     shuts_down: bool = False
@@ -79,6 +81,7 @@ class SimulatedCrazyflie:
         self.battery = SimulatedBattery(
             level=build.level,
             flight=build.flight,
+            charge=build.charge,
             cells=build.cells,
             shuts_down=build.shuts_down,
         )

@@ -7,6 +7,7 @@ import struct
 from collections.abc import Mapping
 from contextlib import suppress
 
+from ..shared.domain.actions import BUILT_IN, PHOTO, PICK
 from .drone import Build, SimulatedCrazyflie
 from .flight_log import MemoryLog
 from .params import parameters
@@ -17,6 +18,8 @@ _MAGIC, _RAW = 0xBC, 0
 _CHUNK = 1000
 _PAUSE = 0.1
 """Seconds between two pictures."""
+_FIRST = BUILT_IN[PHOTO].seconds
+"""Seconds until a client gets its first picture."""
 _ROUTE, _FUNCTION = 0x0C, 0x05
 
 
@@ -43,6 +46,7 @@ async def camera(port: int = 0) -> asyncio.Server:
 
 async def _stream(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
     number = 0
+    await asyncio.sleep(_FIRST)
     with suppress(OSError):
         while not reader.at_eof():
             writer.write(frames(number))
@@ -64,7 +68,7 @@ def port_of(server: asyncio.Server) -> int:
 _SENSORS = {"temperature": "bme.temp", "humidity": "bme.humidity", "pressure": "baro.pressure"}
 _ANY = {"*": "sim.measured"}
 """The log variable for every other quantity."""
-_GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.5}
+_GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": BUILT_IN[PICK].seconds}
 
 
 def fitted(given: Mapping[str, object], camera: str) -> dict[str, object]:

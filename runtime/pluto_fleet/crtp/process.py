@@ -23,6 +23,7 @@ from ..process import locks, respawn
 from ..process.forked import deaf, in_children, not_for_children
 from ..process.ipc import NotRunning, answering, ask, listening
 from ..shared.domain.errors import BadInput
+from .battery import CHARGE, FLIGHT
 from .drone import Build, SimulatedCrazyflie
 from .equipment import camera, port_of
 from .flight_log import FileLog, Point
@@ -40,6 +41,10 @@ _PATIENCE = 10.0
 """The time-out of a start or an answer, in seconds."""
 _LOOK = 1.0
 
+Battery = tuple[float, float]
+"""The seconds from full to empty in the air, and from empty to full on the pad."""
+USUAL: Battery = FLIGHT, CHARGE
+
 _STARTED: dict[Path, subprocess.Popen[bytes]] = {}
 """The processes started by this one, by folder; reaped by `end`."""
 
@@ -47,11 +52,14 @@ _FOR_APPS = "crtp: an app starts this by itself when it flies; there is nothing 
 
 
 def start(
-    folder: Path, homes: Mapping[str, Point], command: Sequence[str] | None = None
+    folder: Path,
+    homes: Mapping[str, Point],
+    command: Sequence[str] | None = None,
+    batteries: Mapping[str, Battery] | None = None,
 ) -> dict[str, str]:
     """Start the simulated drones of a folder, unless they run; return their URIs.
 
-    Raises `BadInput` if they cannot be started. `command` starts them, with the folder appended;
+    `batteries`: those that last and charge otherwise than usually. Raises `BadInput` if they cannot be started. `command` starts them, with the folder appended;
     default: the library's own program.
     """
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -61,7 +69,10 @@ def start(
             return uris
         end(folder)  # it has other drones
     kept = _kept(folder)
-    drones = {id: {**kept.get(id, {}), "home": home} for id, home in homes.items()}
+    drones = {
+        id: {**kept.get(id, {}), "home": home, "battery": (batteries or {}).get(id, USUAL)}
+        for id, home in homes.items()
+    }
     _write(folder, drones)
     words = [*(command or respawn.library(COMMAND)), str(folder)]
     process = respawn.start(words, folder / LOG)
@@ -185,7 +196,15 @@ class _Desk:
 
 def _build(id: str, number: int, data: Mapping[str, Any]) -> Build:
     x, y, *_ = data["home"]
-    return Build(id=id, home=(x, y, 0.0), seed=number, level=data.get("level", 1.0))
+    flight, charge = data.get("battery", USUAL)
+    return Build(
+        id=id,
+        home=(x, y, 0.0),
+        seed=number,
+        level=data.get("level", 1.0),
+        flight=flight,
+        charge=charge,
+    )
 
 
 def _restore(drone: SimulatedCrazyflie, data: Mapping[str, Any]) -> None:
@@ -199,6 +218,7 @@ def _state(server: Server) -> dict[str, dict[str, object]]:
     return {
         id: {
             "home": endpoint.drone.build.home,
+            "battery": (endpoint.drone.build.flight, endpoint.drone.build.charge),
             "port": endpoint.port,
             "at": endpoint.drone.body.position,
             "yaw": endpoint.drone.body.yaw,

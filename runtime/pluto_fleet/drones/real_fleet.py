@@ -13,9 +13,6 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
     from ..shared.domain.model import Mission
 
-SLACK = 0.15
-"""Metres of a real drone's position error: drones are kept apart by this much more."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RealDrone:

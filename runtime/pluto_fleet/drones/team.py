@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from ..process.realtime import RealTime
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.errors import FlightFailed
-    from ..shared.domain.model import Category, Item, Point, Telemetry
+    from ..shared.domain.model import Item, Point, Telemetry
     from .protocol import DroneNavigation
     from .real_fleet import RealDrone, RealFleet, RequiredAction
 
@@ -248,11 +248,6 @@ def make_one(how: RealDrone, home: Point, speed: float, folder: Path) -> DroneNa
     return make_navigation(how.navigation, setup)
 
 
-def top_speed(category: Category) -> float:
-    """Return the maximum speed of a category's drones."""
-    return category.top_speed or category.speed
-
-
 def make_team(
     kernel: RealTime,
     drones: Sequence[FleetDrone],
@@ -266,7 +261,7 @@ def make_team(
     files.mkdir(mode=0o700, parents=True, exist_ok=True)
     how = {drone.id: drone for drone in real.drones}
     navigations = {
-        drone.id: make_one(how[drone.id], drone.home, top_speed(drone.category), files)
+        drone.id: make_one(how[drone.id], drone.home, drone.category.speed, files)
         for drone in drones
     }
     return Team(

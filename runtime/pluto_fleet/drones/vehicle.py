@@ -15,8 +15,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import place
-from ..shared.fleet.reach import CLIMB_SPEED, docked
+from ..shared.fleet.reach import docked
 from .command_queue import CommandQueue
 from .protocol import CaredFor
 from .telemetry import EMPTY, VehicleTelemetry
@@ -138,7 +139,7 @@ class Vehicle:
         """Whether it is to be landed as soon as possible."""
         self.position_lost = False
         """Whether it is landed because it lost its position: it must not fly elsewhere."""
-        self.speed = drone.category.top_speed or drone.category.speed
+        self.speed = drone.category.speed
         self.climb = min(CLIMB_LIMIT, self.speed)
 
     # Its state

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import cycle, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +12,8 @@ from ..shared.domain import values
 from ..shared.domain.airspace import Airspace
 from ..shared.domain.fleet_data import Feature, FleetData, Source, WorldData
 from ..shared.domain.model import AfterTrip
+from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
+from ..shared.domain.motion import motion_of
 from ..shared.domain.quantities import Type
 from . import errors
 from .drones import DroneEntry, named_navigations, read_drones
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.airspace import Corner
     from ..shared.domain.model import Point
+    from ..shared.domain.motion import Motion
     from .options import Options
 
 
@@ -63,6 +66,16 @@ def read_behaviour(top: Table) -> Behaviour:
         navigation=table.read("navigation", values.name) or CRAZYFLIE,
         localization=table.read("localization", values.name) or OWN,
     )
+
+
+def read_motion(top: Table) -> Motion:
+    """Return how the fleet's drones move: like Crazyflies, but for what `[motion]` says."""
+    table = top.table("motion")
+    if table is None:
+        return CRAZYFLIE_MOTION
+    table.only(tuple(values.MOTION), "[motion]")
+    given = {key: table.read(key, values.MOTION[key]) for key in values.MOTION if key in table.data}
+    return motion_of({key: value for key, value in given.items() if value is not None})
 
 
 def read_map(top: Table) -> tuple[Airspace | None, str | None]:
@@ -183,7 +196,7 @@ def default_fleet(app: App, size: int = DEFAULT_SIZE) -> FleetFile:
         DroneEntry(id=f"cf{place + 1}", category=category.name, home=_default_home(place))
         for place, category in enumerate(categories)
     )
-    return FleetFile(airspace=Airspace(), drones=drones)
+    return FleetFile(airspace=Airspace(), drones=drones, motion=CRAZYFLIE_MOTION)
 
 
 def _default_home(place: int) -> Point:
@@ -199,9 +212,11 @@ def load_fleet(path: Path, app: App) -> FleetFile:
 def fleet_of(document: Document, app: App) -> FleetFile:
     """Return the fleet of a file's text, as `load_fleet` does."""
     top = Table(document, document.data)
-    top.only(("map", "fleet", "drone", "navigation", "localization", "world"), "a fleet file")
+    top.only(
+        ("map", "fleet", "motion", "drone", "navigation", "localization", "world"), "a fleet file"
+    )
     airspace, image = read_map(top)
-    behaviour = read_behaviour(top)
+    behaviour, motion = read_behaviour(top), read_motion(top)
     drones = read_drones(top, app, airspace)
     options = navigation_options(top, named_navigations(top, behaviour.navigation))
     localization_options = options_under(top, "localization")
@@ -215,6 +230,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
         after_trip=behaviour.after_trip,
         apart=behaviour.apart,
         max_airborne=behaviour.max_airborne,
+        motion=motion,
         navigation=behaviour.navigation,
         options=options,
         localization=behaviour.localization,
@@ -222,12 +238,6 @@ def fleet_of(document: Document, app: App) -> FleetFile:
         drones=drones,
         world=world,
     )
-
-
-FOLLOWED = 1.0
-"""Metres per second: the firmware's default limit of the speed on a course (`posCtlPid.xVelMax`)."""
-PACE = 16 / 35
-"""A Crazyflie's mean speed on a course, as a share of its peak speed."""
 
 
 def navigation_of(fleet: FleetFile, drone: DroneEntry) -> str:
@@ -253,32 +263,10 @@ def not_real(fleet: FleetFile) -> str | None:
 
 
 def too_fast(app: App, fleet: FleetFile) -> list[str]:
-    """Return a sentence for each category that is faster than a Crazyflie's default limit."""
-    flown = {
-        d.category
-        for d in fleet.drones
-        if d.line is not None and navigation_of(fleet, d) == CRAZYFLIE
-    }
+    """Return a sentence for each category that is faster than its drones can follow."""
+    flown, limit = {d.category for d in fleet.drones if d.line is not None}, fleet.motion.limit
     return [
-        errors.too_fast(category.name, speed, FOLLOWED)
+        errors.too_fast(category.name, category.speed, limit)
         for category in app.categories
-        if category.name in flown and (speed := category.top_speed or category.speed) > FOLLOWED
+        if fleet.motion.smooth and category.name in flown and category.speed > limit
     ]
-
-
-def as_flown(app: App, fleet: FleetFile) -> App:
-    """Return the app with its categories as slow as this fleet's real drones are on average.
-
-    A Crazyflie's courses begin and end at rest: their peak speed, which a category limits, is 35/16 of
-    their mean one.
-    """
-    slow = {d.category for d in fleet.drones if navigation_of(fleet, d) == CRAZYFLIE}
-    categories = tuple(
-        (
-            replace(category, speed=category.speed * PACE, top_speed=category.speed)
-            if category.name in slow and category.top_speed is None
-            else category
-        )
-        for category in app.categories
-    )
-    return replace(app, categories=categories)

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
+from ..shared.domain.motion import motion_of
+from ..shared.domain.values import MOTION
 from .fleet import CRAZYFLIE, OWN
 from .toml import toml_text
 
 if TYPE_CHECKING:
     from ..shared.domain.fleet_data import WorldData
+    from ..shared.domain.motion import Motion
     from .drones import DroneEntry
     from .fleet import FleetFile
 
@@ -34,12 +39,20 @@ def fleet_text(fleet: FleetFile) -> str:
     file: dict[str, Any] = {
         "map": of_map,
         "fleet": _given(behaviour),
+        "motion": motion_data(fleet.motion) or None,
         "localization": fleet.localization_options or None,
         "navigation": fleet.options or None,
         "drone": [_drone(drone) for drone in fleet.drones],
         "world": None if fleet.world is None else _world(fleet.world),
     }
     return toml_text(_given(file))
+
+
+def motion_data(motion: Motion) -> dict[str, Any]:
+    """Return the `[motion]` of a fleet file: what differs from its defaults."""
+    data, usual = asdict(motion), asdict(motion_of({"legs": motion.legs}))
+    usual["legs"] = CRAZYFLIE_MOTION.legs
+    return {key: data[key] for key in MOTION if data[key] != usual[key]}
 
 
 def _drone(drone: DroneEntry) -> dict[str, Any]:

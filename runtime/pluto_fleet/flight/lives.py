@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 from ..drones.real_fleet import real_fleet
 from ..files.crtp_fleet import fleet_from
-from ..files.fleet import as_flown
 from ..files.missions import missions_of
 from ..files.reading import parsed
 from ..gateway.process import NOTE
@@ -23,6 +22,7 @@ from ..journal.store import Store
 from ..process import respawn
 from ..process.text import in_shell
 from ..shared.alone.faults import Faults
+from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import place
 from .config import End, FlightConfig, FlightResult, Stops
@@ -110,8 +110,7 @@ def reopen(app: App, journal: Path) -> Resumable:
         header: Header = store.header
         check(journal, header, app)
         fleet = fleet_in(app, journal, header)
-        if not header["sim"]:
-            app = as_flown(app, fleet)
+        app = moving(app, fleet.motion)
         known = recovered(store)
         planned: Sequence[Mission[Any]] = ()
         if not known.records.missions:
@@ -218,7 +217,13 @@ async def _real(flight: FlightSetup, folder: Path, known: Recovered | None) -> R
     from ..crtp.process import start, told  # rarely needed
 
     homes = {drone.id: drone.home for drone in flight.fleet.drones}
-    uris = await asyncio.to_thread(start, folder, homes)
+    kinds = {one.name: one for one in flight.app.categories}
+    batteries = {
+        drone.id: (kind.flight_time / flight.fleet.motion.drain, kind.charge_time)
+        for drone in flight.fleet.drones
+        for kind in (kinds[drone.category],)
+    }
+    uris = await asyncio.to_thread(start, folder, homes, None, batteries)
     camera = await asyncio.to_thread(told, folder, "camera")
     drones = (
         replace(drone, uri=uris[drone.id], options=fitted(drone.options, camera))

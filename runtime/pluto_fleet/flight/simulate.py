@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..gateway.gateway import Gateway
 from ..shared.alone.simulate import Bound, SimulationResult, see_through
 from ..shared.alone.world import World
+from ..shared.domain.app import moving
 from ..shared.flow.standing import (
     drones_of,
     fleet_data,
@@ -50,10 +51,10 @@ class Simulation:
         faults: Faults,
         listener: Listener,
         around: Around | None = None,
-        slack: float = 0.0,
         hooks: RealHooks | None = None,
     ) -> None:
         """`hooks` runs hooks in real time; without it they are called at once."""
+        app = moving(app, fleet.motion)
         self._app, self._fleet, self._kernel = app, fleet, kernel
         self._drones = simulated(app, fleet)
         world = World(seed, fleet.airspace, fleet.world)
@@ -66,7 +67,7 @@ class Simulation:
             self._drones,
             fleet.airspace,
             apart=fleet.apart,
-            slack=slack,
+            slack=fleet.motion.slack,
             max_airborne=fleet.max_airborne,
         )
         bodies = self._navigation.bodies
@@ -138,12 +139,11 @@ def simulate(
     until: float | None,
     on_event: Listener | None,
     around: Around | None = None,
-    slack: float = 0.0,
 ) -> SimulationResult:
     """Fly the missions in virtual time, until the last one has ended or a time is reached.
 
     Without such a time it is given up if missions fly again and again without success.
-    `around` wraps the drones' controls for the gateway; `slack` keeps drones further apart.
+    `around` wraps the drones' controls for the gateway.
     """
     bound, events = Bound(missions), list[Any]()
 
@@ -155,7 +155,7 @@ def simulate(
             raise enough
 
     kernel = VirtualTime()
-    simulation = Simulation(app, fleet, kernel, seed, faults, listen, around, slack)
+    simulation = Simulation(app, fleet, kernel, seed, faults, listen, around)
     with closing(simulation):
         run = partial(kernel.run, simulation.start(missions))
         ended, given_up = see_through(simulation, run, app.name, bound, until)

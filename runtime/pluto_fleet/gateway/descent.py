@@ -116,8 +116,7 @@ class Descent:
         return [way for way in ways if self._course(drone, way).seconds < enough]
 
     def _course(self, drone: FleetDrone, way: Section) -> Course:
-        traffic = self._traffic
-        return course(way, drone.category.speed, traffic is not None and traffic.is_real)
+        return course(way, drone.category.speed, drone.category.motion)
 
     # Flying it
 

@@ -15,7 +15,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..drones.real_fleet import SLACK
 from ..jobs.reports import Down
 from ..jobs.telemetry import Publisher
 from ..process import locks
@@ -24,6 +23,7 @@ from ..process.ipc import listening
 from ..process.realtime import RealTime
 from ..shared.alone.world import World
 from ..shared.domain.errors import BadInput
+from ..shared.domain.motion import SLACK
 from ..shared.domain.text import printable
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, EventKind
@@ -200,6 +200,12 @@ def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedN
     return navigation
 
 
+def _slack(settings: Settings) -> float:
+    """Return how much further apart drones are kept, as they are not exactly on their way."""
+    slack = max((drone.category.motion.slack for drone in settings.drones), default=0.0)
+    return slack if settings.real is None else max(slack, SLACK)
+
+
 async def _command(
     folder: Path, settings: Settings, kernel: RealTime, controls: Controls, seen: Sightings
 ) -> None:
@@ -211,7 +217,7 @@ async def _command(
         settings.airspace,
         ledger=FileLedger(folder / LEDGER),
         apart=settings.apart,
-        slack=0.0 if settings.real is None else SLACK,
+        slack=_slack(settings),
         max_airborne=settings.max_airborne,
         patience=settings.patience * settings.speed,
         leaving=seen.leaving,

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 from ..drones.real_fleet import RealFleet, real_of
 from ..shared.alone.faults import Faults
 from ..shared.domain.airspace import Airspace
+from ..shared.domain.app import moving
 from ..shared.domain.fleet_data import Feature, Source, WorldData
 from ..shared.domain.model import Category
+from ..shared.domain.motion import Motion
 from ..simulation.body import SimulatedDrone, simulated
 
 if TYPE_CHECKING:
@@ -57,7 +59,7 @@ def settings_for(
 ) -> Settings:
     """Return the settings for the fleet of an app."""
     return Settings(
-        drones=tuple(simulated(app, fleet)),
+        drones=tuple(simulated(moving(app, fleet.motion), fleet)),
         airspace=fleet.airspace,
         apart=fleet.apart,
         max_airborne=fleet.max_airborne,
@@ -118,6 +120,7 @@ def _drone_data(drone: SimulatedDrone) -> dict[str, Any]:
 
 def _drone(data: Mapping[str, Any]) -> SimulatedDrone:
     category, actions = data["category"], data["category"]["actions"]
+    category["motion"] = Motion(**category["motion"])
     actions = None if actions is None else frozenset(actions)
     return SimulatedDrone(
         id=data["id"],

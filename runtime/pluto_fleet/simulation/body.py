@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 from ..jobs.reports import DroneReport
 from ..shared.alone.faults import Drawn, befell
 from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.fleet.reach import CLIMB_SPEED, docked
+from ..shared.domain.motion import CLIMB_SPEED, spread_of
+from ..shared.fleet.reach import docked
 from ..shared.fleet.telemetry import Charge, Leg, resting
 from ..shared.hooks.plain_data import item_data, item_of, point_of
 from ..shared.time.future import Future
@@ -62,8 +63,10 @@ def _moment(due: Due) -> float:
 class Body:
     """The state of one drone. It is its own telemetry."""
 
-    def __init__(self, drone: SimulatedDrone, clock: Callable[[], float]) -> None:
-        self.drone, self._clock = drone, clock
+    def __init__(self, drone: SimulatedDrone, clock: Callable[[], float], seed: int = 0) -> None:
+        self.drone, self._clock, self.model = drone, clock, drone.category.motion
+        self.chance = spread_of(seed, drone.id)
+        """What the spread of its durations is drawn from."""
         self.key: Key = FLEET + 1 + drone.index
         self.down: FlightFailed | None = None
         """The failure for which it takes no commands, if any."""
@@ -86,7 +89,7 @@ class Body:
         self.left_alone = False
         """It was told to land before the process was killed, and touches down by itself."""
         self._drawn, self._began = Drawn(), clock()
-        self._charge = Charge(drone.battery_level, clock())
+        self._charge = Charge(drone.battery_level, clock(), taper=self.model.taper)
         self._leg, self._landed = resting(drone.home, clock()), True
         self._flown = 0.0
         self._due: Due = _NEVER
@@ -179,12 +182,14 @@ class Body:
 
     def lift_off(self, now: float) -> None:
         """Leave the ground: the battery drains from now on, and faults are due."""
-        self._charge = self._charge.changing(now, -1.0 / self.drone.category.flight_time)
+        drains = -self.model.drain / self.drone.category.flight_time
+        self._charge = self._charge.changing(now + self.model.take_off, drains)
         self._began, self._landed = now, False
 
-    def move(self, target: Point, now: float, arrives: float) -> None:
-        """Fly straight to a point, to arrive at a time."""
-        self._turn(Leg(self._leg.at(now), target, now, arrives), now)
+    def move(self, target: Point, now: float, leaves: float, arrives: float) -> None:
+        """Fly straight to a point, from a time on until another."""
+        smooth = self.model.smooth
+        self._turn(Leg(self._leg.at(now), target, leaves, arrives, smooth), now)
 
     def halt(self, now: float) -> None:
         """Hover where it is, if it still takes commands."""
@@ -193,11 +198,12 @@ class Body:
             self._turn(resting(self._leg.at(now), now), now)
 
     def touch_down(self, now: float) -> None:
-        """Put it on the ground below: its flight has ended."""
+        """Put it on the ground below: its flight has ended; in its dock it charges from its touch-down on."""
+        touched = min(now, self._leg.arrives) if self._leg.end[2] <= 0.0 else now
         self._rest(now)
         at_home = docked(self._leg.end, self.drone.home)
         rate = 1.0 / self.drone.category.charge_time if at_home else 0.0
-        self._charge = self._charge.changing(now, rate)
+        self._charge = self._charge.changing(touched, rate)
         self._drawn = Drawn()
         self._changed()
 
@@ -273,11 +279,11 @@ class Body:
         self.down, self.down_since = befell(self.drone.id, what, (x, y, z)), when
         self._drawn = Drawn()
         if what is Failure.LINK:
-            self.move((x, y, 0.0), when, when + z / CLIMB_SPEED)
+            self.move((x, y, 0.0), when, when, when + z / CLIMB_SPEED)
             return
         self._rest(when)
         if what is Failure.BATTERY:
-            self._charge = Charge(0.0, when)
+            self._charge = Charge(0.0, when, taper=self.model.taper)
         else:
             self._charge = self._charge.changing(when, 0.0)
             self.carries = None
@@ -328,8 +334,9 @@ class Body:
         self._drawn = Drawn(crash=crash, link=link, battery=battery, action=action)
         self._began = data["began"] + shift
         level, since, rate = data["charge"]
-        self._charge = Charge(level, since + shift, rate)
+        self._charge = Charge(level, since + shift, rate, self.model.taper)
         start, end, leaves, arrives = data["leg"]
-        self._leg = Leg(point_of(start), point_of(end), leaves + shift, arrives + shift)
+        leaves, arrives = leaves + shift, arrives + shift
+        self._leg = Leg(point_of(start), point_of(end), leaves, arrives, self.model.smooth)
         self._landed, self._flown = data["landed"], data["flown"]
         self.left_alone = not self._landed and self._leg.end[2] <= 0

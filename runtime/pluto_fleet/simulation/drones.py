@@ -19,8 +19,9 @@ from ..shared.alone.faults import (
 )
 from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.motion import varied
 from ..shared.domain.text import place
-from ..shared.fleet.reach import CLIMB_SPEED, grip_problem
+from ..shared.fleet.reach import grip_problem
 from ..shared.time.future import Future
 from ..shared.time.kernel import EventKind, Kernel
 from .body import Body, SimulatedDrone
@@ -69,7 +70,7 @@ class SimulatedNavigation:
         self._faults, self._seed = faults, seed
         self.record = record
         """Called right before each action of a drone on the world."""
-        self.bodies = {drone.id: Body(drone, kernel.time) for drone in drones}
+        self.bodies = {drone.id: Body(drone, kernel.time, seed) for drone in drones}
         self.telemetry: Mapping[str, Telemetry] = self.bodies
         """The drones' telemetry, always current."""
 
@@ -138,13 +139,16 @@ class SimulatedNavigation:
             x, y, _ = body.location
             body.lift_off(now)
             body.check(now)  # a fault at take-off leaves it on the ground
-            await self._move(body, (x, y, height), CLIMB_SPEED, "to take off")
+            motion, up = body.model, body.model.climb(height, body.drone.category.speed)
+            times = motion.take_off, up, motion.settles
+            await self._move(body, (x, y, height), times, "to take off")
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
         body = self._in_the_air(drone)
+        seconds = body.model.leg(dist(body.location, target), body.drone.category.speed)
         command = f"to fly to {place(target)}"
-        await self._move(body, target, body.drone.category.speed, command)
+        await self._move(body, target, (0.0, seconds, body.model.settles), command)
 
     async def act(
         self,
@@ -163,7 +167,8 @@ class SimulatedNavigation:
             raise FlightFailed(Failure.REFUSED, f"{drone} has no action {action}")
         problem = grip_problem(drone, body.drone.category, body.carries, action, item)
         if problem is None:
-            await self._pass(body, BUILT_IN[action].seconds, f"to {action}")
+            seconds = BUILT_IN[action].seconds * varied(body.chance, body.model.action_spread)
+            await self._pass(body, seconds, f"to {action}")
             problem = f"{drone} could not do it" if body.fails_to_act else None
         if problem is not None:
             raise failed(f"{action} failed", problem, body.location)
@@ -222,8 +227,9 @@ class SimulatedNavigation:
         body = self.bodies[drone]
         body.check(self._kernel.now)
         if not body.landed:
-            x, y, _ = body.location
-            body.touch_down(await self._move(body, (x, y, 0.0), CLIMB_SPEED, "to land"))
+            x, y, z = body.location
+            times = 0.0, body.model.sink(z, body.drone.category.speed), body.model.landing
+            body.touch_down(await self._move(body, (x, y, 0.0), times, "to land"))
 
     async def reach(self, drone: str) -> bool:
         """Wait until a drone that lost its link can be reached again; False: it has crashed."""
@@ -257,11 +263,16 @@ class SimulatedNavigation:
         await self._busy(body, when, "to recover")
         body.settle(when)
 
-    async def _move(self, body: Body, target: Point, speed: float, command: str) -> float:
+    async def _move(
+        self, body: Body, target: Point, times: tuple[float, float, float], command: str
+    ) -> float:
+        """Move: for some seconds not yet, then on its way, and then at rest."""
+        before, seconds, after = times
+        factor = varied(body.chance, body.model.spread)
         now = self._kernel.now
-        seconds = dist(body.location, target) / speed
-        body.move(target, now, now + seconds)
-        return await self._pass(body, seconds, command)
+        leaves = now + factor * before
+        body.move(target, now, leaves, leaves + factor * seconds)
+        return await self._pass(body, factor * (before + seconds + after), command)
 
     async def _pass(self, body: Body, seconds: float, command: str) -> float:
         """Wait for the duration of a command; a fault ends it earlier."""

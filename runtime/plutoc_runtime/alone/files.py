@@ -17,6 +17,7 @@ from ..domain.errors import BadInput
 from ..domain.fields import Entity, FieldType
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from ..domain.model import Item
+from ..domain.motion import motion_of
 from ..domain.text import cut_off, number, printable, quoted
 from ..domain.values import Cells, crowded, wrongly_carried
 
@@ -52,12 +53,17 @@ _UNREADABLE: dict[type[Exception], str] = {
 def load_fleet(path: Path, app: App) -> FleetData:
     """Return a fleet file's data, without what only real flights need."""
     top, who = parsed(path, text_of(path)), f"{path}"
-    _table(top, who, "map:any? fleet:any? drone:any? navigation:any? localization:any? world:any?")
+    schema = (
+        "map:any? fleet:any? motion:any? drone:any? navigation:any? localization:any? world:any?"
+    )
+    _table(top, who, schema)
+    keys = " ".join(f"{key}:{key}?" for key in values.MOTION)
     airspace = _airspace(top.get("map", {}), f"{who}: map")
     schema = "apart:any? after_trip:after_trip? max_airborne:count? navigation:any?"
     return FleetData(
         airspace=airspace,
         **_table(top.get("fleet", {}), f"{who}: fleet", f"{schema} localization:any?"),
+        motion=motion_of(_table(top.get("motion", {}), f"{who}: motion", keys, **values.MOTION)),
         drones=[*_drones(top, who, app, airspace)],
         world=_world(top["world"], f"{who}: world") if "world" in top else None,
     )

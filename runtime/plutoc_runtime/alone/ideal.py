@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 from ..domain.actions import BUILT_IN, PICK, RELEASE
 from ..domain.airspace import permitted_way, way_from
 from ..domain.errors import Failure, FlightFailed
-from ..fleet.reach import CLIMB_SPEED, docked, flight_seconds, grip_problem
+from ..domain.motion import CLIMB_SPEED, spread_of, varied
+from ..fleet.reach import docked, flight_seconds, grip_problem
 from ..fleet.telemetry import Charge, Leg, resting
 from ..hooks.plain_data import item_of, point_of, value_data
 from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
@@ -32,8 +33,9 @@ Work = Generator[float, None, Any]
 class IdealDrone:
     """The state of one drone, initially in its dock."""
 
-    def __init__(self, entry: DroneData, category: Category, clock: Clock) -> None:
+    def __init__(self, entry: DroneData, category: Category, clock: Clock, seed: int) -> None:
         self.id, self.home, self.category, self._clock = entry.id, entry.home, category, clock
+        self.motion, self.chance = category.motion, spread_of(seed, entry.id)
         self.down: FlightFailed | None = None
         """The failure for which it takes no commands, if any."""
         self.reachable_at = 0.0  # where its link is lost: not before it has landed
@@ -45,7 +47,9 @@ class IdealDrone:
         """The order that it carries out, by its `work`, and until when it waits."""
         self.landed = self._changed = True
         self._began = self._flown = 0.0
-        self._charge, self._leg = Charge(1.0, clock.now), resting(entry.home, clock.now)
+        self._charge, self._leg = Charge(1.0, clock.now, taper=self.motion.taper), resting(
+            entry.home, clock.now
+        )
         self.touch_down(clock.now)
 
     @property
@@ -64,7 +68,7 @@ class IdealDrone:
         if not self._changed:
             return None
         self._changed = False
-        leg, battery = astuple(self._leg), astuple(self._charge)
+        leg, battery = astuple(self._leg)[:4], astuple(self._charge)[:3]
         return {"leg": leg, "battery": battery, "landed": self.landed}
 
     def settle(self) -> None:
@@ -89,7 +93,8 @@ class IdealDrone:
 
     def lift_off(self) -> None:
         """Leave the ground: the battery drains from now on, and faults are due."""
-        self._charge = self._charge.changing(self._clock.now, -1.0 / self.category.flight_time)
+        drains = -self.motion.drain / self.category.flight_time
+        self._charge = self._charge.changing(self._clock.now + self.motion.take_off, drains)
         self.landed = False
 
     def turn(self, leg: Leg) -> None:
@@ -104,11 +109,12 @@ class IdealDrone:
             self.turn(resting(self.location, self._clock.now))
 
     def touch_down(self, now: float) -> None:
-        """Put it on the ground below; in its dock it is charged."""
+        """Put it on the ground below; in its dock it is charged from its touch-down on."""
+        touched = min(now, self._leg.arrives) if self._leg.end[2] <= 0.0 else now
         self.turn(resting((*self._leg.at(now)[:2], 0.0), now))
         self.landed = True
         charges = docked(self._leg.end, self.home)
-        self._charge = self._charge.changing(now, charges / self.category.charge_time)
+        self._charge = self._charge.changing(touched, charges / self.category.charge_time)
 
     @property
     def next_due(self) -> tuple[float, Failure | None]:
@@ -130,7 +136,7 @@ class IdealDrone:
             return
         self.touch_down(when)
         if what is Failure.BATTERY:
-            self._charge = Charge(0.0, when)
+            self._charge = Charge(0.0, when, taper=self.motion.taper)
         elif what is Failure.CRASH:
             self._charge, self.carries = self._charge.changing(when, 0.0), None
 
@@ -143,7 +149,7 @@ class IdealDrones:
         self._world = World(seed, fleet.airspace, fleet.world)
         self._told: list[dict[str, Any]] = []
         categories = {category.name: category for category in app.categories}
-        drones = [IdealDrone(one, categories[one.category], clock) for one in fleet.drones]
+        drones = [IdealDrone(one, categories[one.category], clock, seed) for one in fleet.drones]
         self.drones = {drone.id: drone for drone in drones}
 
     @property
@@ -203,7 +209,8 @@ class IdealDrones:
             return None
         why = grip_problem(drone.id, drone.category, drone.carries, action, item)
         if why is None:
-            yield from self._pass(drone, BUILT_IN[action].seconds)
+            chance, spread = drone.chance, drone.motion.action_spread
+            yield from self._pass(drone, BUILT_IN[action].seconds * varied(chance, spread))
             why = f"{drone.id} could not do it" if drone.drawn.action else None
         if why is not None:
             raise failed(f"{action} failed", why, drone.location)
@@ -236,14 +243,16 @@ class IdealDrones:
         yield from self._follow(drone, [(*drone.location[:2], self._airspace.cruise_height)])
         here = drone.location
         for point in permitted_way(self._airspace, drone.id, here, (*drone.home[:2], here[2])):
-            yield from self._move(drone, point, drone.category.speed)
+            yield from self._leg(drone, point)
         yield from self._land(drone)
 
     def _land(self, drone: IdealDrone, _: object = None) -> Work:
         """Land here; does nothing for a drone that stands on the ground."""
         drone.check()
         if not drone.landed:
-            yield from self._move(drone, (*drone.location[:2], 0.0), CLIMB_SPEED)
+            x, y, z = drone.location
+            down = drone.motion.sink(z, drone.category.speed)
+            yield from self._move(drone, (x, y, 0.0), 0.0, down, drone.motion.landing)
             drone.touch_down(self._clock.now)
 
     def _recover(self, drone: IdealDrone, _: object) -> Work:
@@ -280,16 +289,24 @@ class IdealDrones:
         """Fly a route whose first point is above the drone's place on the ground, or where it hovers."""
         if drone.landed:
             drone.lift_off()
-            yield from self._move(drone, way[0], CLIMB_SPEED)
+            motion, up = drone.motion, drone.motion.climb(way[0][2], drone.category.speed)
+            yield from self._move(drone, way[0], motion.take_off, up, motion.settles)
         for point in way[1:]:
-            yield from self._move(drone, point, drone.category.speed)
+            yield from self._leg(drone, point)
 
-    def _move(self, drone: IdealDrone, target: Point, speed: float) -> Work:
+    def _leg(self, drone: IdealDrone, target: Point) -> Work:
+        seconds = drone.motion.leg(dist(drone.location, target), drone.category.speed)
+        yield from self._move(drone, target, 0.0, seconds, drone.motion.settles)
+
+    def _move(
+        self, drone: IdealDrone, target: Point, before: float, seconds: float, after: float
+    ) -> Work:
         drone.check()  # a fault at take-off leaves it on the ground
-        now, start = self._clock.now, drone.location
-        seconds = dist(start, target) / speed
-        drone.turn(Leg(start, target, now, now + seconds))
-        yield from self._pass(drone, seconds)
+        factor = varied(drone.chance, drone.motion.spread)
+        leaves = self._clock.now + factor * before
+        arrives = leaves + factor * seconds
+        drone.turn(Leg(drone.location, target, leaves, arrives, drone.motion.smooth))
+        yield from self._pass(drone, factor * (before + seconds + after))
 
     def _pass(self, drone: IdealDrone, seconds: float) -> Work:
         yield from self._wait(min(self._clock.now + seconds, drone.next_due[0]))

@@ -14,9 +14,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from ..brain import Brain
 from ..domain.airspace import Airspace
+from ..domain.app import moving
 from ..domain.errors import BadInput
 from ..domain.fleet_data import DroneData, FleetData
 from ..domain.model import Drone, Mission, Result
+from ..domain.motion import CRAZYFLIE
 from ..domain.status import DroneStatus, Status
 from ..domain.text import counted, duration, quoted
 from ..domain.trace import Event
@@ -75,7 +77,7 @@ def default_fleet(app: App) -> FleetData:
         DroneData(id=f"cf{place}", category=kind, home=(float(place), 0.5, 0.0))
         for place, kind in enumerate(kinds[:5], 1)
     ]
-    return FleetData(airspace=Airspace(), drones=drones)
+    return FleetData(airspace=Airspace(), drones=drones, motion=CRAZYFLIE)
 
 
 def simulate(
@@ -92,7 +94,7 @@ def simulate(
 
     Without such a time it is given up if missions fly again and again without success.
     """
-    bound, events = Bound(missions), list[Event]()
+    app, bound, events = moving(app, fleet.motion), Bound(missions), list[Event]()
 
     def listen(event: Event) -> None:
         events.append(event)
@@ -159,7 +161,7 @@ class Alone:
 
     def known(self, stands: Mapping[str, Any]) -> KnownState:
         """Return the state of a drone that stands so."""
-        known = KnownState(self, stands["at"])
+        known = KnownState(self, stands["at"], self._app.categories[0].motion)
         known.take(stands)
         return known
 

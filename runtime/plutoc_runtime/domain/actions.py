@@ -43,7 +43,7 @@ class Action:
 
 
 PICK, RELEASE = "pick_item", "release_item"
-MEASURE = "measure"
+MEASURE, PHOTO = "measure", "take_photo"
 
 _QUANTITY = Parameter(name="quantity", type=Type.TEXT, default="temperature")
 
@@ -51,7 +51,7 @@ BUILT_IN: dict[str, Action] = {
     action.name: action
     for action in (
         Action(name=MEASURE, parameters=(_QUANTITY,), repeat="safe", seconds=1.0),
-        Action(name="take_photo", repeat="safe", seconds=1.0),
+        Action(name=PHOTO, repeat="safe", seconds=1.0),
         Action(name=PICK, seconds=2.0),
         Action(name=RELEASE, seconds=2.0),
     )

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping
-from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict, dataclass, field, replace
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .status import Status
 
@@ -12,8 +12,11 @@ if TYPE_CHECKING:
     from .actions import Action
     from .fields import Field
     from .model import Category, Mission, Trip
+    from .motion import Motion
 
-SEAM = (3, 0)
+A = TypeVar("A", bound="App")
+
+SEAM = (3, 1)
 """The seam to the library: the first number changes when earlier data would be misread, the second
 when more is said."""
 
@@ -39,6 +42,11 @@ class App:
     """The app's evaluators, by name."""
     resumes: tuple[str, ...] = ()
     """The blocks at which an interrupted mission can resume: `flow` can be entered there."""
+
+
+def moving(app: A, motion: Motion) -> A:
+    """Return an app whose drones move so."""
+    return replace(app, categories=tuple(replace(one, motion=motion) for one in app.categories))
 
 
 def about(app: App) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from math import exp, inf
 
 from .airspace import Airspace, Corner
 from .model import AfterTrip, Point
+from .motion import STRAIGHT, Motion
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,5 +66,6 @@ class FleetData:
     drones: Sequence[DroneData]
     after_trip: AfterTrip = AfterTrip.HOME
     max_airborne: int | None = None
+    motion: Motion = STRAIGHT
     world: WorldData | None = None
     """None: a simulation makes up a world from its seed."""

@@ -13,6 +13,7 @@ from math import dist
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
 from .errors import MissionFailed
+from .motion import STRAIGHT, Motion, charging
 from .status import UNEXECUTED, DroneStatus, Status, TripStatus
 
 if TYPE_CHECKING:
@@ -34,8 +35,8 @@ class Category:
     """The share of the battery that a flight must leave."""
     actions: frozenset[str] | None = None
     """None: every action."""
-    top_speed: float | None = None
-    """The most that it may fly at; None: `speed`, which is the mean over a way."""
+    motion: Motion = STRAIGHT
+    """How its drones fly, by the fleet's file."""
 
     def can(self, action: str) -> bool:
         """Return whether drones of this category can do the action."""
@@ -118,6 +119,11 @@ class Drone:
     def battery_level(self) -> float:
         """What is left in its battery now, from 0 to 1."""
         return self.telemetry.battery_level
+
+    def charging(self, level: float) -> float:
+        """Return how many seconds it must charge to reach a level."""
+        full, taper = self.category.charge_time, self.category.motion.taper
+        return charging(self.battery_level, level, full, taper)
 
     def distance(self, point: Point) -> float:
         """Return how far away a point is, in metres."""

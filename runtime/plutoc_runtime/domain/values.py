@@ -125,6 +125,19 @@ RADIUS = Quantity(Type.LENGTH, 0.01, 100_000.0)  # of something that is seen or 
 MASS = Quantity(Type.MASS, 0.0, 1000.0)  # of an item
 TIME = Quantity(Type.TIME, 0.001, LARGEST, or_none=True)  # a delay, a limit, between two rounds
 
+_OVERHEAD = Quantity(Type.TIME, 0.0, 600.0)
+_SPREAD, _FACTOR = Quantity(Type.PERCENT, 0.0, 0.5), Quantity(Type.PERCENT, 0.1, 10.0)
+_LEGS = ("smooth", "straight")
+
+MOTION: dict[str, Read] = {
+    "legs": _such_as((_LEGS.__contains__, f"is none of: {', '.join(_LEGS)}")),
+    "limit": Quantity(Type.SPEED, 0.01, 100.0),
+    **dict.fromkeys(("take_off", "settles", "landing"), _OVERHEAD),
+    **dict.fromkeys(("pace", "drain"), _FACTOR),
+    **dict.fromkeys(("spread", "action_spread", "taper"), _SPREAD),
+}
+"""How the keys of a fleet's `[motion]` are read."""
+
 
 def numbers(*counts: int, each: Quantity = PLACE) -> Read:
     """Return a reader of a list of lengths, with one of these numbers of elements."""

@@ -141,8 +141,8 @@ class Fleet:
 
     def _settle_here(self, drone: Drone) -> bool:
         """Make a healthy drone FREE, CHARGING or, if retired, OFFLINE; return False: it must go home for that."""
-        missing, retired = drone.category.reserve - drone.battery_level, drone in self.retired
-        if missing < 0 and not retired:
+        reserve, retired = drone.category.reserve, drone in self.retired
+        if drone.battery_level > reserve and not retired:
             self._become(drone, _FREE)
         elif not self._is_docked(drone):
             return False
@@ -150,7 +150,7 @@ class Fleet:
             self._become(drone, DroneStatus.OFFLINE)
         else:
             self._become(drone, DroneStatus.CHARGING)
-            self._free_after(missing * drone.category.charge_time + 0.001, drone)
+            self._free_after(drone.charging(reserve) + 0.001, drone)
         return True
 
     def _free_after(self, seconds: float, drone: Drone) -> None:

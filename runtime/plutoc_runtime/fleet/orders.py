@@ -19,6 +19,7 @@ from .telemetry import KnownState
 
 if TYPE_CHECKING:
     from ..domain.model import Point
+    from ..domain.motion import Motion
     from ..domain.trace import Clock
 
 Order = dict[str, Any]
@@ -29,10 +30,10 @@ Answer = Callable[[object], object]
 class Orders:
     """The orders of one brain. A cancelled command leaves its drone hovering where it is."""
 
-    def __init__(self, clock: Clock, homes: Mapping[str, Point]) -> None:
+    def __init__(self, clock: Clock, homes: Mapping[str, Point], motion: Motion) -> None:
         self.pending: list[Order] = []
         """The orders that have not been taken yet; the kernel looks into this very list while it runs."""
-        self.drones = {drone: KnownState(clock, home) for drone, home in homes.items()}
+        self.drones = {drone: KnownState(clock, home, motion) for drone, home in homes.items()}
         """What was told of the drones, by their ids; always current."""
         self._answers: dict[int, Answer] = {}
         """What to call with the outcome of each order that is under way, by its id."""

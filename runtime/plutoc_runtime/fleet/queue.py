@@ -62,7 +62,9 @@ class Request(Future["Drone"]):
         if key not in self._levels:
             part, airspace = None, self._reach.airspace
             if self.never(drone) is None:
-                stops = stops_of(self._reach.app, airspace, chain_of(self._trips))
+                stops = stops_of(
+                    self._reach.app, category, airspace.cruise_height, chain_of(self._trips)
+                )
                 part = needed(category, airspace, here, stops, home)
             self._levels[key] = inf if part is None else part + category.reserve
         return self._levels[key]
@@ -274,8 +276,7 @@ class Queue:
         level = min((request.level(drone) for request in requests), default=inf)
         if level == inf or not docked(drone.location, drone.home):
             return inf
-        missing = level - drone.battery_level
-        return self._kernel.now + (missing * drone.category.charge_time + 0.001)
+        return self._kernel.now + (drone.charging(level) + 0.001)
 
     def _look_again_when_charged(self) -> None:
         soonest = min(self._low.values())

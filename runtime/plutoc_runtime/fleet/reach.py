@@ -25,9 +25,6 @@ Stop = tuple["Point", float]
 """A point to fly to, and the seconds that the drone is busy there."""
 Stops = Sequence[Stop]
 
-CLIMB_SPEED = 0.3
-"""Metres a second, straight up and straight down."""
-
 DOCK_REACH = 0.2
 """How near its home a drone must land to be charged there, in metres."""
 
@@ -45,26 +42,23 @@ def flight_seconds(
     A start on the ground (z = 0) counts the take-off to cruise height; a last point on the ground
     counts the landing there, from the height flown before. Infinite where no route leads.
     """
-    seconds, here = actions, start
+    seconds, here, motion, speed = actions, start, category.motion, category.speed
     if points and start[2] <= 0:
         here = (start[0], start[1], airspace.cruise_height)
-        seconds += here[2] / CLIMB_SPEED
+        seconds += motion.rises(here[2], speed)
     for i, point in enumerate(points, 1):
         there = point
         if i == len(points) and point[2] <= 0:
             there = (point[0], point[1], here[2])
-            seconds += there[2] / CLIMB_SPEED
+            seconds += motion.lands(there[2], speed)
         way = airspace.route(here, there)
         if way is None:
             return inf
-        seconds += length(here, way) / category.speed
+        for place_ in way:
+            seconds += motion.flies(dist(here, place_), speed)
+            here = place_
         here = there
     return seconds
-
-
-def length(start: Point, way: Sequence[Point]) -> float:
-    """Return the metres of a way, from its start on."""
-    return sum(dist(a, b) for a, b in zip((start, *way), way, strict=False))
 
 
 def needed(
@@ -78,7 +72,7 @@ def needed(
     actions = sum(seconds for _, seconds in stops)
     ground = (home[0], home[1], 0.0)
     seconds = flight_seconds(category, airspace, start, [*points, ground], actions)
-    return None if seconds == inf else seconds / category.flight_time
+    return None if seconds == inf else seconds * category.motion.drain / category.flight_time
 
 
 class Lacks(IntEnum):
@@ -129,7 +123,7 @@ def miss_of(
             most, weighs = mass(category.payload), mass(trip.item.mass)
             reason = f"{category.name} carries at most {most}, the item weighs {weighs}"
             return Miss(Lacks.PAYLOAD, trip.item.mass - category.payload, reason)
-    stops = stops_of(app, airspace, chain)
+    stops = stops_of(app, category, airspace.cruise_height, chain)
     share = needed(category, airspace, home, stops, home)
     if share is None:
         return Miss(Lacks.WAY, 0.0, _no_way(category, airspace, home, stops))
@@ -142,7 +136,7 @@ def miss_of(
     return None
 
 
-def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> Stops:
+def stops_of(app: App, category: Category, cruise: float, chain: Sequence[Trip]) -> Stops:
     """Return the stops of a chain, with the seconds that the drone is busy at each.
 
     Between two trips of a chain it lands with its item, and takes off again.
@@ -153,7 +147,8 @@ def stops_of(app: App, airspace: Airspace, chain: Sequence[Trip]) -> Stops:
             stops.append((trip.source, 0.0))
         busy = app.actions[trip.action].seconds
         if place_ < len(chain):
-            busy += (trip.target[2] + airspace.cruise_height) / CLIMB_SPEED
+            motion, speed = category.motion, category.speed
+            busy += motion.lands(trip.target[2], speed) + motion.rises(cruise, speed)
         stops.append((trip.target, busy))
     return stops
 
@@ -251,8 +246,9 @@ class Reach:
         space = self.airspace
         if space.no_fly or not category.can(action):
             return inf
-        across = hypot(*space.size, space.ceiling)
-        up_and_down = (space.cruise_height + space.ceiling) / CLIMB_SPEED
+        motion, speed = category.motion, category.speed
         # to the source, to the target, and home
-        seconds = 3 * across / category.speed + up_and_down + self.app.actions[action].seconds
-        return seconds / category.flight_time + category.reserve
+        seconds = 3 * motion.flies(hypot(*space.size, space.ceiling), speed)
+        seconds += motion.rises(space.cruise_height, speed) + motion.lands(space.ceiling, speed)
+        seconds += self.app.actions[action].seconds
+        return seconds * motion.drain / category.flight_time + category.reserve

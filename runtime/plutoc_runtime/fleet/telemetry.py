@@ -7,19 +7,23 @@ from dataclasses import dataclass
 from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
+from ..domain.motion import charged, smoothly
+
 if TYPE_CHECKING:
     from ..domain.model import Point
+    from ..domain.motion import Motion
     from ..domain.trace import Clock
 
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """A straight leg between two points, with the times at its ends."""
+    """A straight way between two points, with the times at its ends; `smooth`: at rest there."""
 
     start: Point
     end: Point
     leaves: float
     arrives: float
+    smooth: bool = False
 
     def at(self, now: float) -> Point:
         """Return the position at a time; before and after the leg, nothing moves.
@@ -31,6 +35,7 @@ class Leg:
         if now <= self.leaves:
             return self.start
         part = (now - self.leaves) / (self.arrives - self.leaves)
+        part = smoothly(part) if self.smooth else part
         (ax, ay, az), (bx, by, bz) = self.start, self.end
         return ax + part * (bx - ax), ay + part * (by - ay), az + part * (bz - az)
 
@@ -46,16 +51,19 @@ def resting(place: Point, now: float) -> Leg:
 
 @dataclass(frozen=True, slots=True)
 class Charge:
-    """A battery: its level at a time, from 0 to 1, and its change per second."""
+    """A battery: its level at a time, from 0 to 1, its change per second, and where a charge slows."""
 
     level: float
     since: float
     rate: float = 0.0
+    taper: float = 0.0
 
     def at(self, now: float) -> float:
         """Return the level at a time."""
         if not self.rate or now <= self.since:
             return self.level
+        if self.rate > 0.0 and self.taper:
+            return charged(self.level, now - self.since, 1.0 / self.rate, self.taper)
         level = self.level + self.rate * (now - self.since)
         return min(1.0, level) if level > 0.0 else 0.0
 
@@ -66,18 +74,18 @@ class Charge:
 
     def changing(self, now: float, rate: float) -> Charge:
         """Return the battery with another rate from now on."""
-        return Charge(self.at(now), now, rate)
+        return Charge(self.at(now), now, rate, self.taper)
 
 
 class KnownState:
     """The state of one drone, as it was told last: the drone's `Telemetry`."""
 
-    __slots__ = ("_charge", "_clock", "_leg", "landed")
+    __slots__ = ("_charge", "_clock", "_leg", "_motion", "landed")
 
     silence = 0.0
 
-    def __init__(self, clock: Clock, home: Point) -> None:
-        self._clock = clock
+    def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
+        self._clock, self._motion = clock, motion
         self._leg, self._charge = resting(home, 0.0), Charge(0.0, 0.0)
         self.landed = True
         """Whether it stands on the ground."""
@@ -99,12 +107,12 @@ class KnownState:
         now = self._clock.now
         match told:
             case {"leg": [start, end, leaves, arrives]}:
-                self._leg = Leg(_point(start), _point(end), leaves, arrives)
+                self._leg = Leg(_point(start), _point(end), leaves, arrives, self._motion.smooth)
             case {"at": place}:
                 self._leg = resting(_point(place), now)
         match told:
             case {"battery": [level, since, rate]}:
-                self._charge = Charge(level, since, rate)
+                self._charge = Charge(level, since, rate, self._motion.taper)
             case {"battery": level}:
                 self._charge = Charge(level, now)
         self.landed = told.get("landed", self.landed)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
 from dataclasses import fields as dataclass_fields
 from math import isfinite
 from typing import TYPE_CHECKING, Any
@@ -200,6 +201,7 @@ def fleet_data(fleet: FleetData) -> Data:
         "drones": drones,
         "after_trip": fleet.after_trip.value,
         "max_airborne": fleet.max_airborne,
+        "motion": asdict(fleet.motion),
     }
 
 

@@ -6,16 +6,17 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
-from math import ceil, dist, sqrt
+from math import ceil, dist
 from typing import TYPE_CHECKING
 
-from ...shared.fleet.reach import CLIMB_SPEED
+from ...shared.domain.motion import MOST, PEAK, PUSH, SHORTEST, smoothly
 from .legs import between
 from .reservations import Box, box_of, part_way
 from .ways import Section
 
 if TYPE_CHECKING:
     from ...shared.domain.model import Point
+    from ...shared.domain.motion import Motion
 
 
 PIECE, SHORT = 0.5, 0.2
@@ -23,23 +24,14 @@ PIECE, SHORT = 0.5, 0.2
 real drones land they are shorter."""
 _BESIDE = 3.0
 """Seconds that a drone prefers to wait rather than land beside its place."""
-_AT_LEAST = 1.0
-"""Seconds that a leg takes from rest to rest, however short."""
-_PUSH, _MOST = 7.52, 4.0
-"""On such a leg: the peak acceleration over distance and squared time; metres per second squared
-that it usually may be. Speeds are mean ones already: see `files.real`."""
 _BLURRED = 0.05
 """The accuracy of a drone's position, in metres."""
-_NOTICED = 0.15
-"""Seconds until a real drone's leg is known to be over."""
-_CLIMBS = 0.27
-"""Metres a second that a real drone makes up and down, on average: its limit is a peak speed."""
 _RESTS = 30
 """The approximate maximum number of resting places on a course."""
 _LOWEST = 0.3
 """Metres of height below which no drone rests on the way."""
-_SMOOTHLY = [s**4 * (35 - 84 * s + 70 * s**2 - 20 * s**3) for s in (n / 100 for n in range(101))]
-"""The share of a leg that a real drone has flown after each hundredth of its time."""
+_SMOOTHLY = [smoothly(n / 100) for n in range(101)]
+"""The share of a smooth leg that a drone has flown after each hundredth of its time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +67,7 @@ class Course:
     legs: tuple[Leg, ...]
     """The first is no leg, but the start."""
     speed: float
-    from_rest: bool
-    """Each leg begins and ends at rest, as those of real drones do."""
+    motion: Motion
     seconds: float = field(init=False)
     """Its duration without rests."""
     cost: float = field(init=False)
@@ -102,8 +93,9 @@ class Course:
         end = len(self.pieces) - 1
         yield from (0, end)
         hop = max(PIECE, sum(dist(leg.start, leg.end) for leg in self.legs) / _RESTS)
-        if self.from_rest:  # on a shorter one it is not the speed that counts
-            hop = max(hop, _AT_LEAST * self.speed, _PUSH / _MOST * self.speed**2)
+        if self.motion.smooth:  # on a shorter one it is not the speed that counts
+            mean = self.speed / PEAK
+            hop = max(hop, SHORTEST * mean, PUSH / MOST * mean**2)
         for leg in self.legs[1:]:
             count = leg.last - leg.first
             if self.section.lands and leg.last > end:
@@ -138,7 +130,7 @@ class Course:
         return times
 
     def _worked_out(self, first: int, last: int) -> Iterator[float]:
-        now, end = 0.0, len(self.pieces) - 1
+        now, end, motion = 0.0, len(self.pieces) - 1, self.motion
         for leg in self.legs[1:]:
             begins, ends = max(leg.first, first + 1), min(leg.last - 1, last)
             if begins > ends:
@@ -146,20 +138,18 @@ class Course:
             metres = leg.piece * (ends - begins + 1)
             rises = self.section.stands and first == 0 and leg.first == 1
             sinks = self.section.lands and last == end and leg.last > end
-            lasts = seconds(metres, self._climbs if rises or sinks else self.speed, self.from_rest)
+            flies = motion.climb if rises else motion.sink if sinks else motion.leg
+            lasts = flies(metres, self.speed)
+            now += motion.take_off if rises else 0.0
             for part in range(ends - begins + 1):
                 yield now + lasts * self._share(part * leg.piece + _BLURRED, metres)
-            now += lasts + (_NOTICED if self.from_rest else 0.0)
+            now += lasts + motion.settles
         yield now
-
-    @property
-    def _climbs(self) -> float:
-        return min(_CLIMBS, self.speed) if self.from_rest else CLIMB_SPEED
 
     def _share(self, metres: float, of: float) -> float:
         """Return the share of a leg's time after which a drone has flown this share of it."""
         part = min(1.0, metres / of) if of else 1.0
-        return bisect_left(_SMOOTHLY, part) / 100 if self.from_rest else part
+        return bisect_left(_SMOOTHLY, part) / 100 if self.motion.smooth else part
 
     def piece_at(self, place: Point, first: int, last: int) -> int:
         """Return the piece in which a drone is; the first, if it may be in two."""
@@ -185,25 +175,18 @@ class Course:
         )
 
 
-def course(section: Section, speed: float, from_rest: bool) -> Course:
-    """Cut a section into pieces; `from_rest`: each leg begins and ends at rest, as real ones do."""
+def course(section: Section, speed: float, motion: Motion) -> Course:
+    """Cut a section into pieces, for a drone that moves so."""
     first = section.points[0]
     pieces, legs = [Piece(first, first)], [Leg(0, 1, first, first, (*first, *first))]
     last = len(section.points) - 2
     for number, (a, b) in enumerate(pairwise(section.points)):
-        metres = SHORT if from_rest and number == last and section.lands else PIECE
+        metres = SHORT if motion.smooth and number == last and section.lands else PIECE
         count = max(1, ceil(dist(a, b) / metres - 1e-9))
         legs.append(Leg(len(pieces), len(pieces) + count, a, b, box_of((a, b))))
         ends = [a, *(part_way(a, b, part / count) for part in range(1, count)), b]
         pieces += [Piece(start, end) for start, end in pairwise(ends)]
-    return Course(section, tuple(pieces), tuple(legs), speed, from_rest)
-
-
-def seconds(length: float, speed: float, from_rest: bool) -> float:
-    """Return how long a leg lasts."""
-    if not from_rest:
-        return length / speed
-    return max(_AT_LEAST, length / speed, sqrt(_PUSH * length / _MOST))
+    return Course(section, tuple(pieces), tuple(legs), speed, motion)
 
 
 Near = tuple[int, int, int]

@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from ...shared.fleet.reach import CLIMB_SPEED
+from ...shared.domain.motion import CLIMB_SPEED
 from ...shared.time.future import Future
 from .reservations import Reservation, meets, part_way
 from .ways import Section
@@ -31,7 +31,7 @@ class Obstacle:
 
     def __init__(self, claim: Reservation, category: Category, is_real: bool) -> None:
         self.claim = claim
-        self._cruise = category.top_speed or category.speed
+        self._cruise = category.speed
         self._upright = max(self._cruise, CLIMB_SPEED) if is_real else CLIMB_SPEED
         """Its maximum vertical speed; for simulated drones the exact one."""
         self._points: tuple[Point, ...] = ()

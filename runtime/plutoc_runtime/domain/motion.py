@@ -1,0 +1,160 @@
+"""How drones move and charge: one model for simulations, plans and checks, in closed formulas.
+
+A Crazyflie flies each leg on a polynomial of the 7th order that begins and ends at rest (Bitcraze,
+high-level commander): its peak speed is 35/16 of its mean one. Seconds, metres, shares of a battery.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import sqrt
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+CLIMB_SPEED = 0.3
+"""Metres a second, straight up and straight down; on smooth legs that is about the mean."""
+PEAK = 2.19
+"""Peak speed over mean speed of a smooth leg."""
+PUSH, MOST = 7.52, 4.0
+"""Peak acceleration of a smooth leg over distance and squared time; its limit in m/s²."""
+SHORTEST = 1.0
+"""Seconds of the shortest smooth leg: three metres in half a second have flipped a drone."""
+SINKS = 0.5
+"""The share of its limit up to which a drone follows a landing closely enough to touch down."""
+SLACK = 0.15
+"""Metres of a real drone's position error: drones are kept apart by this much more."""
+_TAIL = 3.0
+"""Standard deviations within which all durations lie."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Motion:
+    """How the drones of a fleet move, beside the speed of their category."""
+
+    legs: str = "straight"
+    """`smooth`: the category's speed is the peak of each leg, and each climb peaks at 0.6 m/s."""
+    limit: float = 100.0
+    """Metres per second that the position controller follows."""
+    take_off: float = 0.0
+    """Seconds from the command until it leaves the ground."""
+    settles: float = 0.0
+    """Seconds after each leg in the air until it hovers at rest."""
+    landing: float = 0.0
+    """Seconds from the touch-down until it counts as landed."""
+    pace: float = 1.0
+    """The factor of all durations of legs."""
+    spread: float = 0.0
+    """The standard deviation of what a leg takes, as a share of it."""
+    action_spread: float = 0.0
+    """The same of what an action takes."""
+    drain: float = 1.0
+    """The battery that a second in the air takes, times the category's flight time."""
+    taper: float = 0.0
+    """The last share of a battery, which charges ever more slowly."""
+    slack: float = 0.0
+    """Metres that a drone is off its way at most."""
+
+    @property
+    def smooth(self) -> bool:
+        """Whether each leg begins and ends at rest."""
+        return self.legs == "smooth"
+
+    @property
+    def exact(self) -> Motion:
+        """The same without its spread."""
+        return replace(self, spread=0.0, action_spread=0.0)
+
+    def rises(self, metres: float, speed: float) -> float:
+        """Return the seconds of a take-off, from the command until it hovers."""
+        return self.take_off + self.climb(metres, speed) + self.settles
+
+    def flies(self, metres: float, speed: float) -> float:
+        """Return the seconds of a leg, until it hovers at its end."""
+        return self.leg(metres, speed) + self.settles
+
+    def lands(self, metres: float, speed: float) -> float:
+        """Return the seconds of a landing, until it counts as landed."""
+        return self.sink(metres, speed) + self.landing
+
+    def leg(self, metres: float, speed: float) -> float:
+        """Return the seconds of a leg at a category's speed, until its end."""
+        if not self.smooth:
+            return self.pace * metres / speed
+        followed = PEAK * metres / min(speed, self.limit)
+        return self.pace * max(SHORTEST, followed, sqrt(PUSH * metres / MOST))
+
+    def climb(self, metres: float, speed: float) -> float:
+        """Return the seconds straight up."""
+        return self.leg(metres, min(speed, 2 * CLIMB_SPEED) if self.smooth else CLIMB_SPEED)
+
+    def sink(self, metres: float, speed: float) -> float:
+        """Return the seconds straight down, to the ground."""
+        return self.climb(metres, min(speed, SINKS * self.limit))
+
+
+def spread_of(seed: int, drone: str) -> Random:
+    """Return what a drone's durations are drawn from: the same in every run of a seed."""
+    return Random(f"{seed}/{drone}/motion")
+
+
+def varied(chance: Random, spread: float) -> float:
+    """Return the factor by which one duration differs from the expected one."""
+    return 1.0 + spread * max(-_TAIL, min(_TAIL, chance.gauss(0.0, 1.0))) if spread else 1.0
+
+
+def smoothly(part: float) -> float:
+    """Return the share of a smooth leg that is flown after this share of its time."""
+    return part**4 * (35 - 84 * part + 70 * part**2 - 20 * part**3)
+
+
+def charged(level: float, seconds: float, full: float, taper: float) -> float:
+    """Return the level after charging for a time; `full`: the seconds from empty to full."""
+    now = _progress(level, full, taper) + seconds
+    tail = full - _slows(full, taper)
+    if now <= full - tail:
+        return now * (1 + taper) / full
+    return 1.0 - taper * (max(0.0, full - now) / tail) ** 2
+
+
+def charging(level: float, target: float, full: float, taper: float) -> float:
+    """Return the seconds that it takes to charge from one level to another."""
+    if not taper:
+        return (target - level) * full
+    return _progress(target, full, taper) - _progress(level, full, taper)
+
+
+def _slows(full: float, taper: float) -> float:
+    """Return the seconds after which a charge from empty slows down."""
+    return full * (1 - taper) / (1 + taper)
+
+
+def _progress(level: float, full: float, taper: float) -> float:
+    """Return the seconds from empty to a level."""
+    if level <= 1 - taper:
+        return level * full / (1 + taper)
+    return full - (full - _slows(full, taper)) * sqrt(max(0.0, 1 - level) / taper)
+
+
+STRAIGHT = Motion()
+"""Straight legs at the category's speed, that take nothing beside."""
+
+CRAZYFLIE = Motion(
+    legs="smooth",
+    limit=1.0,
+    take_off=0.3,
+    settles=0.15,
+    landing=2.1,
+    spread=0.01,
+    action_spread=0.03,
+    taper=0.2,
+    slack=SLACK,
+)
+"""A Crazyflie by its firmware's limits; the durations were measured (docs/motion.md)."""
+
+
+def motion_of(given: Mapping[str, Any]) -> Motion:
+    """Return what the `[motion]` of a fleet file says; what it does not say is a Crazyflie's."""
+    return replace(STRAIGHT if given.get("legs") == "straight" else CRAZYFLIE, **given)
