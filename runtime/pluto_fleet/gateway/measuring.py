@@ -83,7 +83,7 @@ class MeasuringControls(ForwardingControls):
                     "what": what,
                     "from": list(start),
                     "to": list(to),
-                    "speed": category.top_speed or category.speed,
+                    "speed": category.speed,
                     "seconds": round(self._kernel.now - begun, 4),
                     "battery": [round(level, 5), round(telemetry.battery_level, 5)],
                     "ended": ended,
