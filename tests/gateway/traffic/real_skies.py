@@ -56,7 +56,7 @@ class RealNavigation(SimulatedNavigation):
 
     def __init__(self, kernel: Kernel, drones: list[SimulatedDrone], airspace: Airspace) -> None:
         super().__init__(kernel, drones, World(1, airspace), Faults(), 1, airspace)
-        self.bodies = {drone.id: RealBody(drone, kernel.time) for drone in drones}
+        self.telemetry = self.bodies = {drone.id: RealBody(drone, kernel.time) for drone in drones}
         self.landings: dict[str, float] = {}
         """When each one's motors were off."""
 
