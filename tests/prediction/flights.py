@@ -45,11 +45,14 @@ def fly(plan: Plan, source: Path, folder: Path) -> Flown:
     levels = [event["battery"] for event in events if isinstance(event.get("battery"), float)]
     kinds = [event["event"] for event in events]
     ends = [event["t"] for event in events if event["event"] == "mission.ended"]
+    began = next((event["t"] for event in events if event["event"] == "brain.began"), None)
+    if began is None:
+        raise AssertionError(f"it was not flown:\n{flight.told}")
     return Flown(
         plan=plan.name,
         code=code,
-        makespan=max(ends, default=0.0),
-        began=next(event["t"] for event in events if event["event"] == "brain.began"),
+        makespan=max(ends, default=began) - began,
+        began=began,
         battery=min(levels, default=1.0),
         flights=kinds.count("trip.launched"),
         failed=kinds.count("trip.failed"),
