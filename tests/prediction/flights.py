@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from subprocess import CompletedProcess
 
 from tests.flights_crazyflie.flight import Flight
 from tests.prediction.plans import Plan
@@ -20,6 +19,8 @@ def promise(plan: Plan, source: Path, folder: Path, seeds: int) -> Promise:
     flight = prepared(plan, source, folder)
     runs = json.loads(_said(flight, "simulate", "--runs", str(seeds), "--json"))["summary"]
     makespan, battery = runs["makespan_s"], runs["battery_level"]
+    if makespan is None:
+        raise AssertionError("no simulation has completed it")
     return Promise(
         plan=plan.name,
         drones=plan.drones,
@@ -67,12 +68,10 @@ def prepared(plan: Plan, source: Path, folder: Path) -> Flight:
 
 
 def _said(flight: Flight, command: str, *flags: str) -> str:
-    """Return what a command says about the plan."""
-    done: CompletedProcess[str] = flight.run(command, *flight.files, *flags)
-    if done.returncode != 0:
-        raise AssertionError(
-            f"{command} of {flight.folder} ended with {done.returncode}:\n{done.stderr}"
-        )
+    """Return what a command says about the plan, of which a mission may fail."""
+    done = flight.run(command, *flight.files, *flags)
+    if done.returncode not in (0, 1):
+        raise AssertionError(f"{command} ended with {done.returncode}:\n{done.stderr}")
     return done.stdout
 
 
