@@ -19,7 +19,6 @@ from ..shared.alone.faults import (
 )
 from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.domain.motion import varied
 from ..shared.domain.text import place
 from ..shared.fleet.reach import grip_problem
 from ..shared.time.future import Future
@@ -167,7 +166,7 @@ class SimulatedNavigation:
             raise FlightFailed(Failure.REFUSED, f"{drone} has no action {action}")
         problem = grip_problem(drone, body.drone.category, body.carries, action, item)
         if problem is None:
-            seconds = BUILT_IN[action].seconds * varied(body.chance, body.model.action_spread)
+            seconds = BUILT_IN[action].seconds * body.spread.factor(body.model.action_spread)
             await self._pass(body, seconds, f"to {action}")
             problem = f"{drone} could not do it" if body.fails_to_act else None
         if problem is not None:
@@ -268,7 +267,7 @@ class SimulatedNavigation:
     ) -> float:
         """Move: for some seconds not yet, then on its way, and then at rest."""
         before, seconds, after = times
-        factor = varied(body.chance, body.model.spread)
+        factor = body.spread.factor(body.model.spread)
         now = self._kernel.now
         leaves = now + factor * before
         body.move(target, now, leaves, leaves + factor * seconds)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.actions import BUILT_IN, PICK, RELEASE
 from ..domain.airspace import permitted_way
 from ..domain.errors import Failure, FlightFailed
-from ..domain.motion import CLIMB_SPEED, spread_of, varied
+from ..domain.motion import CLIMB_SPEED, Spread
 from ..fleet.reach import docked, flight_seconds, grip_problem
 from ..fleet.telemetry import Charge, Leg, place_on, resting
 from ..hooks.plain_data import item_of, point_of, value_data
@@ -37,7 +37,7 @@ class IdealDrone:
 
     def __init__(self, entry: DroneData, category: Category, clock: Clock, seed: int) -> None:
         self.id, self.home, self.category, self._clock = entry.id, entry.home, category, clock
-        self.motion, self.chance = category.motion, spread_of(seed, entry.id)
+        self.motion, self.spread = category.motion, Spread(seed, entry.id)
         self.down: FlightFailed | None = None
         """The failure for which it takes no commands, if any."""
         self.reachable_at = 0.0  # where its link is lost: not before it has landed
@@ -47,6 +47,8 @@ class IdealDrone:
         self.work: Work
         self.order, self.wakes = 0, inf
         """The order that it carries out, by its `work`, and until when it waits."""
+        self.draws: list[tuple[float, float]] = []
+        """For each leg of its way when it begins, and what was drawn for it."""
         self.landed = self.changed = True
         self.due = inf
         self._what: Failure | None = None
@@ -110,6 +112,8 @@ class IdealDrone:
     def turn(self, legs: list[Leg], now: float) -> None:
         """Fly other legs from now on."""
         self._flown = self._metres(now)
+        self.spread.put_back([drawn for begins, drawn in self.draws if begins > now])
+        self.draws = []
         self._legs, self.changed = legs, True
         self._look_ahead()
 
@@ -224,8 +228,8 @@ class IdealDrones:
             return None
         why = grip_problem(drone.id, drone.category, drone.carries, action, item)
         if why is None:
-            chance, spread = drone.chance, drone.motion.action_spread
-            yield from self._pass(drone, BUILT_IN[action].seconds * varied(chance, spread))
+            factor = drone.spread.factor(drone.motion.action_spread)
+            yield from self._pass(drone, BUILT_IN[action].seconds * factor)
             why = f"{drone.id} could not do it" if drone.drawn.action else None
         if why is not None:
             raise failed(f"{action} failed", why, drone.location)
@@ -304,11 +308,14 @@ class IdealDrones:
             drone.location,
             self._clock.now,
         )
-        began, legs = now, list[Leg]()
+        began, legs, draws = now, list[Leg](), list[tuple[float, float]]()
 
         def fly(target: Point, before: float, seconds: float, after: float) -> None:
             nonlocal here, now
-            factor = varied(drone.chance, motion.spread)
+            factor = 1.0
+            if motion.spread:
+                draws.append((now, drone.spread.draw()))
+                factor += motion.spread * draws[-1][1]
             leaves = now + factor * before
             arrives = leaves + factor * seconds
             legs.append(Leg(here, target, leaves, arrives, motion.smooth))
@@ -324,6 +331,7 @@ class IdealDrones:
             fly((*here[:2], 0.0), 0.0, motion.sink(here[2], speed), motion.landing)
         if legs:
             drone.turn(legs, began)
+            drone.draws = draws
             yield from self._wait(min(now, drone.due))
             drone.check()
         if lands:

@@ -12,7 +12,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
 CLIMB_SPEED = 0.3
 """Metres a second, straight up and straight down; on smooth legs that is about the mean."""
@@ -95,14 +95,25 @@ class Motion:
         return self.climb(metres, min(speed, SINKS * self.limit))
 
 
-def spread_of(seed: int, drone: str) -> Random:
-    """Return what a drone's durations are drawn from: the same in every run of a seed."""
-    return Random(f"{seed}/{drone}/motion")
+class Spread:
+    """What one drone's durations are drawn from: the same in every run of a seed."""
 
+    def __init__(self, seed: int, drone: str) -> None:
+        self._random, self._put_back = Random(f"{seed}/{drone}/motion"), list[float]()
 
-def varied(chance: Random, spread: float) -> float:
-    """Return the factor by which one duration differs from the expected one."""
-    return 1.0 + spread * max(-_TAIL, min(_TAIL, chance.gauss(0.0, 1.0))) if spread else 1.0
+    def draw(self) -> float:
+        """Return how many standard deviations the next duration differs from the expected one."""
+        if self._put_back:
+            return self._put_back.pop()
+        return max(-_TAIL, min(_TAIL, self._random.gauss(0.0, 1.0)))
+
+    def put_back(self, drawn: Sequence[float]) -> None:
+        """Draw these again, in their order: what they were drawn for did not begin."""
+        self._put_back += reversed(drawn)
+
+    def factor(self, spread: float) -> float:
+        """Return by which factor the next duration differs from the expected one."""
+        return 1.0 + spread * self.draw() if spread else 1.0
 
 
 def smoothly(part: float) -> float:
