@@ -72,11 +72,13 @@ class Executor:
     # Jobs
 
     def fly(self, job: Job, report: Callable[[object], object]) -> None:
-        """Take off, fly to the job's stops and do its action; then report."""
+        """Take off, fly to the job's stops and do its action; then report.
+
+        Of jobs that are given at one instant the first goes first, as those of a brain elsewhere do,
+        which come one by one.
+        """
         name = f"{job.drone} flies {job.id}"
-        self._jobs[job.drone] = self._kernel.spawn(
-            self._done(job, report), self._key(job.drone), name
-        )
+        self._jobs[job.drone] = self._kernel.spawn(self._done(job, report), FLEET, name)
 
     async def _done(self, job: Job, report: Callable[[object], object]) -> None:
         try:
