@@ -11,7 +11,7 @@ from ..shared.domain.text import counted, number
 
 if TYPE_CHECKING:
     from .commands import Flights
-    from .fit import Calibration, Found
+    from .found import Calibration, Found
 
 IN_SECONDS = ("settles", "take_off", "landing")
 NAMES = (
@@ -95,6 +95,12 @@ def written(name: str, value: float, digits: int | None = None) -> str:
     """Return a value as a fleet file has it, with its unit."""
     amount, unit = (value, "s") if name in IN_SECONDS else (100 * value, "%")
     return f"{number(amount) if digits is None else f'{amount:.{digits}f}'} {unit}"
+
+
+def in_file(name: str, found: Found) -> str:
+    """Return a value that was found as it is put into a fleet file."""
+    factor = 1 if name in IN_SECONDS else 100
+    return written(name, round(factor * found.value, digits_of(name, found)) / factor)
 
 
 def as_data(what: Calibration, journals: Sequence[Flights]) -> dict[str, Any]:
