@@ -70,11 +70,14 @@ def _counts(what: Calibration, journals: Sequence[Flights]) -> str:
 def _row(what: Calibration, name: str, found: Found) -> tuple[str, ...]:
     digits = digits_of(name, found)
     low, high = (written(name, end, digits) for end in (found.low, found.high))
+    error = written(name, found.estimate.error, digits)
+    if not any(digit in error for digit in "123456789"):
+        error = f"< {error.replace('0.000', '0.001')}"
     return (
         name,
         written(name, said(what, name)),
         written(name, found.value, digits),
-        written(name, found.estimate.error, digits),
+        error,
         f"{low.removesuffix(' %').removesuffix(' s')} … {high}",
         counted(found.count, found.of),
     )
