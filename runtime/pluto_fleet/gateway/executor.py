@@ -9,7 +9,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..jobs.job import motors_cut
-from ..shared.domain.airspace import permitted_way
 from ..shared.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from ..shared.fleet.reach import docked, flight_seconds
 from ..shared.time.kernel import FLEET, Kernel, Task
@@ -325,7 +324,7 @@ class Executor:
         """To all stops, and hover at the last."""
         points, stands = self._start(drone, self._airspace.cruise_height)
         for stop in stops:
-            points += permitted_way(self._airspace, drone, points[-1], stop)
+            points += way_from(self._airspace, drone, points[-1], stop)
         return Section(drone, tuple(points), stands, False)
 
     def _up(self, drone: str, height: float) -> Section:
@@ -361,7 +360,7 @@ class Executor:
         x, y, _ = self._drones[drone].home
         points, stands = self._start(drone, self._airspace.cruise_height)
         above = (x, y, points[-1][2])
-        points += permitted_way(self._airspace, drone, points[-1], above)
+        points += way_from(self._airspace, drone, points[-1], above)
         return Section(drone, tuple(points), stands, False, self._tail(drone, above))
 
     def _start(self, drone: str, height: float) -> tuple[list[Point], bool]:
