@@ -27,8 +27,8 @@ from ..trials.invariants import ENDS, Invariants, items_of
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..flight.outcome import SimulationResult
     from ..report.progress import Progress
-    from ..shared.alone.simulate import SimulationResult
     from ..trials.invariants import Items
     from .options import Options
     from .plans import LoadedPlan
