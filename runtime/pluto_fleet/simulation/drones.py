@@ -12,8 +12,8 @@ from ..jobs.job import motors_cut
 from ..shared.alone.faults import (
     CARRYING_HOME,
     OUTAGE,
+    Drawn,
     Faults,
-    Order,
     draw,
     failed,
 )
@@ -127,8 +127,8 @@ class SimulatedNavigation:
         """Begin a flight: draw its faults."""
         body, now = self.bodies[drone], self._kernel.now
         body.check(now)
-        order = None if job is None else Order(id=job.id, seconds=seconds)
-        body.begin(draw(self._faults, self._seed, order), now)
+        drawn = Drawn() if job is None else draw(self._faults, self._seed, job.id, seconds)
+        body.begin(drawn, now)
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Take off to a height; one that flies stays where it is."""

@@ -17,7 +17,7 @@ from ..domain.motion import CLIMB_SPEED, spread_of, varied
 from ..fleet.reach import docked, flight_seconds, grip_problem
 from ..fleet.telemetry import Charge, Leg, resting
 from ..hooks.plain_data import item_of, point_of, value_data
-from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
+from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, befell, draw, failed
 from .world import World
 
 if TYPE_CHECKING:
@@ -202,7 +202,7 @@ class IdealDrones:
         for stop in stops:
             way += permitted_way(airspace, drone.id, way[-1], stop)
         seconds = flight_seconds(drone.category, airspace, start, stops, order["seconds"])
-        drone.begin(draw(*self._chance, Order(id=order["flight"], seconds=seconds)))
+        drone.begin(draw(*self._chance, order["flight"], seconds))
         yield from self._follow(drone, way)
         action, item = order["action"], item_of(order["item"])
         if action is None:
