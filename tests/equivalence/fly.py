@@ -73,7 +73,6 @@ class Told(NamedTuple):
     location: Point
     battery_level: float
     landed: bool
-    silence: float = 0.0
 
 
 def alone(

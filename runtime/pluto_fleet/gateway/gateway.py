@@ -24,8 +24,9 @@ from .traffic.traffic import Traffic
 if TYPE_CHECKING:
     from ..jobs.controls import Controls
     from ..jobs.job import Job, Report
+    from ..jobs.telemetry import Telemetry
     from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Point, Telemetry
+    from ..shared.domain.model import Point
     from .ledger import Ledger
 
 

@@ -9,8 +9,9 @@ from ..shared.domain.errors import Failure, FlightFailed
 
 if TYPE_CHECKING:
     from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point, Telemetry
+    from ..shared.domain.model import Item, Point
     from .reports import Down, DroneReport, FleetReport
+    from .telemetry import Telemetry
 
 
 Report = Callable[[object], object]

@@ -29,9 +29,10 @@ from .body import Body, SimulatedDrone
 if TYPE_CHECKING:
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
+    from ..jobs.telemetry import Telemetry
     from ..shared.alone.world import World
     from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Item, Point, Telemetry
+    from ..shared.domain.model import Item, Point
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 

@@ -99,7 +99,6 @@ class DroneState(NamedTuple):
     location: Point
     battery_level: float
     landed: bool = False
-    silence: float = 0.0
 
 
 class KitContext(Context):

@@ -91,10 +91,6 @@ class Telemetry(Protocol):
     def landed(self) -> bool:
         """Whether it stands on the ground or in its dock."""
 
-    @property
-    def silence(self) -> float:
-        """Seconds since its last message; infinite: it has sent none."""
-
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Drone:

@@ -82,8 +82,6 @@ class KnownState:
 
     __slots__ = ("_charge", "_clock", "_leg", "_motion", "landed")
 
-    silence = 0.0
-
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
         self._clock, self._motion = clock, motion
         self._leg, self._charge = resting(home, 0.0), Charge(0.0, 0.0)
