@@ -47,9 +47,8 @@ class IdealDrone:
         """The order that it carries out, by its `work`, and until when it waits."""
         self.landed = self._changed = True
         self._began = self._flown = 0.0
-        self._charge, self._leg = Charge(1.0, clock.now, taper=self.motion.taper), resting(
-            entry.home, clock.now
-        )
+        self._charge = Charge(1.0, clock.now, taper=self.motion.taper)
+        self._leg = resting(entry.home, clock.now)
         self.touch_down(clock.now)
 
     @property
@@ -240,10 +239,9 @@ class IdealDrones:
     def _home(self, drone: IdealDrone, _: object) -> Work:
         """Take off, if it stands, and fly to its dock."""
         drone.begin(Drawn())
-        yield from self._follow(drone, [(*drone.location[:2], self._airspace.cruise_height)])
-        here = drone.location
-        for point in permitted_way(self._airspace, drone.id, here, (*drone.home[:2], here[2])):
-            yield from self._leg(drone, point)
+        start = self._above(drone)
+        way = permitted_way(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
+        yield from self._follow(drone, [start, *way])
         yield from self._land(drone)
 
     def _land(self, drone: IdealDrone, _: object = None) -> Work:
@@ -264,7 +262,9 @@ class IdealDrones:
         if drone.failure() is Failure.LINK:
             drone.down = None  # the link is back
         try:
-            yield from self._fly_home(drone)
+            drone.begin(Drawn())
+            if not (drone.landed and docked(drone.location, drone.home)):
+                yield from self._home(drone, None)
         except FlightFailed:  # someone carries it into its dock, and restarts it
             yield from self._wait(self._clock.now + CARRYING_HOME)
             drone.down, drone.settings = None, {}
@@ -273,30 +273,20 @@ class IdealDrones:
         drone.carries = None
         return True
 
-    def _fly_home(self, drone: IdealDrone) -> Work:
-        drone.begin(Drawn())
-        if not (drone.landed and docked(drone.location, drone.home)):
-            start = self._above(drone)
-            way = permitted_way(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
-            yield from self._follow(drone, [start, *way])
-            yield from self._land(drone)
-
     def _above(self, drone: IdealDrone) -> Point:
         x, y, z = drone.location
         return x, y, self._airspace.cruise_height if drone.landed else z
 
     def _follow(self, drone: IdealDrone, way: Sequence[Point]) -> Work:
         """Fly a route whose first point is above the drone's place on the ground, or where it hovers."""
+        motion, speed = drone.motion, drone.category.speed
         if drone.landed:
             drone.lift_off()
-            motion, up = drone.motion, drone.motion.climb(way[0][2], drone.category.speed)
+            up = motion.climb(way[0][2], speed)
             yield from self._move(drone, way[0], motion.take_off, up, motion.settles)
         for point in way[1:]:
-            yield from self._leg(drone, point)
-
-    def _leg(self, drone: IdealDrone, target: Point) -> Work:
-        seconds = drone.motion.leg(dist(drone.location, target), drone.category.speed)
-        yield from self._move(drone, target, 0.0, seconds, drone.motion.settles)
+            seconds = motion.leg(dist(drone.location, point), speed)
+            yield from self._move(drone, point, 0.0, seconds, motion.settles)
 
     def _move(
         self, drone: IdealDrone, target: Point, before: float, seconds: float, after: float
