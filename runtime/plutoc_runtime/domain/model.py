@@ -256,8 +256,3 @@ class ResultStore:
         self.results.append(Result(mission, trip, round_, attempt, value))
         self.before.append(mission.last_result)
         return len(self.results) - 1
-
-    @property
-    def newest(self) -> object:
-        """The value of the latest result."""
-        return self.results[-1].value

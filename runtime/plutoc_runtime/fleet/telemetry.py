@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.motion import charged, smoothly
+from ..hooks.plain_data import point_of
 
 if TYPE_CHECKING:
     from ..domain.model import Point
@@ -105,17 +106,12 @@ class KnownState:
         now = self._clock.now
         match told:
             case {"leg": [start, end, leaves, arrives]}:
-                self._leg = Leg(_point(start), _point(end), leaves, arrives, self._motion.smooth)
+                self._leg = Leg(point_of(start), point_of(end), leaves, arrives, self._motion.smooth)
             case {"at": place}:
-                self._leg = resting(_point(place), now)
+                self._leg = resting(point_of(place), now)
         match told:
             case {"battery": [level, since, rate]}:
                 self._charge = Charge(level, since, rate, self._motion.taper)
             case {"battery": level}:
                 self._charge = Charge(level, now)
         self.landed = told.get("landed", self.landed)
-
-
-def _point(told: Sequence[float]) -> Point:
-    x, y, z = told
-    return x, y, z

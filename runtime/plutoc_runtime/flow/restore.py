@@ -6,9 +6,9 @@ Each mission stands as its record says, and the flights with it, with what is re
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.fields import Entity
 from ..domain.status import RUNNING, STANDBY, UNEXECUTED, Status
@@ -54,8 +54,25 @@ class Recording:
     def hear(self, event: Event) -> None:
         """Keep an event, with what is added to it."""
         self._said += 1
-        add = _ADDED.get(str(event["event"]))
-        self._events.append(event if add is None else {**event, **add(self, event)})
+        added = self._added(event)
+        self._events.append({**event, **added} if added else event)
+
+    def _added(self, event: Event) -> Data:
+        """Return what is added to an event that has just happened."""
+        match event["event"]:
+            case "mission.created":
+                return {"plan": mission_data(self._app, self._mission(event))}
+            case "trip.completed":
+                return {"result": value_data(self._results.results[-1].value)}
+            case "trip.reset":
+                return {"fields": fields_of(self._app, Entity.TRIP, self._mission(event).current)}
+            case "mission.extended":
+                names, trips = cast("list[str]", event["add"]), self._mission(event).trips
+                return {"trips": [trip_data(self._app, trip) for trip in trips if trip.name in names]}
+        return {}
+
+    def _mission(self, event: Event) -> Mission[Any]:
+        return self._states[str(event["mission"])].mission
 
     async def on_record(self) -> None:
         """Wait until everything up to now is durable."""
@@ -69,31 +86,6 @@ class Recording:
         self._durable = max(self._durable, message["durable"])
         while self._waiting and self._waiting[0][0] <= self._durable:
             self._waiting.popleft()[1].set(None)
-
-    def _mission(self, event: Event) -> Mission[Any]:
-        return self._states[str(event["mission"])].mission
-
-    def _plan(self, event: Event) -> Data:
-        return {"plan": mission_data(self._app, self._mission(event))}
-
-    def _result(self, _: Event) -> Data:
-        return {"result": value_data(self._results.newest)}
-
-    def _fields(self, event: Event) -> Data:
-        return {"fields": fields_of(self._app, Entity.TRIP, self._mission(event).current)}
-
-    def _trips(self, event: Event) -> Data:
-        names, trips = event["add"], self._mission(event).trips
-        assert isinstance(names, list)
-        return {"trips": [trip_data(self._app, trip) for trip in trips if trip.name in names]}
-
-
-_ADDED: dict[str, Callable[[Recording, Event], Data]] = {
-    "mission.created": Recording._plan,
-    "trip.completed": Recording._result,
-    "trip.reset": Recording._fields,
-    "mission.extended": Recording._trips,
-}
 
 
 class Restorer:
