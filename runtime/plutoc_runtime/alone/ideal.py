@@ -130,7 +130,7 @@ class IdealDrone:
         if what is not None:
             self.down = befell(self.id, what, here)
         if what is Failure.LINK:
-            self.turn(Leg(here, (x, y, 0.0), when, when + z / CLIMB_SPEED))
+            self.turn(Leg(here, (x, y, 0.0), when, when + z / CLIMB_SPEED, self.motion.smooth))
             self.reachable_at = max(when + OUTAGE, self._leg.arrives)
             return
         self.touch_down(when)
