@@ -114,7 +114,7 @@ def track(airspace: Airspace, mission: Any, home: Point, faults: Faults, seed: i
         places.append(tuple(brain.drones()["cf1"]["at"]))
         now += 0.1
     assert brain.standing()["missions"]["a"]["status"] in ("COMPLETED", "FAILED")
-    flown.close()
+    flown.brain.close()
     return places
 
 

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from ..domain.model import Mission, Point, Trip
     from ..domain.values import Read
 
-
 LARGEST = 1 << 20
 """Bytes. A plan is written by people: anything larger is another file."""
 

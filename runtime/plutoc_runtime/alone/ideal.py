@@ -36,15 +36,13 @@ class IdealDrone:
     def __init__(self, entry: DroneData, category: Category, clock: Clock, seed: int) -> None:
         self.id, self.home, self.category, self._clock = entry.id, entry.home, category, clock
         self.motion, self.chance = category.motion, spread_of(seed, entry.id)
-        self.down: FlightFailed | None = None
-        """The failure for which it takes no commands, if any."""
+        self.down: FlightFailed | None = None  # why it takes no commands, if it takes none
         self.reachable_at = 0.0  # where its link is lost: not before it has landed
         self.carries: Item | None = None
         self.settings: dict[str, float] = {}
         self.drawn = Drawn()
         self.work: Work
-        self.order, self.wakes = 0, inf
-        """The order that it carries out, by its `work`, and until when it waits."""
+        self.order, self.wakes = 0, inf  # what `work` carries out, and until when it waits
         self.landed = self._changed = True
         self._began = self._flown = 0.0
         self._charge = Charge(1.0, clock.now, taper=self.motion.taper)
@@ -166,8 +164,7 @@ class IdealDrones:
 
     def news(self) -> dict[str, Any]:
         """Return the telemetry of the drones whose motion has changed since the last call."""
-        news = {drone.id: drone.news() for drone in self.drones.values()}
-        return {drone: motion for drone, motion in news.items() if motion}
+        return {one.id: news for one in self.drones.values() if (news := one.news())}
 
     def obey(self, order: Mapping[str, Any]) -> None:
         """Begin what is ordered."""
@@ -185,12 +182,13 @@ class IdealDrones:
     def _go_on(self, order: int, work: Work) -> float:
         """Go on with an order until it waits, and return until when; tell its end."""
         try:
-            return next(work)
+            while (until := next(work)) <= self._clock.now:
+                pass  # it need not wait
+            return until
         except StopIteration as end:
             self._told.append({"done": order, "value": end.value})
         except FlightFailed as error:
-            what, why = error.failure.name, str(error)
-            self._told.append({"failed": order, "failure": what, "reason": why})
+            self._told.append({"failed": order, "failure": error.failure.name, "reason": str(error)})
         return inf
 
     def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
@@ -206,13 +204,12 @@ class IdealDrones:
         action, item = order["action"], item_of(order["item"])
         if action is None:
             return None
-        why = grip_problem(drone.id, drone.category, drone.carries, action, item)
-        if why is None:
-            chance, spread = drone.chance, drone.motion.action_spread
-            yield from self._pass(drone, BUILT_IN[action].seconds * varied(chance, spread))
-            why = f"{drone.id} could not do it" if drone.drawn.action else None
-        if why is not None:
+        if why := grip_problem(drone.id, drone.category, drone.carries, action, item):
             raise failed(f"{action} failed", why, drone.location)
+        factor = varied(drone.chance, drone.motion.action_spread)
+        yield from self._pass(drone, BUILT_IN[action].seconds * factor)
+        if drone.drawn.action:
+            raise failed(f"{action} failed", f"{drone.id} could not do it", drone.location)
         if action in (PICK, RELEASE):
             drone.carries = item if action == PICK else None
         now = self._clock.now
@@ -229,12 +226,11 @@ class IdealDrones:
         """Return the value that was written under a name, or else what is measured here."""
         yield from ()  # it answers at once
         drone.check()
-        name = order["name"]
         if order["do"] == "write":
-            drone.settings[name] = order["value"]
+            drone.settings[order["name"]] = order["value"]
             return None
-        measured = self._world.measure(name, drone.location, self._clock.now)
-        return drone.settings.get(name, measured)
+        measured = self._world.measure(order["name"], drone.location, self._clock.now)
+        return drone.settings.get(order["name"], measured)
 
     def _home(self, drone: IdealDrone, _: object) -> Work:
         """Take off, if it stands, and fly to its dock."""
@@ -256,7 +252,7 @@ class IdealDrones:
     def _recover(self, drone: IdealDrone, _: object) -> Work:
         """Bring a drone home after a failed flight, landed; False: it has crashed, and is lost."""
         if drone.failure() is Failure.LINK:
-            yield from self._wait(drone.reachable_at)
+            yield drone.reachable_at
         if drone.failure() is Failure.CRASH:
             return False
         if drone.failure() is Failure.LINK:
@@ -266,7 +262,7 @@ class IdealDrones:
             if not (drone.landed and docked(drone.location, drone.home)):
                 yield from self._home(drone, None)
         except FlightFailed:  # someone carries it into its dock, and restarts it
-            yield from self._wait(self._clock.now + CARRYING_HOME)
+            yield self._clock.now + CARRYING_HOME
             drone.down, drone.settings = None, {}
             drone.turn(resting(drone.home, self._clock.now))
             drone.touch_down(self._clock.now)
@@ -299,9 +295,5 @@ class IdealDrones:
         yield from self._pass(drone, factor * (before + seconds + after))
 
     def _pass(self, drone: IdealDrone, seconds: float) -> Work:
-        yield from self._wait(min(self._clock.now + seconds, drone.next_due[0]))
+        yield min(self._clock.now + seconds, drone.next_due[0])
         drone.check()
-
-    def _wait(self, until: float) -> Work:
-        if until > self._clock.now:
-            yield until

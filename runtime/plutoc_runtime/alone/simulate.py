@@ -97,7 +97,8 @@ def simulate(
         if until is None and (enough := bound.look(event)) is not None:
             raise enough
 
-    with closing(Alone(app, fleet, faults, seed, listen)) as flown:
+    flown = Alone(app, fleet, faults, seed, listen)
+    with closing(flown.brain):
         flown.begin(missions)
         ended, given_up = see_through(flown.brain, flown, flown.run, app.name, bound, until)
         return Outcome(
@@ -148,10 +149,6 @@ class Alone:
                 brain.advance(when)
             self._listen()
         return True
-
-    def close(self) -> None:
-        """End everything where it is."""
-        self.brain.close()
 
     def _tell(self, message: dict[str, Any]) -> None:
         self.brain.tell({**message, "telemetry": self.drones.news()}, self.now)

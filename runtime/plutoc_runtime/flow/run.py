@@ -46,8 +46,7 @@ class Run(Generic[M]):
     @property
     def trip(self) -> Any:
         """The mission's trip in flight, or the next one; of the app's own class."""
-        trips = self.mission.trips
-        return trips[0] if trips else self.mission.current
+        return self.mission.current
 
     def abort(self, reason: str) -> None:
         """Fail the trip in flight."""

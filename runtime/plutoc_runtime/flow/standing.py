@@ -154,10 +154,9 @@ def hindrances(fleet: Fleet, request: Request) -> dict[str, Any]:
 def _never(request: Request, drone: Drone, known: Any) -> str | None:
     """Return why a drone can never fly it, as far as known."""
     category, trip = drone.category, request.trip
-    if drone in known or not category.can(trip.action):
-        return request.never(drone)
     heavy = trip.item is not None and trip.item.mass > category.payload
-    return request.never(drone) if heavy else None
+    asked = drone in known or heavy or not category.can(trip.action)
+    return request.never(drone) if asked else None
 
 
 def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[str, Trip]:
