@@ -13,10 +13,8 @@ from ..domain.text import place, quoted
 if TYPE_CHECKING:
     from ..domain.model import Point
 
-OUTAGE = 20.0
-"""Seconds until a lost link is restored."""
-CARRYING_HOME = 300.0
-"""Seconds until someone has carried a drone home."""
+OUTAGE = 20.0  # seconds until a lost link is restored
+CARRYING_HOME = 300.0  # seconds until someone has carried a drone home
 
 _BEFALL = {
     Failure.CRASH: "crashed",
@@ -36,8 +34,7 @@ class Faults:
     battery: float = 0.0
 
 
-FAULTS = tuple(fault.name for fault in fields(Faults))
-"""The faults of `--fail`."""
+FAULTS = tuple(fault.name for fault in fields(Faults))  # the faults of `--fail`
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -158,10 +158,8 @@ class Alone:
             self._listener(event)
 
 
-FLIGHTS = 1_000
-"""The most flights for each planned trip in one round of its mission."""
-IDLE = 366 * 86_400.0
-"""The longest time without a launch, in seconds."""
+FLIGHTS = 1_000  # the most flights for each planned trip in one round of its mission
+IDLE = 366 * 86_400.0  # the longest time without a launch, in seconds
 MORE = "to fly on, say how long with --until, such as --until 2h"
 
 
@@ -177,8 +175,7 @@ class Bound:
         self._flights = dict.fromkeys(self._most, 0)
         self._rounds = {one.name: getattr(one, "repeat", 0) for one in missions}
         """How many rounds are planned; a hook may ask for more."""
-        self.last = 0.0
-        """When the last flight was launched, or will be after a delay."""
+        self.last = 0.0  # when the last flight was launched, or will be after a delay
 
     def look(self, event: Mapping[str, Any]) -> Enough | None:
         """Count an event; return why the simulation would not end, if it would not."""

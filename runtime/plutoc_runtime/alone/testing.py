@@ -30,8 +30,7 @@ R = TypeVar("R")
 M = TypeVar("M", bound=Mission[Any])
 T = TypeVar("T", bound=Trip)
 
-A_DAY = 86_400.0
-"""Seconds after which a hook that has not ended is taken for one that never will."""
+A_DAY = 86_400.0  # seconds after which a hook that has not ended is taken for one that never will
 
 
 class Clock:

@@ -16,16 +16,14 @@ if TYPE_CHECKING:
 
 CLIMB_SPEED = 0.3
 """Metres a second, straight up and straight down; on smooth legs that is about the mean."""
-PEAK = 2.19
-"""Peak speed over mean speed of a smooth leg."""
+PEAK = 2.19  # peak speed over mean speed of a smooth leg
 PUSH, MOST = 7.52, 4.0
 """Peak acceleration of a smooth leg over distance and squared time; its limit in m/s²."""
 SHORTEST = 1.0
 """Seconds of the shortest smooth leg: three metres in half a second have flipped a drone."""
 SINKS = 0.5
 """The share of its limit up to which a drone follows a landing closely enough to touch down."""
-_TAIL = 3.0
-"""Standard deviations within which all durations lie."""
+_TAIL = 3.0  # standard deviations within which all durations lie
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,8 +124,7 @@ def _progress(level: float, full: float, taper: float) -> float:
     return full - (full - _slows(full, taper)) * sqrt(max(0.0, 1 - level) / taper)
 
 
-STRAIGHT = Motion()
-"""Straight legs at the category's speed, that take nothing beside."""
+STRAIGHT = Motion()  # straight legs at the category's speed, that take nothing beside
 
 CRAZYFLIE = Motion(
     legs="smooth",
