@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from .mission import Core
     from .run import Run
 
-
 _CONTENT = Verdict()  # the verdict of an evaluator that asks for nothing
 
 

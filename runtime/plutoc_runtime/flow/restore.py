@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..domain.trace import Event
     from ..hooks.plain_data import Data
     from .engine import Engine
-    from .mission import MissionState
+    from .mission import Delay, MissionState
 
 Record = Mapping[str, Any]
 
@@ -136,14 +136,14 @@ class Restorer:
         state.at, state.interrupted = record.get("at"), bool(record.get("interrupted"))
         state.first_start = record.get("first_start")
         state.last_action_end = record.get("last_action_end")
-        waited = {_place(place) for place in record.get("waited", ())}
+        waited = {cast("Delay", tuple(place)) for place in record.get("waited", ())}
         if known is not None:  # it was paused: this brain knows better where it was
             state.at = known.at if known.at in core.app.resumes else state.at
             waited |= known.waited or set()
         state.waited = waited or None
         if record.get("delay") is not None:
             place, over, begins = record["delay"]
-            state.delay = _place(place), over, begins
+            state.delay = cast("Delay", tuple(place)), over, begins
         if record.get("carrier") is not None:
             state.carrier = self._drones[record["carrier"]]
             state.carries = item_of(record.get("carries"))
@@ -212,8 +212,3 @@ class Restorer:
         else:
             failed = "failure" in report
             state.reported(flight, failure_of(report) if failed else value_of(report.get("value")))
-
-
-def _place(place: Iterable[Any]) -> tuple[str, str, int, int]:
-    block, trip, round_, attempt = place
-    return block, trip, round_, attempt

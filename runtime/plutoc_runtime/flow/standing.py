@@ -88,13 +88,9 @@ def _is_sound(app: App, trip: Trip) -> bool:
 
 
 def _trip(app: App, trip: Trip) -> Data:
-    data = trip_data(app, trip)
-    facts = (
-        ("reason", trip.reason or None),
-        ("start_time", trip.start_time),
-        ("end_time", trip.end_time),
-    )
-    return data | {name: value for name, value in facts if value is not None}
+    flown = {"start_time": trip.start_time, "end_time": trip.end_time}
+    facts = {"reason": trip.reason or None, **flown}
+    return trip_data(app, trip) | {name: one for name, one in facts.items() if one is not None}
 
 
 def whereabouts_of(state: MissionState, flow: Callable[..., Any]) -> Data:
