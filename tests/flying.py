@@ -22,7 +22,7 @@ from pluto_fleet.trials.invariants import Items, items_of
 from plutoc.cli import main
 
 if TYPE_CHECKING:
-    from pluto_fleet.shared.alone.simulate import SimulationResult
+    from pluto_fleet.flight.outcome import SimulationResult
     from pluto_fleet.shared.domain.model import Mission
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

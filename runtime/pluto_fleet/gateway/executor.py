@@ -21,8 +21,9 @@ if TYPE_CHECKING:
     from ..jobs.controls import Controls, FleetDrone
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
+    from ..jobs.telemetry import Telemetry
     from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Point, Telemetry
+    from ..shared.domain.model import Point
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
 

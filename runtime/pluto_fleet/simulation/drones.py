@@ -12,8 +12,8 @@ from ..jobs.job import motors_cut
 from ..shared.alone.faults import (
     CARRYING_HOME,
     OUTAGE,
+    Drawn,
     Faults,
-    Order,
     draw,
     failed,
 )
@@ -28,9 +28,10 @@ from .body import Body, SimulatedDrone
 if TYPE_CHECKING:
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
+    from ..jobs.telemetry import Telemetry
     from ..shared.alone.world import World
     from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Item, Point, Telemetry
+    from ..shared.domain.model import Item, Point
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
@@ -126,8 +127,8 @@ class SimulatedNavigation:
         """Begin a flight: draw its faults."""
         body, now = self.bodies[drone], self._kernel.now
         body.check(now)
-        order = None if job is None else Order(id=job.id, seconds=seconds)
-        body.begin(draw(self._faults, self._seed, order), now)
+        drawn = Drawn() if job is None else draw(self._faults, self._seed, job.id, seconds)
+        body.begin(drawn, now)
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Take off to a height; one that flies stays where it is."""

@@ -15,8 +15,9 @@ from .way_back import way_back
 
 if TYPE_CHECKING:
     from ...jobs.controls import FleetDrone
+    from ...jobs.telemetry import Telemetry
     from ...shared.domain.airspace import Airspace
-    from ...shared.domain.model import Point, Telemetry
+    from ...shared.domain.model import Point
 
 
 FURTHEST, SHARE = 1.5, 0.05
