@@ -208,7 +208,7 @@ def test_the_report_says_in_which_world_it_was_flown(run: Run, missions: Path) -
     assert last.startswith("2 of 2 missions completed in ")
     assert last.endswith(" s (3 flights; 5 drones, 0 crashed)")
     assert world == "flown with each drone alone in the air; with pluto-fleet they keep apart"
-    code, out, _ = run("simulate", missions, "--fail", "action=100%")
+    code, out, _ = run("simulate", missions, "--fail", "action=100%", "--no-spread")
     assert code == 1
     assert "\nSouth: FAILED: measure failed: cf5 could not do it at (6, 3)\n" in out
 
