@@ -84,7 +84,10 @@ async def test_how_many_cells_it_may_have_is_said_from_its_volts(folder: Path) -
     async with hangar(folder, {"cells": 2}, build) as one:
         cf = await one.connected()
         (reason,) = await cf.preflight()
-        assert f"has {3 * FULL:.2f} V, more than 2 cells have" in reason and "such as cells = 3" in reason
+        assert (
+            f"has {3 * FULL:.2f} V, more than 2 cells have" in reason
+            and "such as cells = 3" in reason
+        )
 
 
 async def test_one_with_two_cells_is_as_full_as_each_of_them(folder: Path) -> None:
