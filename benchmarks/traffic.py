@@ -23,6 +23,7 @@ from random import Random
 
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
+import tests  # noqa: F401  # first: all that follows shares one brain
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point

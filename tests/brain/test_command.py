@@ -59,7 +59,7 @@ EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
 
 @pytest.mark.parametrize(
     "what",
-    ["fly", "resume", "serve", "drones", "journal", "tell", "decide", "gateway", "crtp"],
+    ["size", "fly", "resume", "serve", "drones", "journal", "tell", "decide", "gateway", "crtp"],
 )
 def test_what_needs_the_library_says_so_and_how_to_get_it(run: Run, what: str) -> None:
     """In one sentence, with any other arguments, and without the app's own code."""
@@ -77,7 +77,7 @@ def test_what_needs_the_library_says_so_and_how_to_get_it(run: Run, what: str) -
     assert command.alone("alfalfa", load, [what]) == 2
 
 
-@pytest.mark.parametrize("flag", ["--runs", "--plot"])
+@pytest.mark.parametrize("flag", ["--runs", "--jobs", "--plot"])
 def test_flags_that_need_the_library_say_so(run: Run, missions: Path, flag: str) -> None:
     """However they are written."""
     for words in ((flag, "3"), (f"{flag}=3",)):

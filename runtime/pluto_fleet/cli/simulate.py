@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,6 +20,7 @@ from ..shared.alone.simulate import SimulationResult, outcome_data
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import duration
 from ..shared.domain.trace import Event, dumped
+from ..trials.case import fresh
 from .plans import LoadedPlan, load
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def _fly(
 ) -> SimulationResult:
     return simulated(
         app,
-        deepcopy(plan.missions),  # a run changes its missions
+        [fresh(mission) for mission in plan.missions],  # a run changes its missions
         plan.fleet,
         seed=seed,
         faults=Faults(**options.fail),

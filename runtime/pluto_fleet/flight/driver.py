@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Mapping
-from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..shared.time.future import Future
@@ -14,7 +13,7 @@ from .orders import Message, Order
 if TYPE_CHECKING:
     from ..shared.brain import Brain
     from ..shared.domain.trace import Event
-    from ..shared.time.kernel import Kernel
+    from ..shared.time.kernel import Kernel, Timer
 
 
 class Driver:
@@ -34,8 +33,9 @@ class Driver:
         self._obey, self._motions, self._hear = obey, motions, hear
         self._told: deque[Message] = deque()
         self._busy = False
-        self._armed_for = inf
-        """For when the next call of the brain is scheduled."""
+        self._next: Timer | None = None
+        """The next call of the brain, and the only one that is scheduled."""
+        self._next_at: float | None = None
         self.halted = False
         """Whether the brain is not called any more."""
         self.pumped: Callable[[], object] = _nothing
@@ -85,20 +85,20 @@ class Driver:
         over, due = brain.over, brain.due
         if over is not None:
             self.done.set(over)
-        if due is not None and due < self._armed_for:
-            self._armed_for = due
-            # after all else of that instant: it is all that is known then
-            self._kernel.at(due, EventKind.ALLOCATE, FLEET, self._advance)
+        if due != self._next_at:
+            if self._next is not None:
+                self._next.cancel()
+            self._next, self._next_at = None, due
+            if due is not None:
+                # after all else of that instant: it is all that is known then
+                self._next = self._kernel.at(due, EventKind.ALLOCATE, FLEET, self._advance)
 
     def _advance(self) -> None:
-        self._armed_for, now = inf, self._kernel.now
-        if self.halted:
-            return
-        due = self._brain.due
-        if due is not None and due <= now:
+        self._next = self._next_at = None
+        if not self.halted:
             self.look()
-            self._brain.advance(now)
-        self.pump()
+            self._brain.advance(self._kernel.now)
+            self.pump()
 
     def look(self) -> None:
         """Tell the brain where the drones are: hooks may look between two of its calls."""

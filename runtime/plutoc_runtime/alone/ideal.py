@@ -11,7 +11,7 @@ from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
-from ..domain.airspace import permitted_way, way_from
+from ..domain.airspace import permitted_way
 from ..domain.errors import Failure, FlightFailed
 from ..domain.motion import CLIMB_SPEED, spread_of, varied
 from ..fleet.reach import docked, flight_seconds, grip_problem
@@ -200,7 +200,7 @@ class IdealDrones:
             raise FlightFailed(Failure.REFUSED, problem)
         way = [self._above(drone)]
         for stop in stops:
-            way += way_from(airspace, drone.id, way[-1], stop)
+            way += permitted_way(airspace, drone.id, way[-1], stop)
         seconds = flight_seconds(drone.category, airspace, start, stops, order["seconds"])
         drone.begin(draw(*self._chance, Order(id=order["flight"], seconds=seconds)))
         yield from self._follow(drone, way)
@@ -277,7 +277,7 @@ class IdealDrones:
         drone.begin(Drawn())
         if not (drone.landed and docked(drone.location, drone.home)):
             start = self._above(drone)
-            way = way_from(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
+            way = permitted_way(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
             yield from self._follow(drone, [start, *way])
             yield from self._land(drone)
 

@@ -7,67 +7,27 @@ is too low for all who wait is put aside until it is charged, or until it is hig
 
 from __future__ import annotations
 
-from bisect import insort
+from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from math import inf
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from ..domain.errors import HookFault, MissionFailed
 from ..domain.status import DroneStatus
-from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Kernel, Timer
+from .needs import Needs, Request
 from .policies import Batch, Choice, Policy
-from .reach import Reach, chain_of, docked, needed, stops_of, why_not
+from .reach import Reach, docked
 
 if TYPE_CHECKING:
-    from ..domain.model import Category, Drone, Point, Trip
+    from ..domain.model import Drone, Trip
 
 _FREE, _BUSY, _LOST = DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.LOST
 _IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
-_in_the_file = attrgetter("index")
-
-
-class Request(Future["Drone"]):
-    """A mission's request for a drone; as a future it is set to the drone that it gets."""
-
-    __slots__ = ("_levels", "_reach", "_surely", "_trips", "policy", "trip", "why")
-
-    def __init__(self, reach: Reach, trips: Sequence[Trip], policy: Policy) -> None:
-        self.is_set = False
-        self.error = self.waiter = self._value = self._watchers = None
-        self.trip, self.policy = trips[0], policy
-        self.why = ""
-        """Why its drone was chosen."""
-        self._reach, self._trips, self._surely = reach, trips, reach.levels(trips[0])
-        self._levels: dict[tuple[Category, Point, Point], float] = {}
-
-    def able(self, drone: Drone) -> bool:
-        """Return whether a drone can fly the trip now."""
-        level = drone.telemetry.battery_level
-        return level >= self._surely[drone.category] or level >= self.level(drone)
-
-    def never(self, drone: Drone) -> str | None:
-        """Return why a drone cannot fly the trip even with a full battery; None: it can."""
-        if self._surely[drone.category] <= 1.0:
-            return None
-        app, airspace, chain = self._reach.app, self._reach.airspace, chain_of(self._trips)
-        return why_not(app, airspace, drone.category, drone.home, chain)
-
-    def level(self, drone: Drone) -> float:
-        """Return the battery level that a drone needs from where it stands; infinite: it never suffices."""
-        key = category, home, here = drone.category, drone.home, drone.location
-        if key not in self._levels:
-            part, airspace = None, self._reach.airspace
-            if self.never(drone) is None:
-                stops = stops_of(
-                    self._reach.app, category, airspace.cruise_height, chain_of(self._trips)
-                )
-                part = needed(category, airspace, here, stops, home)
-            self._levels[key] = inf if part is None else part + category.reserve
-        return self._levels[key]
+_in_the_file, _by_rank = attrgetter("index"), attrgetter("rank")
 
 
 class Queue:
@@ -78,28 +38,34 @@ class Queue:
     ) -> None:
         self._kernel, self._reach = kernel, reach
         self._drones, self._max_airborne = drones, max_airborne
-        self._entries: list[tuple[int, int, Request]] = []
-        """Sorted, the last is served first: (priority, minus the arrival number, request)."""
+        self._waiting: list[Request] = []
+        """Sorted by rank, the last is served first."""
         self._fresh: list[Request] = []
         """The requests that have not been looked at yet."""
+        self._arrived: list[Request] = []
+        """Those that wait, and some that have waited, in no order; see `Needs`."""
+        self._needs: dict[Drone, Needs] = {}
         self._arrivals = 0
         self._ready: list[Drone] = []
         """While it is served: the free drones that may be chosen, in the fleet's order."""
-        self._low: dict[Drone, float] = {}
-        """The other free drones: too low for every request so far, and until when."""
+        self._low: dict[Drone, tuple[float, float, Needs]] = {}
+        """The other free drones: too low for every request so far, until when, and what level they need."""
         self._one_is_lost = False
         """Whether a drone has been lost since the requests were last checked."""
         self._recheck: Timer | None = None
         self._recheck_at = inf
         self.served: Callable[[], None] = lambda: None
-        """Called after each serving, while some still wait."""
+        """Called after a serving, if some still wait and a drone that is too low is not being charged."""
 
     def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
         """Request a drone for the first trip; it is given at the end of this instant or later."""
-        rank = +priority  # raises here, in its mission, if a hook has left something odd there
-        request = Request(self._reach, trips, policy)
         self._arrivals += 1
-        insort(self._entries, (rank, -self._arrivals, request))
+        # raises here, in its mission, if a hook has left something odd there
+        request = Request(self._reach, trips, policy, (+priority, -self._arrivals))
+        if len(self._arrived) > 100 + 2 * len(self._waiting):
+            self._arrived, self._needs = self._waiting[:], {}
+        self._arrived.append(request)
+        insort(self._waiting, request, key=_by_rank)
         self._fresh.append(request)
         self._kernel.at_the_end = self._serve
         return request
@@ -118,22 +84,22 @@ class Queue:
 
     def changed(self) -> None:
         """Serve the queue at the end of this instant."""
-        if self._entries:
+        if self._waiting:
             self._kernel.at_the_end = self._serve
 
     def prioritise(self, trip: Trip, priority: int) -> None:
         """Change the priority of the request for this trip."""
-        for place, (_, arrival, request) in enumerate(self._entries):
+        for request in self._waiting:
             if request.trip is trip:
-                self._entries[place] = (priority, arrival, request)
-                self._entries.sort()
+                request.rank = priority, request.rank[1]
+                self._waiting.sort(key=_by_rank)
                 self.changed()
                 return
 
     @property
     def waiting(self) -> bool:
         """Whether any request waits."""
-        return bool(self._entries)
+        return bool(self._waiting)
 
     def summary(self) -> str:
         """Return a summary of what the drones are doing: why a mission waits."""
@@ -159,33 +125,39 @@ class Queue:
 
     def waiters(self) -> Iterator[Request]:
         """Yield the waiting requests."""
-        return (request for _, _, request in reversed(self._entries))
+        return reversed(self._waiting)
 
     # Serving
 
     def _serve(self) -> None:
-        if self._low:
+        if self._low and (self._fresh or self._kernel.now >= self._recheck_at):
             self._put_back_the_charged()
         low = self._low
         self._ready = [one for one in self._drones if one.status is _FREE and one not in low]
-        self._share_out()
-        if self._entries:
+        if self._ready:
+            self._share_out()
+        if self._waiting:
             self._refuse_what_cannot_be()
             if self._ready and self.room:
                 self._put_aside_the_low()
-            if self._low:
-                self._look_again_when_charged()
-                self.served()
+            if low:
+                untils = [until for until, *_ in low.values()]
+                self._look_again_when_charged(min(untils))
+                if max(untils) == inf:
+                    self.served()
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        place = len(self._entries)
-        while place and self._ready and self.room:
-            place -= 1
-            request = self._entries[place][2]
+        below = len(self._waiting)
+        for place in self._places():
+            if not self._ready or not self.room:
+                break
+            if place >= below:
+                continue  # it was served with others of its policy
+            below, request = place, self._waiting[place]
             if isinstance(request.policy, Batch):
-                place = self._share_among(place, request.policy)
-            else:
+                below = self._share_among(place, request.policy)
+            elif any(map(request.able, self._ready)):
                 try:
                     choice = request.policy(request.trip, self._ready, request.able)
                 except HookFault as fault:
@@ -193,18 +165,33 @@ class Queue:
                 else:
                     self._give(request, choice)
 
-    def _share_among(self, last: int, policy: Batch) -> int:
-        """Serve together the request at this index and all before it of the same policy and priority.
+    def _places(self) -> Iterator[int]:
+        """Yield the places of requests in turn; after one in vain, of those for which a ready drone suffices."""
+        place, ready = len(self._waiting), len(self._ready) + 1
+        while place and len(self._ready) < ready:
+            place, ready = place - 1, len(self._ready)
+            yield place
+        suited = set[Request]()
+        for drone in self._ready if place else ():
+            some = self._needs_of(drone).up_to(drone.battery_level, _MANY)
+            suited.update(some if len(some) <= _MANY else self._waiting)
+        for other in sorted(map(self._place, suited), reverse=True):
+            if other < place:
+                yield other
 
-        Return the index of the first of them.
+    def _share_among(self, place: int, policy: Batch) -> int:
+        """Serve together the request at this place and all around it of the same policy and priority.
+
+        Return the place of the first of them.
         """
-        first, (priority, _, _) = last, self._entries[last]
-        while first:
-            before, _, request = self._entries[first - 1]
-            if before != priority or request.policy is not policy:
-                break
-            first -= 1
-        requests = [request for _, _, request in reversed(self._entries[first : last + 1])]
+        waiting, priority = self._waiting, self._waiting[place].rank[0]
+
+        def alike(place: int) -> bool:
+            return waiting[place].policy is policy and waiting[place].rank[0] == priority
+
+        first = next((n + 1 for n in range(place - 1, -1, -1) if not alike(n)), 0)
+        end = next((n for n in range(place + 1, len(waiting)) if not alike(n)), len(waiting))
+        requests = waiting[first:end][::-1]
         offers = [(request.trip, request.able) for request in requests]
         for request, choice in zip(requests, policy(offers, self._ready), strict=True):
             if self.room:
@@ -224,10 +211,13 @@ class Queue:
         request.fail(error)
 
     def _drop(self, request: Request) -> None:
-        place = len(self._entries) - 1
-        while self._entries[place][2] is not request:  # most that leave are the next to be served
-            place -= 1
-        del self._entries[place]
+        del self._waiting[self._place(request)]
+
+    def _place(self, request: Request) -> int:
+        place = bisect_left(self._waiting, request.rank, key=_by_rank)
+        if place < len(self._waiting) and self._waiting[place] is request:
+            return place
+        return self._waiting.index(request)  # a hook has left a priority that compares with none
 
     def _refuse_what_cannot_be(self) -> None:
         """Refuse requests that no drone can serve: new ones, and all after the loss of a drone."""
@@ -253,14 +243,24 @@ class Queue:
 
     # Drones that are too low
 
+    def _needs_of(self, drone: Drone) -> Needs:
+        needs = self._needs.get(drone)
+        if needs is None or needs.place != drone.location:
+            needs = self._needs[drone] = Needs(self._reach, drone, self._arrived)
+        return needs
+
     def _put_back_the_charged(self) -> None:
         """Make drones ready again that have charged, or that suffice for a new request."""
         fresh = [request for request in self._fresh if not request.is_set]
-        for drone, until in list(self._low.items()):
-            if until <= self._kernel.now or any(request.able(drone) for request in fresh):
+        for drone, (until, wanted, needs) in list(self._low.items()):
+            least = wanted
+            for request in fresh:
+                if needs.at_least(request) < least:
+                    least = min(least, request.level(drone))
+            if until <= self._kernel.now or (least < wanted and drone.battery_level >= least):
                 del self._low[drone]
-            else:
-                self._low[drone] = min(until, self._charged(drone, fresh))
+            elif least < wanted:
+                self._low[drone] = min(until, self._charged(drone, least)), least, needs
 
     def _put_aside_the_low(self) -> None:
         """Put drones aside that are too low for every request; a docked one until it has charged.
@@ -268,18 +268,17 @@ class Queue:
         A drone that suffices and was not chosen (by a policy, or as no more may fly) stays ready.
         """
         for drone in self._ready:
-            if not any(request.able(drone) for request in self.waiters()):
-                self._low[drone] = self._charged(drone, self.waiters())
+            needs = self._needs_of(drone)
+            if drone.battery_level < (least := needs.least):
+                self._low[drone] = self._charged(drone, least), least, needs
 
-    def _charged(self, drone: Drone, requests: Iterable[Request]) -> float:
-        """Return when a drone suffices for one of them where it stands; infinite: it never will."""
-        level = min((request.level(drone) for request in requests), default=inf)
+    def _charged(self, drone: Drone, level: float) -> float:
+        """Return when a drone has this level where it stands; infinite: it never will."""
         if level == inf or not docked(drone.location, drone.home):
             return inf
         return self._kernel.now + (drone.charging(level) + 0.001)
 
-    def _look_again_when_charged(self) -> None:
-        soonest = min(self._low.values())
+    def _look_again_when_charged(self, soonest: float) -> None:
         if soonest == self._recheck_at:
             return
         if self._recheck is not None:
@@ -287,3 +286,7 @@ class Queue:
         self._recheck_at, self._recheck = soonest, None
         if soonest < inf:
             self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
+
+
+_MANY = 30
+"""For more requests than so many it is not worth while to find out for which a drone suffices."""

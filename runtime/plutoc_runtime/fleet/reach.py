@@ -115,14 +115,8 @@ def miss_of(
     app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
 ) -> Miss | None:
     """Return what a drone of this category and home lacks for the chain; None: nothing."""
-    for trip in chain:
-        if not category.can(trip.action):
-            return Miss(Lacks.ACTION, 0.0, f"{category.name} cannot {trip.action}")
-    for trip in chain:
-        if trip.item is not None and trip.item.mass > category.payload:
-            most, weighs = mass(category.payload), mass(trip.item.mass)
-            reason = f"{category.name} carries at most {most}, the item weighs {weighs}"
-            return Miss(Lacks.PAYLOAD, trip.item.mass - category.payload, reason)
+    if (miss := _unfit(category, chain)) is not None:
+        return miss
     stops = stops_of(app, category, airspace.cruise_height, chain)
     share = needed(category, airspace, home, stops, home)
     if share is None:
@@ -133,6 +127,19 @@ def miss_of(
             f"{place(home)} and back, and {percent(category.reserve)} must be left"
         )
         return Miss(Lacks.ENERGY, share + category.reserve - 1, reason)
+    return None
+
+
+def _unfit(category: Category, chain: Sequence[Trip]) -> Miss | None:
+    """Return what drones of this category lack for the chain wherever it leads; None: nothing."""
+    for trip in chain:
+        if not category.can(trip.action):
+            return Miss(Lacks.ACTION, 0.0, f"{category.name} cannot {trip.action}")
+    for trip in chain:
+        if trip.item is not None and trip.item.mass > category.payload:
+            most, weighs = mass(category.payload), mass(trip.item.mass)
+            reason = f"{category.name} carries at most {most}, the item weighs {weighs}"
+            return Miss(Lacks.PAYLOAD, trip.item.mass - category.payload, reason)
     return None
 
 
@@ -219,7 +226,7 @@ def idle_actions(app: App, fleet: FleetData) -> list[str]:
 
 
 class Reach:
-    """A cheap upper bound of the battery for a trip: most free drones are above it.
+    """The battery for a trip, and cheap bounds of it: most free drones are above or below.
 
     So the exact answer, which takes a route search, is seldom needed.
     """
@@ -231,6 +238,26 @@ class Reach:
             for action in app.actions
         }
         self._unknown = dict.fromkeys(app.categories, inf)
+        self._upright: dict[tuple[Category, str, float], float] = {}
+
+    def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
+        """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
+        if _unfit(category, chain):
+            return inf
+        stops = stops_of(self.app, category, self.airspace.cruise_height, chain)
+        share = needed(category, self.airspace, here, stops, home)
+        return inf if share is None else share + category.reserve
+
+    def upright(self, category: Category, trip: Trip) -> float:
+        """Return what a trip needs beside the way, from the ground: a lower bound."""
+        key = category, trip.action, trip.target[2]
+        if key not in self._upright:
+            motion, height = category.motion, min(trip.target[2], self.airspace.cruise_height)
+            seconds = motion.rises(height, category.speed) + motion.lands(height, category.speed)
+            seconds += self.app.actions[trip.action].seconds
+            share = seconds * motion.drain / category.flight_time
+            self._upright[key] = category.reserve + share * _LESS
+        return self._upright[key]
 
     def levels(self, trip: Trip) -> Mapping[Category, float]:
         """Return for each category a battery level that surely suffices for the trip.
@@ -252,3 +279,14 @@ class Reach:
         seconds += motion.rises(space.cruise_height, speed) + motion.lands(space.ceiling, speed)
         seconds += self.app.actions[action].seconds
         return seconds * motion.drain / category.flight_time + category.reserve
+
+
+def a_metre(category: Category) -> float:
+    """Return the share that a metre of a long straight leg takes: on a short one it is no less."""
+    far = 1e6
+    seconds = category.motion.flies(far, category.speed)
+    return seconds * category.motion.drain / category.flight_time / far * _LESS
+
+
+_LESS = 1 - 1e-9
+"""Sums of floats are not exact, and a bound must be one."""

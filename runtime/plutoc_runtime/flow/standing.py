@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..domain.fleet_data import FleetData
     from ..domain.model import Mission, Telemetry, Trip
     from ..fleet.fleet import Fleet
-    from ..fleet.queue import Request
+    from ..fleet.needs import Request
     from .mission import MissionState
 
 

@@ -12,8 +12,8 @@ from plutoc_runtime.domain.text import duration
 from plutoc_runtime.time.kernel import EventKind
 
 if TYPE_CHECKING:
+    from plutoc_runtime.fleet.needs import Request
     from plutoc_runtime.fleet.policies import Policy
-    from plutoc_runtime.fleet.queue import Request
     from plutoc_runtime.flow.run import Run
 
 

@@ -1,0 +1,107 @@
+"""Requests for drones, and the battery level that each needs of a drone where it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from heapq import heappop, heappush, heapreplace
+from math import hypot, inf
+from typing import TYPE_CHECKING
+
+from ..time.future import Future
+from .reach import Reach, a_metre, chain_of, why_not
+
+if TYPE_CHECKING:
+    from ..domain.model import Category, Drone, Point, Trip
+    from .policies import Policy
+
+
+class Request(Future["Drone"]):
+    """A mission's request for a drone; as a future it is set to the drone that it gets."""
+
+    __slots__ = ("_levels", "_reach", "_surely", "_trips", "goal", "policy", "rank", "trip", "why")
+
+    def __init__(
+        self, reach: Reach, trips: Sequence[Trip], policy: Policy, rank: tuple[int, int]
+    ) -> None:
+        self.is_set = False
+        self.error = self.waiter = self._value = self._watchers = None
+        self.trip, self.policy, self.rank = trips[0], policy, rank
+        """The rank: its priority, and minus the number of its arrival; the highest is served first."""
+        self.goal = self.trip.source or self.trip.target
+        """Where its drone flies to first."""
+        self.why = ""
+        """Why its drone was chosen."""
+        self._reach, self._trips, self._surely = reach, trips, reach.levels(trips[0])
+        self._levels: dict[tuple[Category, Point, Point], float] = {}
+
+    def able(self, drone: Drone) -> bool:
+        """Return whether a drone can fly the trip now."""
+        level = drone.telemetry.battery_level
+        return level >= self._surely[drone.category] or level >= self.level(drone)
+
+    def never(self, drone: Drone) -> str | None:
+        """Return why a drone cannot fly the trip even with a full battery; None: it can."""
+        category, home = drone.category, drone.home
+        if self._surely[category] <= 1.0 or self._level(category, home, home) <= 1.0:
+            return None
+        reach = self._reach
+        return why_not(reach.app, reach.airspace, category, home, chain_of(self._trips))
+
+    def level(self, drone: Drone) -> float:
+        """Return the battery level that a drone needs from where it stands; infinite: it never suffices."""
+        if self.never(drone) is not None:
+            return inf
+        return self._level(drone.category, drone.home, drone.location)
+
+    def _level(self, category: Category, home: Point, here: Point) -> float:
+        key = category, home, here
+        if key not in self._levels:
+            self._levels[key] = self._reach.level(category, home, here, chain_of(self._trips))
+        return self._levels[key]
+
+
+class Needs:
+    """What the waiting requests need of one drone where it stands, the least first.
+
+    Most are known by a lower bound: the exact level, which takes a route search, is seldom needed.
+    """
+
+    def __init__(self, reach: Reach, drone: Drone, arrived: Sequence[Request]) -> None:
+        """`arrived`: the requests, to which later ones are appended."""
+        self.place, self._drone, self._arrived, self._seen = drone.location, drone, arrived, 0
+        self._reach, self._a_metre = reach, a_metre(drone.category)
+        self._heap: list[tuple[float, int, bool, Request]] = []
+
+    @property
+    def least(self) -> float:
+        """The least level that suffices for a request that waits; infinite: none does."""
+        heap = self._heap
+        for request in self._arrived[self._seen :]:
+            if not request.is_set:
+                heappush(heap, (self.at_least(request), request.rank[1], False, request))
+        self._seen = len(self._arrived)
+        while heap:
+            level, number, is_exact, request = heap[0]
+            if request.is_set:
+                heappop(heap)
+            elif is_exact:
+                return level
+            else:
+                heapreplace(heap, (request.level(self._drone), number, True, request))
+        return inf
+
+    def at_least(self, request: Request) -> float:
+        """Return a lower bound of the level that a request needs: the straight way there and home."""
+        (x, y, _), (a, b, z), (c, d, _) = request.goal, self.place, self._drone.home
+        upright = self._reach.upright(self._drone.category, request.trip) if z <= 0.0 else 0.0
+        level = upright + self._a_metre * (hypot(x - a, y - b) + hypot(x - c, y - d))
+        return max(0.0, level)  # where it leads may not be a number
+
+    def up_to(self, level: float, most: int) -> list[Request]:
+        """Return the requests that need no more than a level; of many, one more than `most`."""
+        found = list[tuple[float, int, bool, Request]]()
+        while len(found) <= most and self.least <= level < inf:
+            found.append(heappop(self._heap))
+        for one in found:
+            heappush(self._heap, one)
+        return [request for *_, request in found]
