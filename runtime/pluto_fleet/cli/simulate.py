@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from copy import deepcopy
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..flight.simulate import simulate as simulated
 from ..journal.event_line import line
@@ -25,6 +25,7 @@ from .plans import LoadedPlan, load
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..shared.domain.model import Mission
     from .options import Options
 
 Listener = Callable[[Event], None]
@@ -48,7 +49,8 @@ def simulate(app: App, options: Options) -> int:
         from .runs import often  # not needed for one run
 
         def again(seed: int) -> SimulationResult:
-            return _fly(app, options, plan, seed, None)
+            # a run changes its missions
+            return _fly(app, options, plan, deepcopy(plan.missions), seed, None)
 
         return often(app, options, options.runs, plan, progress, again)
     finally:
@@ -69,7 +71,7 @@ def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> i
             watch(event)
 
         try:
-            outcome = _fly(app, options, plan, options.seed, listen)
+            outcome = _fly(app, options, plan, plan.missions, options.seed, listen)
         except Halt as halt:
             raise halt.error from None
         progress.clear()
@@ -84,11 +86,16 @@ def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> i
 
 
 def _fly(
-    app: App, options: Options, plan: LoadedPlan, seed: int, listener: Listener | None
+    app: App,
+    options: Options,
+    plan: LoadedPlan,
+    missions: Sequence[Mission[Any]],
+    seed: int,
+    listener: Listener | None,
 ) -> SimulationResult:
     return simulated(
         app,
-        deepcopy(plan.missions),  # a run changes its missions
+        missions,
         plan.fleet,
         seed=seed,
         faults=Faults(**options.fail),

@@ -246,7 +246,7 @@ class Queue:
     def _needs_of(self, drone: Drone) -> Needs:
         needs = self._needs.get(drone)
         if needs is None or needs.place != drone.location:
-            needs = self._needs[drone] = Needs(self._reach, drone, self._arrived)
+            needs = self._needs[drone] = Needs(drone, self._arrived)
         return needs
 
     def _put_back_the_charged(self) -> None:
@@ -255,7 +255,7 @@ class Queue:
         for drone, (until, wanted, needs) in list(self._low.items()):
             least = wanted
             for request in fresh:
-                if needs.at_least(request) < least:
+                if request.at_least(drone, needs.place) < least:
                     least = min(least, request.level(drone))
             if until <= self._kernel.now or (least < wanted and drone.battery_level >= least):
                 del self._low[drone]
