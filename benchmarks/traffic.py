@@ -23,11 +23,12 @@ from random import Random
 
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
+import tests  # noqa: F401  # first: all that follows shares one brain
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.gateway.traffic.real_skies import SLACK
+from tests.gateway.traffic.real_skies import PRECISE
 from tests.gateway.traffic.real_skies import late as late_for_real
 from tests.gateway.traffic.skies import Sky
 
@@ -150,7 +151,7 @@ def lateness(
     With a speed they fly as real drones do.
     """
     chance = Random(seed)
-    apart = APART if speed is None else APART + SLACK
+    apart = APART if speed is None else APART + PRECISE.slack
     homes = places(chance, drones, side, 0.0, apart)
     hovering = places(chance, drones, side, HEIGHT, apart)
     if speed is not None:

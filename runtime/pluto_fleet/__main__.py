@@ -1,4 +1,4 @@
-"""The library's own program, `pluto-fleet`: its version, and the processes that apps start.
+"""The library's own program, `pluto-fleet`: its version, `calibrate`, and the processes that apps start.
 
 No app is imported here: drones are commanded, and simulated, by what their files say. So this
 process uses the library's own copy of the brain.
@@ -18,7 +18,9 @@ from .shared.domain.text import quoted
 _NAME = "pluto-fleet"
 _ABOUT = "The library that flies apps compiled by plutoc."
 _APPS = "an app is flown by its own program, such as: greenhouse fly missions.toml"
-_PROCESSES = {
+_CALIBRATE = "calibrate"
+_COMMANDS = {
+    _CALIBRATE: "find how drones really move, from the journals of their flights",
     "gateway": "command the drones of a flight; an app starts it by itself",
     "crtp": "simulate Crazyflies down to the radio; an app starts it by itself",
 }
@@ -38,9 +40,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     output.prepare()
     ending = ExitCode(_NAME)
     with ending:
-        ending.code = _said(words)
+        ending.code = _calibrated(words[1:]) if words[:1] == [_CALIBRATE] else _said(words)
         output.flush()
     return ending.code
+
+
+def _calibrated(words: Sequence[str]) -> int:
+    from .calibration.command import main as calibrate
+
+    return calibrate(words)
 
 
 def _said(words: Sequence[str]) -> int:
@@ -53,7 +61,7 @@ def _said(words: Sequence[str]) -> int:
     what = "say which version this is, which seams it speaks, and which extras are installed"
     parser.add_argument("--version", action=_Version, nargs=0, help=what)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for command, does in _PROCESSES.items():
+    for command, does in _COMMANDS.items():
         commands.add_parser(command, help=does, add_help=False)
     try:
         parser.parse_args(words)

@@ -27,8 +27,9 @@ if TYPE_CHECKING:
 
 _SEAM = ".".join(map(str, SEAM))
 
-_EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]", "--runs": ""}
-_EXTRAS |= dict.fromkeys(("fly", "resume", "journal", "tell", "decide", "gateway", "crtp"), "")
+_EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
+_EXTRAS |= dict.fromkeys(("size", "fly", "resume", "journal", "tell", "decide", "--runs"), "")
+_EXTRAS |= dict.fromkeys(("gateway", "crtp", "--jobs"), "")
 """What needs the library, and with which of its extras."""
 _WORDS = [*_EXTRAS, "check", "simulate", "--version"]
 _WORDS += ["--fleet", "--seed", "--no-spread", "--fail", "--until", "--trace", "--json"]
@@ -99,8 +100,7 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
         print(f"{name} {[*found, '(not installed)'][0]}, seam {_SEAM}, pluto-fleet: not installed")
         return 0
     flags = [word for word in argv if word.startswith("--")] if argv[:1] == ["simulate"] else []
-    for word in flags or argv[:1]:
-        what = word.partition("=")[0]
+    for what in (word.partition("=")[0] for word in flags or argv[:1]):
         if what in _EXTRAS:
             said = f"{name}: {what} needs pluto-fleet, the library that flies: "
             said += f'pip install "pluto-fleet{_EXTRAS[what]}>={_SEAM}" (without an index, from '
@@ -192,7 +192,7 @@ def _parser(app: App) -> ArgumentParser:
     from .alone.faults import shares
     from .domain.quantities import time_from, typed
 
-    more = "fly, resume, tell, decide, journal, drones and serve come with the library pluto-fleet"
+    more = "size, fly, resume, tell, decide, journal, drones and serve come with pluto-fleet"
     parser = ArgumentParser(prog=app.name, description=app.title, epilog=more, allow_abbrev=False)
     parser.add_argument("--version", action="store_true", help="say which app and seam this is")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)

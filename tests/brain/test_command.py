@@ -59,7 +59,7 @@ EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
 
 @pytest.mark.parametrize(
     "what",
-    ["fly", "resume", "serve", "drones", "journal", "tell", "decide", "gateway", "crtp"],
+    ["size", "fly", "resume", "serve", "drones", "journal", "tell", "decide", "gateway", "crtp"],
 )
 def test_what_needs_the_library_says_so_and_how_to_get_it(run: Run, what: str) -> None:
     """In one sentence, with any other arguments, and without the app's own code."""
@@ -77,7 +77,7 @@ def test_what_needs_the_library_says_so_and_how_to_get_it(run: Run, what: str) -
     assert command.alone("alfalfa", load, [what]) == 2
 
 
-@pytest.mark.parametrize("flag", ["--runs", "--plot"])
+@pytest.mark.parametrize("flag", ["--runs", "--jobs", "--plot"])
 def test_flags_that_need_the_library_say_so(run: Run, missions: Path, flag: str) -> None:
     """However they are written."""
     for words in ((flag, "3"), (f"{flag}=3",)):
@@ -208,7 +208,7 @@ def test_the_report_says_in_which_world_it_was_flown(run: Run, missions: Path) -
     assert last.startswith("2 of 2 missions completed in ")
     assert last.endswith(" s (3 flights; 5 drones, 0 crashed)")
     assert world == "flown with each drone alone in the air; with pluto-fleet they keep apart"
-    code, out, _ = run("simulate", missions, "--fail", "action=100%")
+    code, out, _ = run("simulate", missions, "--fail", "action=100%", "--no-spread")
     assert code == 1
     assert "\nSouth: FAILED: measure failed: cf5 could not do it at (6, 3)\n" in out
 

@@ -7,14 +7,20 @@ from random import Random
 
 import pytest
 
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT
 from tests.equivalence.campaign import OURS, drawn
 from tests.equivalence.drivers import in_real_time, seen
 from tests.equivalence.flows import packaged
 from tests.equivalence.fly import alone, difference, record
 from tests.equivalence.worlds import random_world
 
-WORLDS = 3
-"""For each graph."""
+MOTIONS = (
+    STRAIGHT,
+    CRAZYFLIE,
+    replace(CRAZYFLIE, spread=0.2, action_spread=0.2, drain=2.0, pace=0.7),
+)
+WORLDS = 4
+"""For each graph; at first its drone moves straight, and each time in another way."""
 
 
 def flown(name: str) -> int:
@@ -22,9 +28,10 @@ def flown(name: str) -> int:
     text, checked, rng, _ = drawn(name)
     package = packaged(OURS.planner(checked))
     events = 0
-    for _ in range(WORLDS):
+    for number in range(WORLDS):
         world = random_world(Random(rng.random()), package.graph)
-        world = replace(world, homes=world.homes[:1])
+        motion = MOTIONS[number % len(MOTIONS)]
+        world = replace(world, homes=world.homes[:1], motion=motion)
         with_traffic = record(package, world, patient=False)
         by_itself = record(package, world, patient=False, fly=alone)
         assert difference(with_traffic, by_itself) is None, f"{text}\n{world}"

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 FENCED = Airspace(no_fly=(((4.0, 4.0), (6.0, 4.0), (6.0, 6.0), (4.0, 6.0)),))
 PLACE = re.compile(
     r"""(?:(?:mission|drone) (?:"[^"]*"|\d+)(?:, trip (?:"[^"]*"|\d+))?(?:, (?:item|parameters))?"""
-    r"|\[\[?[\w.]+\]?\]|map|fleet|world(?:\.\w+)?)(?:: |, (?=\w+ is not a table))"
+    r"|\[\[?[\w.]+\]?\]|map|fleet|motion|world(?:\.\w+)?)(?:: |, (?=\w+ is not a table))"
 )
 """What the mistake is in: the small reader has no lines, and calls tables in its own way."""
 FURTHER = re.compile(r"[;:] |, such as |, with two brackets|, in line ")
@@ -135,6 +135,21 @@ FLEETS = [
     (f"{DRONE}[map]\nno_fly = [[[0, 0], [1, 'x'], [2, 0]]]",
      "no_fly area 1 has a corner 2 that has an element that is not a length"),
     (f"fleet = 3\n{DRONE}", "fleet is not a table"),
+    (f"motion = 3\n{DRONE}", "motion is not a table"),
+    (f"{DRONE}[motion]\nlegs = 'round'", 'legs "round" is none of'),
+    (f"{DRONE}[motion]\nlegs = 3", "legs 3 is none of"),
+    (f"{DRONE}[motion]\nslack = 0.15", 'unknown key "slack"'),
+    (f"{DRONE}[motion]\nlimit = 0", "limit 0 is less than 0.01 m/s"),
+    (f"{DRONE}[motion]\nlimit = '3 m'", 'limit "3 m" is a length, not a speed'),
+    (f"{DRONE}[motion]\ntake_off = '11 min'", 'take_off "11 min" is more than 600 s'),
+    (f"{DRONE}[motion]\nsettles = '-1 s'", 'settles "-1 s" is less than 0 s'),
+    (f"{DRONE}[motion]\nsettles = -1", "settles -1 is less than 0 s"),
+    (f"{DRONE}[motion]\nlanding = nan", "landing nan is not a finite number"),
+    (f"{DRONE}[motion]\npace = 0", "pace 0 is less than 10 %"),
+    (f"{DRONE}[motion]\ndrain = '1001 %'", 'drain "1001 %" is more than 1000 %'),
+    (f"{DRONE}[motion]\nspread = '31 %'", 'spread "31 %" is more than 30 %'),
+    (f"{DRONE}[motion]\naction_spread = true", "action_spread true is not a percent"),
+    (f"{DRONE}[motion]\ntaper = '51 %'", 'taper "51 %" is more than 50 %'),
     (f"world = [3]\n{DRONE}", "world is not a table"),
     (f"{DRONE}[fleet]\nmax_airborne = 10000000000", "max_airborne 10000000000 is too large"),
     (DRONE.replace('"scout"', "3"), "category 3 is not a text"),
@@ -351,6 +366,12 @@ no_fly = [[[8, 0], [9, 0], [9, 5], [8, 5]]]
 [fleet]
 after_trip = "stay"
 max_airborne = 5
+[motion]
+legs = "straight"
+limit = "0.8 m/s"
+take_off = "300 ms"
+pace = 1.1
+spread = "2 %"
 [[drone]]
 id = "cf1"
 category = "scout"
@@ -409,6 +430,12 @@ KEYS = [
     "repeat",
     "safe_time",
     "evaluator",
+    "motion",
+    "legs",
+    "limit",
+    "settles",
+    "pace",
+    "taper",
     "size",
     "gap",
     "x",
@@ -416,7 +443,7 @@ KEYS = [
 VALUES = (
     st.sampled_from(
         ("", " a", "a\n", "cf1", "north", "p", "scout", "measure", "pick_item", "release_item",
-         "3 m", "3 s", "3 g", "3", "1e3 m", "20 %", "08:00", "stay", "find_blooms", "x" * 300, "1")
+         "3 m", "3 s", "3 g", "3", "1e3 m", "20 %", "08:00", "stay", "smooth", "1 m/s", "find_blooms", "x" * 300, "1")
     )
     | st.sampled_from((0, 1, -1, 3, 1e3, 1e12, -1e12, 10**20, 0.05, float("nan"), float("inf")))
     | st.booleans()

@@ -161,39 +161,31 @@ def test_fixes_that_undo_each_other_come_to_an_end() -> None:
     assert len(mended(Source("a.pluto", "a"), findings).fixed) == 10
 
 
-def _fixable() -> list[tuple[Path, Diagnostic]]:
-    found = []
-    for folder in FOLDERS:
-        source = read(folder / "app.pluto")
-        assert source is not None
-        every = diagnostics_of(source, read(folder / "hooks.py"))
-        found += [(folder, diagnostic) for diagnostic in every if diagnostic.fix]
-    return found
-
-
-FIXABLE = _fixable()
-
-
-@pytest.mark.parametrize(
-    ("folder", "found"), FIXABLE, ids=[f"{folder.name}-{d.span.start}" for folder, d in FIXABLE]
-)
-def test_a_fix_mends_what_it_is_for_and_breaks_nothing(folder: Path, found: Diagnostic) -> None:
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_each_fix_mends_what_it_is_for_and_breaks_nothing(folder: Path) -> None:
     """One finding fewer, none more; of a warning, what passes along each edge stays the same."""
-    source, hooks = read(folder / "app.pluto"), read(folder / "hooks.py")
+    source, hooks = _sources(folder)
+    every = diagnostics_of(source, hooks)
+    for found in every:
+        if found.fix is None:
+            continue
+        mended = Source(found.source.path, applied(found.source, [found.fix]))
+        after, and_hooks = (source, mended) if found.source == hooks else (mended, hooks)
+        before, left = _facts(every), _facts(diagnostics_of(after, and_hooks))
+        before.subtract([(found.code, found.message)])
+        assert before <= left
+        more = [code for code, _ in left - before]
+        if found.severity is Severity.WARNING:
+            assert not more
+            assert _carried(after) == _carried(source)
+        # of an error: only what could not be looked at before
+        assert all(code[:2] > found.code[:2] for code in more)
+
+
+def _sources(folder: Path) -> tuple[Source, Source | None]:
+    source = read(folder / "app.pluto")
     assert source is not None
-    assert found.fix is not None
-    mended = Source(found.source.path, applied(found.source, [found.fix]))
-    after, and_hooks = (source, mended) if found.source == hooks else (mended, hooks)
-    before, left = _facts(diagnostics_of(source, hooks)), _facts(diagnostics_of(after, and_hooks))
-    before.subtract([(found.code, found.message)])
-    assert before <= left
-    more = [code for code, _ in left - before]
-    if found.severity is Severity.WARNING:
-        assert not more
-    # of an error: only what could not be looked at before
-    assert all(code[:2] > found.code[:2] for code in more)
-    if found.severity is Severity.WARNING:
-        assert _carried(after) == _carried(source)
+    return source, read(folder / "hooks.py")
 
 
 def _facts(found: tuple[Diagnostic, ...]) -> Counter[tuple[str, str]]:
@@ -215,7 +207,8 @@ def _carried(source: Source) -> dict[tuple[str, str], list[str]] | None:
 
 def test_there_are_fixes() -> None:
     """The cases have some of each kind."""
-    codes = {found.code for _, found in FIXABLE}
+    every = (found for folder in FOLDERS for found in diagnostics_of(*_sources(folder)))
+    codes = {found.code for found in every if found.fix}
     assert {"P0009", "P0016", "P1025", "P1035", "P2052", "P2053"} <= codes
 
 

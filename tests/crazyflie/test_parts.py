@@ -28,6 +28,7 @@ from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
 from pluto_fleet.lithium import level_at
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.domain.motion import PEAK, SHORTEST
 
 FLYING, TUMBLED, LOCKED_BIT = 1 << 4 | 1 << 8, 1 << 5, 1 << 6
 
@@ -116,9 +117,9 @@ def test_a_drone_that_is_to_stop_stops_within_its_way_of_a_third_of_a_second(spe
 def test_where_it_was_long_ago_says_nothing_of_its_speed() -> None:
     assert trajectory.braking(state(0.0), state(5.0, x=3.0)) == (
         (3.0, 0.0, 1.0),
-        trajectory.SHORTEST,
+        SHORTEST,
     )
-    assert trajectory.braking(None, state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), trajectory.SHORTEST)
+    assert trajectory.braking(None, state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), SHORTEST)
 
 
 @given(sent=st.floats(0.0, 16777.0), passed=st.floats(0.0, 9.0), x=st.floats(-500.0, 500.0))
@@ -126,14 +127,14 @@ def test_it_is_never_sent_far_to_stop_no_matter_what_its_telemetry_makes_believe
     sent: float, passed: float, x: float
 ) -> None:
     target, seconds = trajectory.braking(state(0.0, sent=sent), state(0.1, x=x, sent=sent + passed))
-    assert abs(target[0] - x) <= 1.0 + 1e-9 and trajectory.SHORTEST <= seconds <= 5.0
+    assert abs(target[0] - x) <= 1.0 + 1e-9 and SHORTEST <= seconds <= 5.0
 
 
 def test_two_states_that_arrive_at_one_moment_were_not_sent_at_one() -> None:
     before, now = state(5.0, sent=1.0), state(5.0001, x=0.1, sent=1.1)
     assert trajectory.braking(before, now)[0][0] == pytest.approx(0.3)
     at_once = state(5.0001, x=0.1, sent=1.001)
-    assert trajectory.braking(before, at_once) == ((0.1, 0.0, 1.0), trajectory.SHORTEST)
+    assert trajectory.braking(before, at_once) == ((0.1, 0.0, 1.0), SHORTEST)
 
 
 def test_the_clock_of_the_log_begins_anew_in_flight() -> None:
@@ -193,9 +194,9 @@ def test_what_is_done_at_the_end_of_a_fast_climb_or_descent_is_done_within_a_dec
 
 def test_a_course_is_followed_on_each_axis() -> None:
     pace = SpeedLimits((1.0, 0.8, 0.5))
-    assert pace.seconds((0, 0, 1), (8, 0, 1), 3.0) == pytest.approx(trajectory.PEAK * 10)
-    assert pace.seconds((0, 0, 0), (0, 0, 2), 3.0) == pytest.approx(trajectory.PEAK * 4)
-    assert pace.seconds((0, 0, 1), (8, 0, 1), 0.5) == pytest.approx(trajectory.PEAK * 16)
+    assert pace.seconds((0, 0, 1), (8, 0, 1), 3.0) == pytest.approx(PEAK * 10)
+    assert pace.seconds((0, 0, 0), (0, 0, 2), 3.0) == pytest.approx(PEAK * 4)
+    assert pace.seconds((0, 0, 1), (8, 0, 1), 0.5) == pytest.approx(PEAK * 16)
     assert list(SpeedLimits((inf, inf, inf)).too_slow_for(5.0)) == []
 
 

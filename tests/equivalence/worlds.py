@@ -17,6 +17,7 @@ from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import AfterTrip, Item, Mission, Point, Trip
+from pluto_fleet.shared.domain.motion import STRAIGHT, Motion
 from plutoc.emit.model_file import fields_of
 from plutoc.graph.model import Graph
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
@@ -65,6 +66,7 @@ class World:
     until: float
     entry: tuple[str, Status] | None = None
     """The block where the missions go on, as if they had been interrupted, and how they stand."""
+    motion: Motion = STRAIGHT
 
     @property
     def fleet(self) -> FleetFile:
@@ -78,6 +80,7 @@ class World:
             drones=tuple(drones),
             after_trip=self.after_trip,
             max_airborne=self.max_airborne,
+            motion=self.motion,
         )
 
     @property

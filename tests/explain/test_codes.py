@@ -26,7 +26,10 @@ def docstrings(tree: ast.AST) -> set[ast.Constant]:
 
 def said_in(path: Path) -> Iterator[str]:
     """Yield each code that stands in a text of a module."""
-    tree = ast.parse(path.read_bytes())
+    source = path.read_text(encoding="utf-8")
+    if not CODE.search(source):  # most have none, and every worker of pytest reads all of them
+        return
+    tree = ast.parse(source)
     passed = docstrings(tree)
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in passed:

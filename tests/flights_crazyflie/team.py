@@ -11,7 +11,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, TypeVar
 
-from pluto_fleet.drones.real_fleet import SLACK, RealDrone, RealFleet
+from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
 from pluto_fleet.drones.team import Team, make_team
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.process.realtime import RealTime
@@ -19,6 +19,7 @@ from pluto_fleet.shared.domain.actions import Plain
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Point
+from pluto_fleet.shared.domain.motion import SLACK
 from pluto_fleet.shared.time.kernel import FLEET, Task
 from tests.kill.lives import eventually
 

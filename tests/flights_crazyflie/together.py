@@ -18,11 +18,12 @@ from math import dist
 from pathlib import Path
 from tempfile import mkdtemp
 
-from pluto_fleet.crazyflie.trajectory import DEFAULT_LIMIT, SHORTEST, SpeedLimits, shortest_duration
+from pluto_fleet.crazyflie.trajectory import DEFAULT_LIMIT, SpeedLimits, shortest_duration
 from pluto_fleet.crtp.flight_log import CommandRecord, Point
 from pluto_fleet.drones.vehicle import CLIMB_LIMIT
 from pluto_fleet.journal.place import commands_note
 from pluto_fleet.process.ipc import ask
+from pluto_fleet.shared.domain.motion import SHORTEST
 from pluto_fleet.shared.hooks.plain_data import point_of
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight

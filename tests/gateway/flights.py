@@ -58,6 +58,7 @@ class Field:
         homes: tuple[tuple[float, float], ...] = ((1, 1), (2, 1), (3, 1)),
         patience: float | None = None,
         ledger: Ledger | None = None,
+        measures: bool = False,
     ) -> None:
         self.airspace = airspace or Airspace()
         self.kernel = kernel or VirtualTime()
@@ -70,7 +71,7 @@ class Field:
             self.kernel, self.drones, world, faults or Faults(), 1, self.airspace
         )
         self.ledger = ledger or Ledger()
-        self.patience = patience
+        self.patience, self.measures = patience, measures
         self.leaving: Leaving | None = None
         self.gateway = self.another()
 
@@ -84,6 +85,7 @@ class Field:
             ledger=self.ledger,
             patience=self.patience,
             leaving=self.leaving,
+            measures=self.measures,
         )
         return self.gateway
 

@@ -143,7 +143,8 @@ def test_no_drone_lands_on_another_or_where_it_may_not() -> None:
         stops = ((5.0, 5.0, height),)
         link.fly(Task(id=drone, drone=drone, stops=stops, action=None), lambda _: None)
     field.advance(60)
-    field.navigation.bodies["cf3"].move((10, 10.4, 1), field.kernel.now, field.kernel.now)
+    now = field.kernel.now
+    field.navigation.bodies["cf3"].move((10, 10.4, 1), now, now, now)
     brought_down(field, Down.LAND)
     at = [field.navigation.telemetry[drone.id].location for drone in field.drones]
     assert at[0] == (5, 5, 0)

@@ -14,6 +14,7 @@ import pytest
 from pluto_fleet.gateway import remote, starting
 from pluto_fleet.gateway.process import LOG, main
 from pluto_fleet.gateway.starting import connect, let_end, speed_in, still_runs, stop_directly
+from pluto_fleet.jobs.flown import Flown
 from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
@@ -30,6 +31,8 @@ def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
 
     async def play(brain: Brain) -> None:
         link = await brain.linked()
+        flown: list[Flown] = []
+        link.on_flown(flown.append)
         job = Task()
         assert await brain.flown(link, job) is None
         assert job.begun == 1
@@ -45,6 +48,8 @@ def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
         assert fleet_report.jobs["photo"].value == photo
         assert fleet_report.drones["cf1"].carrying == "pills"
         await brain.told(link.land("cf1"))
+        whats = ["take_off", "leg", "action", "action", "land"]
+        assert [one["what"] for one in flown] == whats  # each before what follows from it
         assert link.telemetry("cf1").landed
         await link.goodbye()
         assert not brain.lost.is_set

@@ -54,6 +54,7 @@ EVENTS: list[dict[str, object]] = [
         "reason": "was it released?",
     },
     {"t": 10.0, "event": "a.word.of.later", "mission": "North", "what": "\x1b[2J"},
+    {"t": 10.5, "event": "drone.flew", "drone": "cf1", "what": "land", "seconds": 4.0},
     {"t": 11.0, "event": "trip.failed", "mission": "North"},
 ]
 

@@ -84,7 +84,9 @@ class Living:
         self.navigation = SimulatedNavigation(
             self.kernel, drones, world, faults, 0, space, self._see
         )
-        self.gateway = Gateway(self.kernel, self.navigation, drones, space, ledger=Ledger())
+        self.gateway = Gateway(
+            self.kernel, self.navigation, drones, space, ledger=Ledger(), measures=True
+        )
         self.events: list[Event] = []
         self.done: Future[float] = Future()
         self._epoch = 0
@@ -110,6 +112,7 @@ class Living:
             listeners=[self.events.append],
         )
         disk.life = life
+        link.on_flown(life.flown)  # as in real flights: nothing may follow from it
         return life
 
     def _is_done(self, task: Future[float]) -> None:

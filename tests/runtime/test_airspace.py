@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise, product
 from math import atan2, cos, dist, hypot, isclose, nan, pi, sin
 
@@ -11,7 +12,6 @@ from hypothesis import strategies as st
 
 from pluto_fleet.shared.domain.airspace import MARGIN, Airspace, enters, inside, tidy
 from pluto_fleet.shared.domain.model import Point
-from pluto_fleet.shared.fleet.reach import length
 
 Polygon = tuple[tuple[float, float], ...]
 
@@ -53,6 +53,11 @@ def well_inside(x: float, y: float, polygon: Polygon) -> bool:
         step = atan2(by - y, bx - x) - atan2(ay - y, ax - x)
         turned += (step + pi) % (2 * pi) - pi
     return abs(turned) > 1
+
+
+def length(start: Point, way: Sequence[Point]) -> float:
+    """Return the metres of a way, from its start on."""
+    return sum(dist(a, b) for a, b in pairwise((start, *way)))
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ import pytest
 
 from invariants import hashes
 from pluto_fleet.shared.domain.model import Drone
-from pluto_fleet.shared.fleet.reach import CLIMB_SPEED
 from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.simulation.body import Body
 from pluto_fleet.simulation.drones import SimulatedNavigation
@@ -57,7 +56,8 @@ def test_a_mistake_in_the_world_is_found_by_them_and_shown_as_it_is(
         if body.landed:
             x, y, _ = body.location
             body.lift_off(now)
-            await self._move(body, (x, y, height), CLIMB_SPEED, "to take off")
+            up = body.model.climb(height, body.drone.category.speed)
+            await self._move(body, (x, y, height), (0.0, up, 0.0), "to take off")
 
     monkeypatch.setattr(Body, "lift_off", lift_off)
     monkeypatch.setattr(SimulatedNavigation, "takeoff", takeoff)

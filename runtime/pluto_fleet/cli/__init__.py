@@ -70,7 +70,7 @@ def _heard(app: App) -> int:
     from ..process.signal_guard import interrupted_by_a_person
 
     command = sys.argv[1:2]
-    if command == ["simulate"]:
+    if command in (["simulate"], ["size"]):
         with interrupted_by_a_person(), refused():
             return main(app)
     if command in (["fly"], ["resume"], ["serve"]):
@@ -119,6 +119,10 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
             from .simulate import simulate
 
             return simulate(app, options)
+        case "size":
+            from .size import size
+
+            return size(app, options)
         case "fly" if options.dry_run:
             from .dry_run import dry_run
 

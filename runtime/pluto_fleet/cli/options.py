@@ -15,9 +15,12 @@ from ..shared.command_line import CommandLine
 from ..shared.domain.errors import BadInput
 from ..shared.domain.quantities import time_from, typed
 from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_flies
+from .size_flags import Deadline, add_size
 
 if TYPE_CHECKING:
     from ..app import App
+
+MOST_JOBS = 256
 
 
 @dataclass
@@ -30,6 +33,12 @@ class Options:
     seed: int = 0
     no_spread: bool = False
     runs: int | None = None
+    jobs: int | None = None
+    by: Deadline | None = None
+    confidence: float = 0.99
+    most: int | None = None
+    swap: float | None = None
+    write: Path | None = None
     until: float | None = None
     fail: dict[str, float] = field(default_factory=dict)
     trace: Path | None = None
@@ -111,6 +120,11 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     simulate = command("simulate", "Fly the missions in virtual time, with simulated drones.")
     _files(simulate)
     _simulation(simulate)
+    size = command("size", "Say how many drones the missions need, to be sure of them.")
+    _files(size)
+    _chance(size)
+    _jobs(size)
+    add_size(size, typed(time_from))
     _files(command("check", "Say whether the fleet can fly the missions; nothing flies."))
     fly = command("fly", "Fly the missions in real time.")
     _files(fly)
@@ -136,7 +150,9 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
         simulate.error("--trace writes down one run: it does not go with --runs")
     if options.command == "fly" and options.until is not None and not options.dry_run:
         fly.error("--until goes with --dry-run: to end a flight, stop it")
-    if options.plot is not None and options.runs is None:
+    if options.jobs is not None and options.runs is None and options.command == "simulate":
+        simulate.error("--jobs is for many runs: it goes with --runs")
+    if options.command == "simulate" and options.plot is not None and options.runs is None:
         simulate.error("--plot draws many runs: it goes with --runs")
     return options
 
@@ -206,6 +222,15 @@ def _chance(parser: ArgumentParser, only: str = "") -> None:
     )
 
 
+def _jobs(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--jobs",
+        metavar="N",
+        type=whole_number(1, MOST_JOBS),
+        help="how many runs at once, each in a process of its own; default: one for each core",
+    )
+
+
 def _simulation(parser: ArgumentParser) -> None:
     _chance(parser)
     parser.add_argument(
@@ -219,6 +244,7 @@ def _simulation(parser: ArgumentParser) -> None:
         type=whole_number(1),
         help="simulate N times, with N seeds from --seed on",
     )
+    _jobs(parser)
     parser.add_argument(
         "--plot",
         metavar="FILE",

@@ -46,8 +46,9 @@ def load(app: App, options: Options) -> LoadedPlan:
     app = moving(app, fleet.motion)
     missions_text = text_of(options.missions)
     missions = missions_of(parsed(str(options.missions), missions_text), app, fleet.airspace)
-    found = problems(missions, app, fleet, fleet.airspace)
-    if (options.command == "simulate" or options.dry_run) and options.until is None:
+    sizes = options.command == "size"  # it says what no fleet can do
+    found = [] if sizes else problems(missions, app, fleet, fleet.airspace)
+    if (sizes or options.command == "simulate" or options.dry_run) and options.until is None:
         found += endless(missions, app)
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
@@ -93,7 +94,7 @@ def _missions(options: Options) -> Path | None:
     """Return the missions file of a command that flies nothing real, if any."""
     simulated = options.sim or options.crtp_sim is not None
     match options.command:
-        case "simulate" | "check":
+        case "simulate" | "check" | "size":
             return options.missions
         case "fly" if simulated:
             return options.missions

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from math import ceil, floor
 from pathlib import Path
 from statistics import mean, median
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..process.text import in_shell
+from ..process.workers import WorkerDied, cores, in_workers
 from ..report.report import exit_code, last_line, table
 from ..shared import output
 from ..shared.alone.simulate import outcome_data, trips_data
@@ -24,6 +25,7 @@ from ..shared.domain.text import (
 )
 from ..shared.domain.trace import dumped
 from ..trials.invariants import ENDS, Invariants, items_of
+from .picture import drawing, kind_of, write
 
 if TYPE_CHECKING:
     from ..app import App
@@ -33,37 +35,56 @@ if TYPE_CHECKING:
     from .options import Options
     from .plans import LoadedPlan
 
-    Draw = Callable[[str, str, Sequence[tuple[str, Sequence[float]]]], bytes]
-
 BROKEN = 70
 """The exit code of a run that violates an invariant, which is a bug of Pluto."""
 
 _MOST_VIOLATIONS = 10
 
 
+class _Run(NamedTuple):
+    """What a worker sends back of a run: what is said of it, and no more."""
+
+    figures: RunFigures
+    code: int
+    text: str
+    data: dict[str, object] | None
+    """For `--json`."""
+
+
 def often(
     app: App, options: Options, count: int, plan: LoadedPlan, progress: Progress, fly: Fly
 ) -> int:
-    """Fly with one seed after the other; report each run, and all together."""
+    """Fly with many seeds on all cores; report each run, in the seeds' order, and all together."""
     if options.plot is not None:
         kind_of(options.plot)
         drawing()  # raises before anything flies
+    items = items_of(plan.missions)
+
+    def run(seed: int) -> _Run:
+        outcome = fly(seed)
+        figures = run_of(seed, outcome, items)
+        code = BROKEN if figures.violations else exit_code(outcome)
+        if options.json:
+            return _Run(figures, code, "", outcome_data(app.name, seed, outcome))
+        why = f"; given up: {printable(outcome.given_up)}" if outcome.given_up else ""
+        return _Run(figures, code, f"seed {seed}: {last_line(outcome)}{why}", None)
+
+    seeds = range(options.seed, options.seed + count)
     runs: list[RunFigures] = []
     data: list[dict[str, object]] = []
-    worst, items = 0, items_of(plan.missions)
-    for place in range(count):
-        seed = options.seed + place
-        progress.update(place / count, f"run {place + 1} of {count}")
-        outcome = fly(seed)
-        run = run_of(seed, outcome, items)
-        runs.append(run)
-        worst = max(worst, BROKEN if run.violations else exit_code(outcome))
-        if options.json:
-            data.append(outcome_data(app.name, seed, outcome))
-        else:
-            progress.clear()
-            why = f"; given up: {printable(outcome.given_up)}" if outcome.given_up else ""
-            output.line(f"seed {seed}: {last_line(outcome)}{why}")
+    worst = 0
+    try:
+        for done in in_workers(run, seeds, options.jobs or cores()):
+            runs.append(done.figures)
+            worst = max(worst, done.code)
+            if done.data is not None:
+                data.append(done.data)
+            else:
+                progress.clear()
+                output.line(done.text)
+            progress.update(len(runs) / count, f"{len(runs)} of {counted(count, 'run')}")
+    except WorkerDied as end:
+        raise died(app, seeds[end.place], end) from None
     progress.clear()
     if options.plot is not None:
         plot(options.plot, app.name, runs)
@@ -74,6 +95,14 @@ def often(
         for line in _said(app, options, runs):
             output.line(line)
     return worst
+
+
+def died(app: App, seed: int, end: WorkerDied) -> BadInput:
+    """Return the error of a run whose process has ended before it."""
+    return BadInput(
+        f"{app.name}: the process that flew seed {seed} {end.how}: fewer of them need less memory"
+        " (--jobs 1); if it is always this seed, something in hooks.py ends it"
+    )
 
 
 def _said(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[str]:
@@ -143,7 +172,7 @@ def _in_words(runs: Sequence[RunFigures]) -> str:
 
 
 Fly = Callable[[int], "SimulationResult"]
-"""Flies the missions with a seed."""
+"""Flies the missions with a seed, in a worker."""
 
 
 MOST_SEEDS = 20
@@ -238,31 +267,6 @@ def percentile(ordered: Sequence[float], share: float) -> float:
     return min(below + (above - below) * (place - floor(place)), above)
 
 
-KINDS = (".svg", ".png")
-
-
-def kind_of(path: Path) -> str:
-    """Return the image format of a file's name."""
-    kind = path.suffix.lower()
-    if kind not in KINDS:
-        raise BadInput(f"{path}: a plot is an SVG or a PNG: give it a name that ends so")
-    return kind
-
-
-def drawing() -> Draw:
-    """Import what draws, or raise `BadInput` with how to install it."""
-    try:
-        from .plot import picture
-    except ImportError as error:
-        if (error.name or "").startswith("pluto"):  # a bug
-            raise
-        raise BadInput(
-            "a plot needs matplotlib, the extra `plot` of this package: "
-            'pip install "matplotlib>=3.8"'
-        ) from None
-    return picture
-
-
 def plot(path: Path, title: str, runs: Sequence[RunFigures]) -> None:
     """Write the plot: the same runs give the same bytes."""
     good = [run.makespan for run in runs if run.success]
@@ -273,9 +277,4 @@ def plot(path: Path, title: str, runs: Sequence[RunFigures]) -> None:
     )
     rate = percent(len(good) / len(runs))
     title = f"{title}: {len(good)} of {len(runs)} succeeded ({rate})"
-    picture = drawing()(kind_of(path)[1:], title, panels)
-    try:
-        path.write_bytes(picture)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise BadInput(f"{path}: the plot cannot be written: {why}") from None
+    write(path, drawing().histograms(kind_of(path), title, panels))

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from copy import deepcopy
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..flight.simulate import simulate as simulated
 from ..journal.event_line import line
@@ -21,11 +20,11 @@ from ..shared.alone.simulate import SimulationResult, outcome_data
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import duration
 from ..shared.domain.trace import Event, dumped
+from ..trials.case import fresh
 from .plans import LoadedPlan, load
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..shared.domain.model import Mission
     from .options import Options
 
 Listener = Callable[[Event], None]
@@ -49,8 +48,7 @@ def simulate(app: App, options: Options) -> int:
         from .runs import often  # not needed for one run
 
         def again(seed: int) -> SimulationResult:
-            # a run changes its missions
-            return _fly(app, options, plan, deepcopy(plan.missions), seed, None)
+            return _fly(app, options, plan, seed, None)
 
         return often(app, options, options.runs, plan, progress, again)
     finally:
@@ -71,7 +69,7 @@ def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> i
             watch(event)
 
         try:
-            outcome = _fly(app, options, plan, plan.missions, options.seed, listen)
+            outcome = _fly(app, options, plan, options.seed, listen)
         except Halt as halt:
             raise halt.error from None
         progress.clear()
@@ -86,16 +84,11 @@ def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> i
 
 
 def _fly(
-    app: App,
-    options: Options,
-    plan: LoadedPlan,
-    missions: Sequence[Mission[Any]],
-    seed: int,
-    listener: Listener | None,
+    app: App, options: Options, plan: LoadedPlan, seed: int, listener: Listener | None
 ) -> SimulationResult:
     return simulated(
         app,
-        missions,
+        [fresh(mission) for mission in plan.missions],  # a run changes its missions
         plan.fleet,
         seed=seed,
         faults=Faults(**options.fail),

@@ -263,8 +263,9 @@ def not_real(fleet: FleetFile) -> str | None:
 
 
 def too_fast(app: App, fleet: FleetFile) -> list[str]:
-    """Return a sentence for each category that is faster than its drones can follow."""
-    flown, limit = {d.category for d in fleet.drones if d.line is not None}, fleet.motion.limit
+    """Return a sentence for each category that is faster than its Crazyflies can follow."""
+    named = [d for d in fleet.drones if d.line is not None and navigation_of(fleet, d) == CRAZYFLIE]
+    flown, limit = {d.category for d in named}, fleet.motion.limit
     return [
         errors.too_fast(category.name, category.speed, limit)
         for category in app.categories

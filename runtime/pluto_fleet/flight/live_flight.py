@@ -86,6 +86,7 @@ class LiveFlight:
             midnight=(kernel.time_of_day - kernel.time()) % 86_400,
         )
         hooks.ended, hooks.stir = life.hook_ended, life.driver.pump
+        link.on_flown(life.flown)
         life.patient, life.carried_home = setting.patient, setting.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
@@ -120,6 +121,7 @@ class LiveFlight:
         if end is End.OVER:
             over.result()  # raises its error
         if self._failure is None:
+            life.recorder.finish()
             if self._since_snapshot > SNAPSHOT_AT_END:
                 self._keep()
             try:

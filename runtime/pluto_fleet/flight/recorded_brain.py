@@ -10,6 +10,7 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..jobs.flown import FLEW
 from ..jobs.reports import reported_result
 from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
@@ -24,6 +25,7 @@ from .reconcile import Outcome, ended, id_of, in_flight, outcome_of, trip_of
 if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
+    from ..jobs.flown import Flown
     from ..jobs.job import CommandLink
     from ..journal.fold import Record, Records
     from ..shared.domain.model import Drone, Mission
@@ -129,6 +131,10 @@ class RecordedBrain:
     def take(self, event: Event) -> None:
         """Record such an event, given as a mapping."""
         self._take({"t": round(self.kernel.now, 6), **event})
+
+    def flown(self, command: Flown) -> None:
+        """Record how a command went that a drone has flown: nothing follows from it."""
+        self.recorder.measure({"t": round(self.kernel.now, 6), "event": FLEW, **command})
 
     def interrupted(self, mission: str, flight: Record) -> None:
         """Take back a flight whose action was not done: its trip is flown again, under the same id."""

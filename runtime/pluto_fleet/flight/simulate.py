@@ -7,8 +7,10 @@ from contextlib import closing
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..app import App
 from ..gateway.gateway import Gateway
 from ..shared.alone.simulate import Bound, SimulationResult, see_through
+from ..shared.alone.simulate import simulate as without_traffic
 from ..shared.alone.world import World
 from ..shared.domain.app import moving
 from ..shared.flow.standing import (
@@ -25,7 +27,6 @@ from .driver import Driver
 from .orders import Dispatcher
 
 if TYPE_CHECKING:
-    from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.controls import Controls
     from ..process.hook_runner import RealHooks
@@ -34,6 +35,9 @@ if TYPE_CHECKING:
     from ..shared.domain.trace import Event
     from ..shared.time.future import Future
     from ..shared.time.kernel import Kernel
+
+_LEGS = (3, 1)
+"""The first seam whose brains are told several legs at once."""
 
 Listener = Callable[["Event"], object]
 Around = Callable[["Kernel", "Controls"], "Controls"]
@@ -143,8 +147,20 @@ def simulate(
     """Fly the missions in virtual time, until the last one has ended or a time is reached.
 
     Without such a time it is given up if missions fly again and again without success.
+    Drones that are not kept apart fly in the brain's own world, as each has the air to itself there.
     `around` wraps the drones' controls for the gateway.
     """
+    if not fleet.apart and around is None and app.seam >= _LEGS:
+        return without_traffic(
+            app,
+            missions,
+            fleet,
+            seed=seed,
+            faults=faults,
+            until=until,
+            on_event=on_event,
+            new_brain=App.new_brain,
+        )
     bound, events = Bound(missions), list[Any]()
 
     def listen(event: Event) -> None:

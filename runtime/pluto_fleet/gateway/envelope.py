@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.text import number
 from .traffic.legs import leg_problem
+from .traffic.way_back import way_back
 
 if TYPE_CHECKING:
     from ..shared.domain.airspace import Airspace
@@ -46,7 +47,7 @@ class Envelope:
         airspace = self._airspace
         back: tuple[Point, ...] = ()
         if airspace.problem(start) is not None:
-            start = airspace.way_back(start)
+            start = way_back(airspace, start)
             back = (start,)
         problem = airspace.problem(target) or leg_problem(airspace, start, target)
         if problem is not None:

@@ -9,12 +9,13 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..jobs.job import motors_cut
-from ..shared.domain.airspace import permitted_way, way_from
+from ..shared.domain.airspace import permitted_way
 from ..shared.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from ..shared.fleet.reach import docked, flight_seconds
 from ..shared.time.kernel import FLEET, Kernel, Task
 from .envelope import Envelope
 from .ledger import CutMotors
+from .traffic.way_back import way_back, way_from
 from .traffic.ways import Section
 
 if TYPE_CHECKING:
@@ -352,7 +353,7 @@ class Executor:
             return self._traffic.ground.way_down(drone)
         points = [here]
         if self._airspace.problem(here) is not None:
-            points.append(self._airspace.way_back(here))
+            points.append(way_back(self._airspace, here))
         return Section(drone, (*points, (*points[-1][:2], 0.0)), False, True)
 
     def _home(self, drone: str) -> Section:

@@ -19,10 +19,12 @@ from .descent import Descent
 from .envelope import Envelope
 from .executor import Executor, Leaving
 from .jobs import Jobs
+from .measuring import MeasuringControls
 from .traffic.traffic import Traffic
 
 if TYPE_CHECKING:
     from ..jobs.controls import Controls
+    from ..jobs.flown import Flown
     from ..jobs.job import Job, Report
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.model import Point, Telemetry
@@ -50,6 +52,8 @@ class Link:
 
     def __init__(self, gateway: Gateway, lost: Callable[[], object] | None) -> None:
         self._gateway, self._navigation, self._lost = gateway, gateway.navigation, lost
+        self.flown: Callable[[Flown], object] | None = None
+        """Called with each command that a drone has flown, while this link is in command."""
         self._line = gateway.line
         self._is_heard = gateway.descent is None
         self._under_way: dict[str, None] = {}
@@ -176,6 +180,10 @@ class Link:
         if self._is_heard:
             self._gateway.jobs.forget(id)
 
+    def on_flown(self, hear: Callable[[Flown], object]) -> None:
+        """Call this with each command that a drone has flown."""
+        self.flown = hear
+
     def heartbeat(self) -> None:
         """Signal that the brain is alive."""
         if self._gateway.is_commanded_by(self):
@@ -218,7 +226,8 @@ class Gateway:
     """All drones of one fleet, and the jobs that they were given.
 
     Without a ledger, finished jobs are forgotten. Without `patience`,
-    a silent brain is no reason to land.
+    a silent brain is no reason to land. `measures`: the brain in command is told how long each
+    command took.
     """
 
     def __init__(
@@ -234,8 +243,11 @@ class Gateway:
         max_airborne: int | None = None,
         patience: float | None = None,
         leaving: Leaving | None = None,
+        measures: bool = False,
     ) -> None:
         self.kernel = kernel
+        if measures:
+            controls = MeasuringControls(kernel, controls, drones, self._flown)
         self.traffic: Traffic | None = None
         """Keeps drones apart, if configured."""
         if apart > 0:
@@ -293,6 +305,11 @@ class Gateway:
     def is_commanded_by(self, link: Link) -> bool:
         """Return whether this link is in command."""
         return link is self.commander
+
+    def _flown(self, command: Flown) -> None:
+        """Tell the brain in command, if there is one, how a command went."""
+        if self.commander is not None and self.commander.flown is not None:
+            self.commander.flown(command)
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover."""

@@ -221,6 +221,7 @@ async def _command(
         max_airborne=settings.max_airborne,
         patience=settings.patience * settings.speed,
         leaving=seen.leaving,
+        measures=True,
     )
     over: Future[None] = Future()
     ending = Ending(gateway, over, settings)

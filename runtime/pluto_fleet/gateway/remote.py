@@ -17,6 +17,7 @@ from .wire import drone_report_of, fleet_report_of, job_data, result_of
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
+    from ..jobs.flown import Flown
     from ..jobs.job import Job, Report
     from ..jobs.reports import Down, DroneReport, FleetReport
     from ..shared.domain.model import Point, Telemetry
@@ -75,6 +76,7 @@ class RemoteLink:
         self._is_lost = False
         self._heard = 0.0
         self._watcher: Callable[[], object] | None = None
+        self._flown: Callable[[Flown], object] | None = None
         self._tasks: list[asyncio.Task[None]] = []
 
     async def link(self, epoch: int, patience: float) -> None:
@@ -139,6 +141,8 @@ class RemoteLink:
                 self._report(number, result_of(message))
             case {"begins": id} if id in self._jobs:
                 self._jobs[id].begins()
+            case {"flown": dict(command)} if self._flown is not None:
+                self._flown(command)
             case {"n": number, "failure": _}:
                 error = result_of(message)
                 asked = self._asked.get(number)
@@ -264,6 +268,10 @@ class RemoteLink:
     def on_telemetry(self, watcher: Callable[[], object]) -> None:
         """Call this at each update of the telemetry."""
         self._watcher = watcher
+
+    def on_flown(self, hear: Callable[[Flown], object]) -> None:
+        """Call this with each command that a drone has flown."""
+        self._flown = hear
 
     # The end
 

@@ -204,6 +204,7 @@ class Connection:
 
     def _link(self, epoch: int) -> None:
         self.link = self._gateway.link(epoch, self._lost)
+        self.link.on_flown(lambda command: self._tell({"flown": command}))
         self._tell_no_telemetry()  # this connection may have been in command before
         self._telemetry = self._server.publisher.subscribe(
             self._tell_seen, every=_EACH, view=seen, unchanged=_ALIVE

@@ -10,6 +10,7 @@ from ..shared.domain.errors import Failure, FlightFailed
 if TYPE_CHECKING:
     from ..shared.domain.actions import Plain
     from ..shared.domain.model import Item, Point, Telemetry
+    from .flown import Flown
     from .reports import Down, DroneReport, FleetReport
 
 
@@ -145,6 +146,10 @@ class GatewayLink(CommandLink, Protocol):
 
     def on_telemetry(self, watcher: Callable[[], object]) -> None:
         """Call this at each update of the telemetry."""
+        ...
+
+    def on_flown(self, hear: Callable[[Flown], object]) -> None:
+        """Call this with each command that a drone has flown, as plain data."""
         ...
 
     async def goodbye(self) -> None:

@@ -21,8 +21,11 @@ Header = Mapping[str, Any]
 LANGUAGE = 1
 """The version of Pluto's language."""
 
-EVENTS = 1
-"""The version of the events' meaning: a later runtime reads all earlier ones."""
+EVENTS = 2
+"""The version of the events' meaning: a later runtime reads all earlier ones.
+
+2: drones' commands are measured, in events that nothing follows from.
+"""
 
 
 def header(

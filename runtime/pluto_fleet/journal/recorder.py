@@ -1,7 +1,7 @@
 """Recording events in the journal before they have any effect outside (write-ahead).
 
 The events of each instant are appended to the journal as one row: all or none. A command to a drone waits
-until its row is durable.
+until its row is durable. Measurements cost no row of their own: they go along with the next one.
 """
 
 from __future__ import annotations
@@ -36,6 +36,8 @@ class Recorder:
         self.records = records
         self._lines: list[str] = []
         """The events of this instant."""
+        self._measured: list[str] = []
+        """The measurements since the last row."""
         self._waiting: deque[tuple[int, Callable[[], object]]] = deque()
         """The calls that wait for a row to be durable, in order."""
         self._added = self._durable = 0
@@ -53,6 +55,14 @@ class Recorder:
             event = json.loads(written)  # a copy, independent of the mission and its hooks
         self.records.take(event)
         return True
+
+    def measure(self, event: Event) -> None:
+        """Add a measurement, which changes no record, and for whose row no one waits."""
+        self._measured.append(exact(event))
+
+    def finish(self) -> None:
+        """Append the measurements that no other row has taken along: the run has ended."""
+        self._append()
 
     def when_durable(self, call: Callable[[], object]) -> None:
         """Call this as soon as all that has happened up to now is durable; not before this instant
@@ -83,14 +93,19 @@ class Recorder:
     def _settle(self) -> None:
         """Append the row of an instant that has ended, with the calls that wait for it."""
         if self._lines:
-            row = "[" + ",\n".join(self._lines) + "]"
-            self._lines.clear()
-            self._added = self._sink.add(row)
+            self._append()
         if self._due:
             due, self._due = self._due, []
             for call in due:
                 self._waiting.append((self._added, call))
             self.durable(self._durable)
+
+    def _append(self) -> None:
+        lines = [*self._measured, *self._lines]
+        self._measured.clear()
+        self._lines.clear()
+        if lines:
+            self._added = self._sink.add("[" + ",\n".join(lines) + "]")
 
 
 def _as_new(trip: Record) -> Record:

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ..jobs.flown import FLEW
 from ..shared.domain.text import duration, printable
 
 if TYPE_CHECKING:
@@ -98,7 +99,10 @@ Fact = Mapping[str, Any]
 
 
 def journal_sentence(event: Fact, wall: float) -> str | None:
-    """Return an event's sentence; for an event of another version, its plain facts."""
+    """Return an event's sentence; for an event of another version, its plain facts.
+
+    None: it is a measurement, which only programs read.
+    """
     try:
         if event["event"] == "journal.begun":
             return _begun(event, wall)
@@ -107,7 +111,10 @@ def journal_sentence(event: Fact, wall: float) -> str | None:
             line = line_of(event)
             return line if line is not None else _plain(event)
         mission = event.get("mission")
-        text = f"{mission}: {say(event)}" if mission else say(event)
+        said = say(event)
+        if said is None:
+            return None
+        text = f"{mission}: {said}" if mission else said
         return f"{float(event['t']):>8.1f} s  {printable(text)}"
     except (LookupError, TypeError, ValueError, AttributeError):
         return _plain(event)
@@ -157,7 +164,7 @@ def _drone(what: str) -> Callable[[Fact], str]:
     return lambda event: f"{event['drone']} {what}"
 
 
-_JOURNAL_SENTENCES: Mapping[str, Callable[[Fact], str]] = {
+_JOURNAL_SENTENCES: Mapping[str, Callable[[Fact], str | None]] = {
     "brain.began": lambda event: "the app begins" if event["epoch"] == 1 else "the app goes on",
     "mission.created": _created,
     "mission.changed": _changed,
@@ -172,4 +179,5 @@ _JOURNAL_SENTENCES: Mapping[str, Callable[[Fact], str]] = {
     "drone.returning": _drone("returns home"),
     "drone.charging": _drone("charges"),
     "drone.offline": _drone("does not answer"),
+    FLEW: lambda _: None,
 }

@@ -89,6 +89,7 @@ def simulate(
     faults: Faults,
     until: float | None,
     on_event: Listener | None,
+    new_brain: Callable[..., Brain] = Brain,
 ) -> SimulationResult:
     """Fly the missions until the last one has ended or a time is reached.
 
@@ -103,7 +104,7 @@ def simulate(
         if until is None and (enough := bound.look(event)) is not None:
             raise enough
 
-    with closing(Alone(app, fleet, faults, seed, listen)) as flown:
+    with closing(Alone(app, fleet, faults, seed, listen, new_brain)) as flown:
         flown.begin(missions)
         ended, given_up = see_through(flown, flown.run, app.name, bound, until)
         standing = flown.brain.standing()
@@ -124,12 +125,18 @@ class Alone:
     """A brain and ideal drones, in virtual time."""
 
     def __init__(
-        self, app: App, fleet: FleetData, faults: Faults, seed: int, listener: Listener
+        self,
+        app: App,
+        fleet: FleetData,
+        faults: Faults,
+        seed: int,
+        listener: Listener,
+        new_brain: Callable[..., Brain] = Brain,
     ) -> None:
         self.now = 0.0
         self._app, self._listener = app, listener
         self.drones = IdealDrones(app, fleet, faults, seed, self)
-        self.brain = Brain(app, fleet_data(fleet), space=fleet.airspace)
+        self.brain = new_brain(app, fleet_data(fleet), space=fleet.airspace)
 
     def begin(self, missions: Sequence[Mission[Any]]) -> None:
         """Begin missions at this instant."""

@@ -67,21 +67,6 @@ class Airspace:
                 return f"{place(point)} is inside no-fly area {count}"
         return None
 
-    def way_back(self, point: Point) -> Point:
-        """Return the permitted point that is nearest to one that is not, or almost so."""
-        width, depth = self.size
-        x, y, z = point
-        x, y = min(max(x, 0.0), width), min(max(y, 0.0), depth)
-        z = min(max(z, 0.0), self.ceiling)
-        for _ in range(1 + len(self.areas)):
-            around = next((area for area in self.areas if inside((x, y), area)), ())
-            out = edge_points((x, y), around, EPSILON)
-            permitted = [(ex, ey) for ex, ey in out if not self.problem((ex, ey, z))]
-            if not permitted:
-                break
-            x, y = min(permitted, key=lambda edge: dist(edge, (x, y)))
-        return x, y, z
-
     def route(self, start: Point, end: Point) -> Way | None:
         """Return the shortest permitted route, with the end and without the start, or None.
 
@@ -161,14 +146,6 @@ def permitted_way(airspace: Airspace, drone: str, start: Point, end: Point) -> t
     return route
 
 
-def way_from(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[Point, ...]:
-    """Return such a route; one that begins outside the permitted area leads back in first."""
-    if airspace.problem(start) is None or airspace.problem(end) is not None:
-        return permitted_way(airspace, drone, start, end)
-    back = airspace.way_back(start)
-    return (back, *permitted_way(airspace, drone, back, end))
-
-
 # Polygons in the plan
 
 
@@ -209,23 +186,12 @@ def inside(point: Corner, polygon: Polygon) -> bool:
     return within
 
 
-def edge_points(point: Corner, polygon: Polygon, margin: float) -> list[Corner]:
-    """Return the points of all edges that are nearest to a point inside, moved out by a margin."""
-    found: list[Corner] = []
-    for a, b in _edges(polygon):
-        x, y = _nearest(point, a, b)
-        far = dist((x, y), point)
-        scale = margin / far if far else 0.0
-        found.append((x + (x - point[0]) * scale, y + (y - point[1]) * scale))
-    return found
-
-
 def distance(point: Corner, a: Corner, b: Corner) -> float:
     """Return the distance of a point from a straight leg."""
-    return dist(point, _nearest(point, a, b))
+    return dist(point, nearest(point, a, b))
 
 
-def _nearest(point: Corner, a: Corner, b: Corner) -> Corner:
+def nearest(point: Corner, a: Corner, b: Corner) -> Corner:
     """Return the point of a straight leg that is nearest to another point."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     square = dx * dx + dy * dy

@@ -116,7 +116,7 @@ def charged(level: float, seconds: float, full: float, taper: float) -> float:
     tail = full - _slows(full, taper)
     if now <= full - tail:
         return now * (1 + taper) / full
-    return 1.0 - taper * (max(0.0, full - now) / tail) ** 2
+    return 1.0 - taper * (max(0.0, full - now) / (tail or full)) ** 2
 
 
 def charging(level: float, target: float, full: float, taper: float) -> float:

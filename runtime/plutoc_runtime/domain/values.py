@@ -18,7 +18,7 @@ from .airspace import covers_ground
 from .fields import FieldType, time_of_day
 from .model import AfterTrip
 from .quantities import QUANTITIES, UNITS, Type, parse_quantity, units_of
-from .text import number, quoted
+from .text import number, percent, quoted
 
 if TYPE_CHECKING:
     from .actions import Action
@@ -113,8 +113,9 @@ class Quantity:
         raise ValueError(f"is {beyond}: it may be {'0, or ' * self.or_none}{least} to {most}")
 
     def _written(self, amount: float) -> str:
-        plain = (one for one in units_of(self.kind) if UNITS[one][1:] == (1.0, 0.0))
-        unit = next(plain, "")  # none for a percentage
+        if self.kind is Type.PERCENT:
+            return percent(amount)
+        unit = next(one for one in units_of(self.kind) if UNITS[one][1:] == (1.0, 0.0))
         return f"{number(amount) if abs(amount) < 10_000 else f'{amount:,.0f}'} {unit}".strip()
 
 
@@ -126,7 +127,8 @@ MASS = Quantity(Type.MASS, 0.0, 1000.0)  # of an item
 TIME = Quantity(Type.TIME, 0.001, LARGEST, or_none=True)  # a delay, a limit, between two rounds
 
 _OVERHEAD = Quantity(Type.TIME, 0.0, 600.0)
-_SPREAD, _FACTOR = Quantity(Type.PERCENT, 0.0, 0.5), Quantity(Type.PERCENT, 0.1, 10.0)
+_SPREAD, _TAPER = Quantity(Type.PERCENT, 0.0, 0.3), Quantity(Type.PERCENT, 0.0, 0.5)
+_FACTOR = Quantity(Type.PERCENT, 0.1, 10.0)
 _LEGS = ("smooth", "straight")
 
 MOTION: dict[str, Read] = {
@@ -134,7 +136,8 @@ MOTION: dict[str, Read] = {
     "limit": Quantity(Type.SPEED, 0.01, 100.0),
     **dict.fromkeys(("take_off", "settles", "landing"), _OVERHEAD),
     **dict.fromkeys(("pace", "drain"), _FACTOR),
-    **dict.fromkeys(("spread", "action_spread", "taper"), _SPREAD),
+    **dict.fromkeys(("spread", "action_spread"), _SPREAD),
+    "taper": _TAPER,
 }
 """How the keys of a fleet's `[motion]` are read."""
 

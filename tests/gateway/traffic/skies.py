@@ -123,10 +123,14 @@ class Sky:
     def puts(self, *places: Point) -> None:
         """Let the drones hover at these places, before a gateway that has not seen them take off."""
         for drone, there in zip(self.drones, places, strict=True):
-            body = self.navigation.bodies[drone.id]
-            body.lift_off(self.kernel.now)
-            body.move(there, self.kernel.now, self.kernel.now)
+            self.put(drone.id, there)
         self.link = self.another().link(self.epoch)
+
+    def put(self, drone: str, place: Point) -> None:
+        """Let a drone hover at a place, or lie on the ground there."""
+        body, now = self.navigation.bodies[drone], self.kernel.now
+        body.lift_off(now)
+        body.move(place, now, now, now)
 
     async def pause(self, seconds: float) -> None:
         """Let a drone do something for so long."""

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.gateway.envelope import Envelope
-from pluto_fleet.shared.domain.airspace import Airspace, way_from
+from pluto_fleet.gateway.traffic.way_back import way_back, way_from
+from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.time.kernel import FLEET
 from tests.gateway.traffic.skies import Sky
@@ -76,7 +77,7 @@ def test_the_way_back_is_short_and_leads_to_where_it_may_be(
     point: tuple[float, float, float],
 ) -> None:
     """No permitted point is much nearer."""
-    back = WALL.way_back(point)
+    back = way_back(WALL, point)
     assert WALL.problem(back) is None
     if WALL.problem(point) is None:
         assert dist(back, point) < 1e-6

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from pluto_fleet.gateway.traffic.reservations import Reservation, meets
 from pluto_fleet.gateway.traffic.wait_queue import Obstacle
 from pluto_fleet.shared.domain.model import Category, Point
-from pluto_fleet.shared.fleet.reach import CLIMB_SPEED
+from pluto_fleet.shared.domain.motion import CLIMB_SPEED
 
 LIMIT = 0.5
 QUICK = Category(name="quick", speed=2.0)

@@ -14,13 +14,15 @@ from pluto_fleet.gateway.traffic.ways import ways_home
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.domain.motion import STRAIGHT, Motion
 from pluto_fleet.simulation.body import SimulatedDrone
-from tests.gateway.traffic.real_skies import FLIES_ON, late
+from tests.gateway.traffic.real_skies import PRECISE, late
 from tests.gateway.traffic.skies import ENDURING, Sky, is_home
 
 CASES = 10
 APART = 0.5
-LATER = 2.0
+LATER = 2.0 + 4 * PRECISE.settles
+"""Two seconds, and what it takes to settle after four legs more than alone."""
 ROWS = [(0.5 + column, 0.5 + 2.5 * row, 0.0) for row in range(2) for column in range(5)]
 """Ten docks, a metre apart in each row."""
 NEXT = [(0.5 + (column + 1) % 5, 1.7 + 2.5 * row, 0.5) for row in range(2) for column in range(5)]
@@ -72,6 +74,7 @@ def test_ten_whose_ways_cross_are_home_when_the_slowest_is(speed: float) -> None
     airspace = Airspace(size=(6.0, 6.0), ceiling=2.5, cruise_height=0.5)
     seconds, sky = late(ROWS, NEXT, airspace, speed, Down.HOME)
     assert seconds <= LATER
+    assert len(sky.real.landings) == len(ROWS)
     assert sky.nearest >= APART
     assert all(is_home(sky, drone) for drone in sky.drones)
 
@@ -86,6 +89,7 @@ def test_ten_anywhere_are_down_when_the_slowest_is(seed: int, how: Down) -> None
     airspace = Airspace(size=(12.0, 12.0), ceiling=3.0)
     seconds, sky = late(homes, places, airspace, chance.choice([0.5, 1.0, 2.0]), how)
     assert seconds <= LATER
+    assert len(sky.real.landings) == len(places)
     assert sky.nearest >= APART
 
 
@@ -94,24 +98,22 @@ def test_no_drone_waits_until_its_neighbour_says_that_it_stands() -> None:
     airspace = Airspace(size=(6.0, 6.0), cruise_height=0.5)
     homes, places = [(1.0, 1.0, 0.0), (1.6, 1.0, 0.0)], [(1.0, 4.0, 0.5), (4.6, 1.0, 0.5)]
     seconds, sky = late(homes, places, airspace, 1.0, Down.HOME)
-    assert seconds < FLIES_ON + 1.0
+    assert seconds < PRECISE.landing + 1.0
     assert sky.nearest >= APART
 
 
 def test_where_only_one_may_be_in_the_air_who_stands_goes_when_it_is_down() -> None:
     """No drone in the air waits for one that must not take off."""
     sky = Sky([(1.0, 1.0), (4.0, 1.0)], airspace=Airspace(size=(5.0, 5.0)), max_airborne=1)
-    one, other = (sky.navigation.bodies[drone.id] for drone in sky.drones)
-    for body, place in ((one, (4.0, 3.0, 0.0)), (other, (1.0, 1.2, 1.2))):
-        body.lift_off(0.0)
-        body.move(place, 0.0, 0.0)
-    one.touch_down(0.0)
+    sky.put("cf1", (4.0, 3.0, 0.0))
+    sky.put("cf2", (1.0, 1.2, 1.2))
+    sky.navigation.bodies["cf1"].touch_down(0.0)
     assert sky.until(sky.another().bring_down(Down.HOME), 300)
     assert sky.airborne <= 1
     assert all(is_home(sky, drone) for drone in sky.drones)
 
 
-def plan_of(seed: int, is_real: bool) -> Timetable:
+def plan_of(seed: int, motion: Motion) -> Timetable:
     """Plan for some drones in a small place, with docks side by side."""
     chance = Random(seed)
     side = chance.choice([3.0, 5.0])
@@ -123,16 +125,16 @@ def plan_of(seed: int, is_real: bool) -> Timetable:
         drone = SimulatedDrone(id=f"cf{index}", category=ENDURING, home=home, index=index)
         ways = ways_home(airspace, drone, place, False, 0.65)
         speed = chance.choice([0.2, 1.0])
-        courses = sorted((course(way, speed, is_real) for way in ways), key=lambda one: one.cost)
+        courses = sorted((course(way, speed, motion) for way in ways), key=lambda one: one.cost)
         goers.append(DescendingDrone(drone.id, courses))
     return timetable(goers, 0.65)
 
 
-@pytest.mark.parametrize("is_real", [True, False])
+@pytest.mark.parametrize("motion", [PRECISE, STRAIGHT], ids=["smooth", "straight"])
 @pytest.mark.parametrize("seed", range(4))
-def test_no_drone_waits_for_one_that_waits_for_it(seed: int, is_real: bool) -> None:
+def test_no_drone_waits_for_one_that_waits_for_it(seed: int, motion: Motion) -> None:
     """At all times a drone that may go goes to its next rest, and so all come to their ends."""
-    plan, chance = plan_of(seed, is_real), Random(seed)
+    plan, chance = plan_of(seed, motion), Random(seed)
     at = dict.fromkeys(plan.courses, 0)
     ends = {drone: len(one.pieces) - 1 for drone, one in plan.courses.items()}
     assert ends

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from random import Random
 
 import pytest
 
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
-from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.domain.model import Category, Point
+from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.gateway.traffic.skies import Restless, Sky, is_home
+from tests.gateway.traffic.skies import ENDURING, Restless, Sky, is_home
 from traffic import APART, flown, measured
 from traffic import crossings as crossing
 
 CASES = 40
 
 
-def sky_of(chance: Random) -> tuple[Sky, list[Point]]:
+UNEVEN = replace(ENDURING, motion=replace(CRAZYFLIE, spread=0.3, action_spread=0.3))
+"""Drones that fly like Crazyflies, but seldom take what was expected."""
+
+
+def sky_of(chance: Random, category: Category = ENDURING) -> tuple[Sky, list[Point]]:
     """Return a fleet, most often in too small a place, and targets: some the same, some stacked."""
     side, ceiling = chance.choice([3.0, 5.0, 8.0, 20.0]), chance.choice([10.0, 3.0, 1.8, 1.4])
     no_fly = (((2.0, 2.0), (3.0, 2.0), (3.0, 5.0), (2.0, 5.0)),) if side >= 8 else ()
@@ -38,16 +44,20 @@ def sky_of(chance: Random) -> tuple[Sky, list[Point]]:
         homes,
         airspace=airspace,
         max_airborne=chance.choice([None, None, 2, 1]),
-        slack=chance.choice([0.0, 0.15]),
+        slack=max(chance.choice([0.0, 0.15]), category.motion.slack),
+        category=category,
     )
     return sky, targets
 
 
-@pytest.mark.parametrize("seed", range(CASES))
-def test_every_flight_ends_and_none_comes_too_near(seed: int) -> None:
+@pytest.mark.parametrize(
+    ("seed", "category"),
+    [(seed, ENDURING) for seed in range(CASES)] + [(seed, UNEVEN) for seed in range(CASES // 4)],
+)
+def test_every_flight_ends_and_none_comes_too_near(seed: int, category: Category) -> None:
     """Drones fail in flight, targets are the same, ceilings low, and few may be in the air."""
     chance = Random(seed)
-    sky, targets = sky_of(chance)
+    sky, targets = sky_of(chance, category)
     flights = Restless(sky, seed, targets, chance.choice([1, 3]), chance.choice([0.0, 0.3])).begin()
     assert all(sky.until(flight, 3000) for flight in flights)
     assert sky.nearest >= sky.apart - 1e-6
@@ -56,11 +66,14 @@ def test_every_flight_ends_and_none_comes_too_near(seed: int) -> None:
     sky.kernel.close()
 
 
-@pytest.mark.parametrize("seed", range(CASES // 2))
-def test_a_stop_in_between_brings_all_down(seed: int) -> None:
+@pytest.mark.parametrize(
+    ("seed", "category"),
+    [(seed, ENDURING) for seed in range(CASES // 2)] + [(seed, UNEVEN) for seed in range(10)],
+)
+def test_a_stop_in_between_brings_all_down(seed: int, category: Category) -> None:
     """In the middle of anything; who is well and can get home is home, if that was asked for."""
     chance = Random(1000 + seed)
-    sky, targets = sky_of(chance)
+    sky, targets = sky_of(chance, category)
     Restless(sky, seed, targets, 3, 0.0).begin()
     sky.advance(chance.uniform(1, 60))
     how = chance.choice([Down.LAND, Down.HOME])

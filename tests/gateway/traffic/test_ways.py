@@ -14,6 +14,7 @@ from pluto_fleet.gateway.traffic.legs import between
 from pluto_fleet.gateway.traffic.reservations import box_of, meets, nearest
 from pluto_fleet.gateway.traffic.ways import Section, sections
 from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT, Motion
 
 metres = st.one_of(st.floats(-3, 3), st.integers(-2, 2).map(float))
 points = st.tuples(metres, metres, metres)
@@ -64,7 +65,7 @@ def test_pieces_that_are_near_are_found(
 ) -> None:
     """However the ways are cut; and each piece begins where the one before ends."""
     first, second = (
-        course(Section("cf1", (*way, way[-1]), False, False), 0.5, False) for way in (one, other)
+        course(Section("cf1", (*way, way[-1]), False, False), 0.5, STRAIGHT) for way in (one, other)
     )
     found = {(i, j) for i, least, most in near(first, second, 0.5) for j in range(least, most + 1)}
     for i, a in enumerate(first.pieces):
@@ -75,13 +76,13 @@ def test_pieces_that_are_near_are_found(
 
 
 @settings(max_examples=60)
-@given(ways, st.booleans(), st.floats(0.1, 2))
+@given(ways, st.sampled_from([STRAIGHT, CRAZYFLIE]), st.floats(0.1, 2))
 def test_a_drone_leaves_the_pieces_of_a_course_one_after_the_other(
-    way: tuple[tuple[float, float, float], ...], from_rest: bool, speed: float
+    way: tuple[tuple[float, float, float], ...], motion: Motion, speed: float
 ) -> None:
     """In one go or with rests on the way, which never takes less than the least."""
     points = (*way, (way[-1][0], way[-1][1], way[-1][2] - 1.0))
-    one = course(Section("cf1", points, False, True), speed, from_rest)
+    one = course(Section("cf1", points, False, True), speed, motion)
     end = len(one.pieces) - 1
     assert one.rests[0] == 0 and one.rests[-1] == end
     for first, last in [(0, end), *pairwise(one.rests)]:

@@ -18,6 +18,10 @@ size = [10, 6]
 no_fly = [[[3, 1], [3.5, 1], [3.5, 4], [3, 4]]]
 [fleet]
 navigation = "{fake_drones.__name__}:Fake"
+[motion]
+take_off = "1 s"
+settles = "0.2 s"
+landing = "2 s"
 [[drone]]
 id = "cf1"
 category = "scout"
@@ -116,7 +120,7 @@ def test_a_drone_that_lacks_what_the_plan_asks_for_is_told(
     fleet.write_text(f'{plain}[drone.options]\ncamra = "10.0.0.1:5000"\n', encoding="utf-8")
     code, out, err = command("fly", *plan, "--dry-run")
     assert code == 2
-    assert err.startswith(f"alfalfa fly would not begin:\n{fleet}:12: "), err
+    assert err.startswith(f"alfalfa fly would not begin:\n{fleet}:16: "), err
     assert '"camra"' in err
     assert command("fly", *plan, "--dry-run", "--crtp-sim", "2") == (2, out, err)
     assert RECORD == []

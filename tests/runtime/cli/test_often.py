@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 import sys
+import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +21,7 @@ from pluto_fleet.shared.alone.simulate import SimulationResult
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.trials.invariants import Items
 from tests.runtime.cli.conftest import Command
+from tests.runtime.cli.test_simulate import with_pollinate
 
 CRASHES = ("--fail", "crash=30%", "--seed", 10)
 
@@ -145,3 +149,66 @@ def test_a_picture_is_of_many_runs(missions: Path, command: Command) -> None:
     code, _, err = command("simulate", missions, "--plot", "p.svg")
     assert code == 2
     assert "--plot draws many runs: it goes with --runs" in err
+
+
+def counts(state: list[int]) -> Any:
+    """Return a hook that keeps how often it was called, and prints it."""
+
+    async def hook(drone: Any, trip: Any, context: Any, **_: object) -> None:
+        state.append(len(state))
+        print(f"call {len(state)}")
+        context.log(f"call {len(state)} by {drone.id}")
+
+    return hook
+
+
+@pytest.mark.parametrize("flags", [(), ("--json",)])
+def test_the_output_is_the_same_for_any_number_of_jobs(
+    missions: Path, command: Command, flags: tuple[str, ...]
+) -> None:
+    """Even of hooks that print, and keep something from run to run."""
+    state: list[int] = []
+    app = with_pollinate(counts(state))
+    said = [
+        command("simulate", missions, "--runs", 40, *CRASHES, *flags, "--jobs", jobs, app=app)
+        for jobs in (1, 2, 7)
+    ]
+    assert said[0] == said[1] == said[2]
+    assert "call 2" in said[0][1]
+    assert state == []  # they were other processes
+
+
+def killed(*_: object, **__: object) -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_a_run_that_is_killed_is_told_with_its_seed(missions: Path, command: Command) -> None:
+    """In a sentence, after what has been flown."""
+    code, _, err = command(
+        "simulate", missions, "--runs", 3, "--seed", 7, app=with_pollinate(killed)
+    )
+    assert code == 2
+    assert err == (
+        "alfalfa: the process that flew seed 7 was killed by SIGKILL: fewer of them need less memory"
+        " (--jobs 1); if it is always this seed, something in hooks.py ends it\n"
+    )
+
+
+def interrupts(*_: object, **__: object) -> None:
+    os.kill(os.getppid(), signal.SIGINT)
+    time.sleep(60)
+
+
+def test_an_interrupt_ends_all_runs_at_once(missions: Path, command: Command) -> None:
+    """With hooks that are busy in them."""
+    code, _, err = command("simulate", missions, "--runs", 3, app=with_pollinate(interrupts))
+    assert (code, err) == (130, "alfalfa: interrupted\n")
+    with pytest.raises(ChildProcessError):
+        os.waitpid(-1, os.WNOHANG)
+
+
+def test_jobs_are_for_many_runs(missions: Path, command: Command) -> None:
+    """One run is one job."""
+    code, _, err = command("simulate", missions, "--jobs", 2)
+    assert code == 2
+    assert "--jobs is for many runs: it goes with --runs" in err

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -135,8 +136,10 @@ def test_runs_that_took_the_same_are_not_given_a_range(missions: Path, command: 
     words = command("simulate", missions, "--runs", 1)[1].splitlines()[-1]
     assert "1 of 1 run succeeded (100 %); it took " in words
     assert " to " not in words
-    words = command("simulate", missions, "--runs", 2)[1].splitlines()[-1]
+    words = command("simulate", missions, "--runs", 2, "--no-spread")[1].splitlines()[-1]
     assert "2 of 2 runs succeeded (100 %); each took " in words
+    words = command("simulate", missions, "--runs", 2)[1].splitlines()[-1]
+    assert re.search(r"; they took [\d.]+ s to [\d.]+ s$", words)
 
 
 def test_the_trace_has_every_event(missions: Path, command: Command, tmp_path: Path) -> None:

@@ -27,6 +27,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
 from pluto_fleet.shared.domain.model import AfterTrip, Point
+from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from tests.runtime.files.an_app import APP, PLAIN
 
 FULL = """
@@ -106,6 +107,7 @@ def test_a_file_says_where_drones_fly_and_how(tmp_path: Path) -> None:
         after_trip=AfterTrip.STAY,
         apart=0.4,
         max_airborne=5,
+        motion=CRAZYFLIE,
         navigation="crazyflie",
         options={
             "crazyflie": {"measure": {"temperature": "bme.temp"}, "limits": [0.5, 2, True]},
@@ -140,7 +142,7 @@ def test_only_the_drones_must_be_given(tmp_path: Path) -> None:
     """And not even their category, where the app has but one."""
     fleet = load(tmp_path, '[[drone]]\nid = "a"\nhome = [1, 1]', PLAIN)
     drone = DroneEntry(id="a", category="drone", home=(1.0, 1.0, 0.0), line=1)
-    assert fleet == FleetFile(airspace=Airspace(), drones=(drone,))
+    assert fleet == FleetFile(airspace=Airspace(), drones=(drone,), motion=CRAZYFLIE)
     assert fleet.after_trip is AfterTrip.HOME
     assert fleet.world is None
 

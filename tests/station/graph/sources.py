@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from random import Random
 
@@ -21,6 +22,7 @@ def checked(text: str) -> Checked:
     return analyse(Source("app.pluto", text))[0]
 
 
+@cache
 def examples() -> dict[str, Checked]:
     """Return the graph of each example, by its name."""
     return {path.parent.name: checked(path.read_text(encoding="utf-8")) for path in EXAMPLES}

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ...jobs.landing_sites import free_spots, is_free
 from ...shared.fleet.reach import docked
 from .legs import leg_problem
+from .way_back import way_back
 
 if TYPE_CHECKING:
     from ...jobs.controls import FleetDrone
@@ -218,7 +219,7 @@ class Ground:
         below, (x, y, z) = self.below(drone, here), here
         if below is not None:
             yield Section(drone, (here, below), False, True, aside=True)
-        back = () if airspace.problem(here) is None else (airspace.way_back(here),)
+        back = () if airspace.problem(here) is None else (way_back(airspace, here),)
         if back:
             ((x, y, z),) = back
         for spot in islice(free_spots(airspace, (x, y, z), self._taken(drone), step), _SPOTS):

@@ -1,0 +1,1 @@
+"""How the drones of a fleet really move, found from the journals of their flights (docs/calibration.md)."""

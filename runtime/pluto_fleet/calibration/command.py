@@ -1,0 +1,119 @@
+"""`pluto-fleet calibrate`: how the drones of flown journals move, and `[motion]` of a fleet file by that."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..files.fleet import read_motion
+from ..files.reading import Table, parsed, text_of
+from ..shared import output
+from ..shared.command_line import CommandLine
+from ..shared.domain.errors import BadInput
+from ..shared.domain.motion import CRAZYFLIE
+from .commands import read_all
+from .fit import calibrated
+from .report import as_data, report
+from .write import write
+
+if TYPE_CHECKING:
+    from ..shared.domain.motion import Motion
+    from .commands import Flights
+
+_ABOUT = """Finds how drones really move, from the journals of their flights: their pace, what they take beside
+their ways, how much that varies, and their batteries."""
+
+NOTHING_FOUND, BAD_INPUT = 1, 2
+
+
+@dataclass
+class Options:
+    """The parsed options. No slots: argparse sets further attributes."""
+
+    journals: list[Path] = field(default_factory=list)
+    fleet: Path | None = None
+    write: Path | None = None
+    json: bool = False
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run the command, and return its exit code."""
+    try:
+        options = _parsed(argv)
+    except SystemExit as end:  # argparse has printed the help, or what is wrong
+        return end.code if isinstance(end.code, int) else BAD_INPUT
+    return calibrate(options)
+
+
+def _parsed(argv: Sequence[str]) -> Options:
+    parser = CommandLine(prog="pluto-fleet calibrate", description=_ABOUT, allow_abbrev=False)
+    vars(parser)["color"] = False  # from Python 3.14 on it would be True
+    parser.add_argument("journals", nargs="+", type=Path, metavar="JOURNAL", help="flown journals")
+    parser.add_argument(
+        "--fleet",
+        type=Path,
+        metavar="F.toml",
+        help="whose [motion] says how legs are flown; default: that of the first journal",
+    )
+    parser.add_argument(
+        "--write",
+        type=Path,
+        metavar="F.toml",
+        help="put what was found into the [motion] of this fleet file",
+    )
+    parser.add_argument("--json", action="store_true", help="print it for programs")
+    return parser.parse_args(argv, namespace=Options())
+
+
+def calibrate(options: Options) -> int:
+    """Print what was found, and write it if so asked; return 1 if nothing was found."""
+    journals = read_all(options.journals)
+    text = None if options.write is None else text_of(options.write)
+    what = calibrated(journals, _model(options, text, journals))
+    if options.json:
+        output.line(json.dumps(as_data(what, journals)))
+    else:
+        for line in report(what, journals):
+            output.line(line)
+    if not what.found:
+        return NOTHING_FOUND
+    if options.write is not None and text is not None:
+        changes = list(write(what, options.write, text))
+        for line in changes:
+            (output.tell if options.json else output.line)(line)
+    return 0
+
+
+def _model(options: Options, text: str | None, journals: Sequence[Flights]) -> Motion:
+    """Return how the drones are said to move so far."""
+    if options.fleet is not None:
+        given = _motion(str(options.fleet), text_of(options.fleet))
+        if text is not None:
+            _agree(given, _motion(str(options.write), text), options)
+        return given
+    if text is not None:
+        return _motion(str(options.write), text)
+    first = journals[0]
+    if first.fleet is None:
+        return CRAZYFLIE
+    return _motion(f"the fleet file in {first.path}", first.fleet)
+
+
+def _agree(given: Motion, target: Motion, options: Options) -> None:
+    """Refuse values that mean something else in the other file."""
+    for key in ("legs", "limit", "taper"):
+        if getattr(given, key) != getattr(target, key):
+            raise BadInput(
+                f"{options.fleet} and {options.write} differ in {key} of [motion]: what is found by the one"
+                " does not hold for the other; leave out --fleet"
+            )
+
+
+def _motion(called: str, text: str) -> Motion:
+    document = parsed(called, text)
+    motion = read_motion(Table(document, document.data))
+    document.refuse_if_bad()
+    return motion

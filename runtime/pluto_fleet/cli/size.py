@@ -1,0 +1,157 @@
+"""`size`: how many drones the missions need, to be completed by a time with a confidence."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..files.fleet_text import fleet_text
+from ..process.workers import WorkerDied, cores
+from ..report.progress import Progress, simulation_progress
+from ..shared import output
+from ..shared.alone.faults import Faults
+from ..shared.domain.errors import BadInput
+from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.text import counted, duration
+from ..shared.domain.trace import dumped
+from ..sizing.answer import Answer, sized
+from ..sizing.batteries import swapping
+from ..sizing.bounds import Rule, usual_runs
+from ..sizing.fleets import Stock
+from ..sizing.question import Question
+from ..sizing.report import data, report
+from .picture import drawing, kind_of, write
+from .plans import load
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..sizing.tries import Tally
+    from .options import Options
+    from .plans import LoadedPlan
+
+FOR_A_MISSION, AND_MORE = 4, 4
+"""Drones for each mission, and some more, that are tried by default: one flies, the others charge."""
+
+DAY = 86_400.0
+
+
+def size(app: App, options: Options) -> int:
+    """Find the smallest fleet and report it; the exit code is 1 if there is none."""
+    if options.plot is not None:
+        kind_of(options.plot)
+        drawing()  # raises before anything flies
+    if options.write is not None and options.write.exists():
+        raise BadInput(f"{options.write}: it is there already, and is not replaced")
+    plan = load(app, options)
+    given = len(plan.fleet.drones)
+    stock = Stock(
+        fleet=plan.fleet,
+        missions=plan.missions,
+        most=options.most or max(given, FOR_A_MISSION * len(plan.missions) + AND_MORE),
+    )
+    runs = options.runs or usual_runs(options.confidence)
+    rule = Rule(confidence=options.confidence, runs=runs)
+    progress = simulation_progress(quiet=True)
+    try:
+        answer = sized(
+            _question(plan, options),
+            stock,
+            rule,
+            seed=options.seed,
+            jobs=options.jobs or cores(),
+            watch=lambda tally: _show(progress, tally, rule),
+        )
+    except WorkerDied as end:
+        raise BadInput(
+            f"{app.name}: a process that flew the missions {end.how}: fewer of them need less memory"
+            " (--jobs 1)"
+        ) from None
+    finally:
+        progress.clear()
+    _tell(answer, app, options)
+    return 0 if answer.found is not None else 1
+
+
+def _question(plan: LoadedPlan, options: Options) -> Question:
+    app, by = plan.app, options.by
+    begin = _begin(plan)
+    if by is not None and by.is_time_of_day:
+        if begin is None:
+            raise BadInput(
+                f"{options.missions}: --by {by.text} is a time of day, and not all missions begin at one"
+                ' (at = "08:00"): say how long they may take, such as --by "20 min"'
+            )
+        ends: float | None = begin + (by.seconds - begin) % DAY
+    else:
+        ends = None if by is None else (begin or 0.0) + by.seconds
+    question = Question(
+        app=app,
+        missions=plan.missions,
+        faults=Faults(**options.fail),
+        begin=begin or 0.0,
+        by=ends,
+    )
+    if options.swap is None:
+        return question
+    return replace(question, app=swapping(app, options.swap), swapped=app)
+
+
+def _begin(plan: LoadedPlan) -> float | None:
+    """Return the time of day at which the first mission begins; None: not all say one."""
+    names = [
+        one.name
+        for one in plan.app.fields
+        if one.on is Entity.MISSION and one.type is FieldType.TIME_OF_DAY
+    ]
+    times = [getattr(mission, name) for mission in plan.missions for name in names]
+    return None if not times or None in times else min(times)
+
+
+def _show(progress: Progress, tally: Tally, rule: Rule) -> None:
+    runs = len(tally.runs)
+    text = (
+        f"{counted(tally.drones, 'drone')}: {tally.succeeded} of {counted(runs, 'run')} succeeded"
+    )
+    progress.update(runs / rule.runs, text)
+
+
+def _tell(answer: Answer, app: App, options: Options) -> None:
+    if options.plot is not None:
+        _plot(options.plot, app.name, answer)
+    if options.write is not None and answer.found is not None:
+        _write(options.write, answer)
+    if options.json:
+        output.line(dumped(data(answer, app.name, options.seed)))
+        return
+    for line in report(answer):
+        output.line(line)
+
+
+def _write(path: Path, answer: Answer) -> None:
+    assert answer.found is not None
+    fleet = answer.stock.of(answer.found.counts)
+    assert fleet is not None
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(fleet_text(fleet))
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise BadInput(f"{path}: the fleet cannot be written: {why}") from None
+
+
+def _plot(path: Path, name: str, answer: Answer) -> None:
+    """Draw the probability of success over the number of drones: the best fleet of each size."""
+    best: dict[int, Tally] = {}
+    for tally in answer.tallies:
+        known = best.get(tally.drones)
+        if known is None or tally.bounds > known.bounds:
+            best[tally.drones] = tally
+    points = [
+        (drones, tally.succeeded / len(tally.runs), *tally.bounds)
+        for drones, tally in sorted(best.items())
+    ]
+    within = answer.question.within
+    title = f"{name}: success" + ("" if within is None else f" within {duration(within)}")
+    picture = drawing().sizes(kind_of(path), title, points, answer.rule.confidence)
+    write(path, picture)

@@ -1,0 +1,239 @@
+"""Work on all cores: forked copies of this process, which send back what they have found.
+
+A copy has all that is loaded here, an app's hooks included, and takes nothing back but its results.
+Which tasks share a copy does not depend on how many copies there are at once. So hooks that keep
+something from task to task find the same with any number of jobs.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import traceback
+import warnings
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
+from io import StringIO
+from multiprocessing.connection import Connection, Pipe, wait
+from types import FrameType
+from typing import Any, NamedTuple, TypeVar
+
+from ..shared import output
+from ..shared.domain.errors import ANY_ERROR
+from .forked import leave, not_for_children, refused
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+_ENOUGH, _MOST = 16, 16
+"""Into how many parts tasks are divided, unless a part would have more than so many of them."""
+
+_BY_A_PERSON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class WorkerDied(Exception):
+    """A worker ended before its task: it was killed, or a hook has crashed the interpreter."""
+
+    def __init__(self, place: int) -> None:
+        super().__init__(place)
+        self.place = place
+        """Which task it had, from 0 on."""
+        self.how = ""
+        """How it ended, such as `was killed by SIGKILL`."""
+
+
+class _InAWorker(Exception):
+    """Shows where in a worker an error was raised."""
+
+
+class _Done(NamedTuple):
+    result: Any
+    out: str
+    err: str
+    """What the task has printed."""
+
+
+class _Raised(NamedTuple):
+    error: BaseException
+    trace: str
+
+
+Message = _Done | _Raised
+
+
+class _Worker(NamedTuple):
+    process: int
+    places: deque[int]
+    """The tasks that it has not done."""
+
+
+def cores() -> int:
+    """Return how many processes can work at once here."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def in_workers(
+    work: Callable[[T], R], tasks: Sequence[T], jobs: int, *, quiet: bool = False
+) -> Iterator[R]:
+    """Do the tasks in as many processes at once as `jobs`; yield what comes of each, in order.
+
+    What a task prints is printed in its turn, or not at all if `quiet`. An error in a worker is raised
+    here; `WorkerDied` tells that one has ended without. Stopping early ends all workers.
+    """
+    size = max(1, min(_MOST, len(tasks) // _ENOUGH))
+    parts = deque(
+        range(start, min(start + size, len(tasks))) for start in range(0, len(tasks), size)
+    )
+    workers: dict[Connection, _Worker] = {}
+    done: dict[int, Message] = {}
+    with _ending(workers):
+        for place in range(len(tasks)):
+            while place not in done:
+                while parts and len(workers) < jobs:
+                    _begin(work, tasks, parts.popleft(), workers)
+                for pipe in wait(list(workers)):
+                    assert isinstance(pipe, Connection)
+                    _take(pipe, workers, done)
+            this = done.pop(place)
+            if isinstance(this, _Raised):
+                raise this.error from (_InAWorker(f"\n{this.trace}") if this.trace else None)
+            if this.out and not quiet:
+                output.line(this.out.removesuffix("\n"))
+            if this.err and not quiet:
+                output.tell(this.err.removesuffix("\n"))
+            yield this.result
+
+
+def _begin(
+    work: Callable[[T], R],
+    tasks: Sequence[T],
+    places: Sequence[int],
+    workers: dict[Connection, _Worker],
+) -> None:
+    receives, sends = Pipe(duplex=False)
+    output.flush()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _BY_A_PERSON)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # threads that a hook has begun
+            process = os.fork()
+        if process == 0:
+            for pipe in (receives, *workers):
+                pipe.close()  # else a worker would not notice that its reader has gone
+            _work(work, tasks, places, sends, before)
+        workers[receives] = _Worker(process, deque(places))
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    sends.close()
+
+
+def _work(
+    work: Callable[[T], R],
+    tasks: Sequence[T],
+    places: Sequence[int],
+    sends: Connection,
+    mask: set[Any],
+) -> None:
+    """Do tasks, up to the first error, and leave: in a worker nothing returns."""
+    code = 1
+    try:
+        not_for_children(sends.fileno())  # else the reader would wait for a hook's children, too
+        for number in _BY_A_PERSON:
+            if signal.getsignal(number) is not signal.SIG_IGN:  # as with nohup
+                signal.signal(number, signal.SIG_DFL)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        with refused():
+            for place in places:
+                message = _outcome(work, tasks[place])
+                sends.send(message)
+                if isinstance(message, _Raised):
+                    break
+        code = 0
+    finally:
+        leave(code)
+
+
+def _outcome(work: Callable[[T], R], task: T) -> Message:
+    out, err = StringIO(), StringIO()
+    try:
+        with redirect_stdout(out), redirect_stderr(err):
+            result = work(task)
+    except ANY_ERROR as error:
+        trace = "".join(traceback.format_exception(error))
+        return _Raised(_portable(error), trace)
+    return _Done(result, out.getvalue(), err.getvalue())
+
+
+def _portable(error: BaseException) -> BaseException:
+    """Return an error that another process can read."""
+    with suppress(*ANY_ERROR):  # its class may be a hook's own
+        if type(pickle.loads(pickle.dumps(error))) is type(error):
+            return error
+    return RuntimeError(f"{type(error).__name__}: {error}")
+
+
+def _take(pipe: Connection, workers: dict[Connection, _Worker], done: dict[int, Message]) -> None:
+    """Take a worker's next message, or its end."""
+    worker = workers[pipe]
+    place = worker.places.popleft()
+    try:
+        message: Message = pipe.recv()
+        if worker.places and isinstance(message, _Done):
+            done[place] = message
+            return
+    except (EOFError, OSError, pickle.UnpicklingError):
+        message = _Raised(WorkerDied(place), "")
+    del workers[pipe]
+    pipe.close()
+    status = os.waitstatus_to_exitcode(os.waitpid(worker.process, 0)[1])
+    if isinstance(message, _Raised) and isinstance(message.error, WorkerDied):
+        if status == -signal.SIGINT:
+            raise KeyboardInterrupt  # the terminal has told the worker first
+        message.error.how = _how(status)
+    done[place] = message
+
+
+def _how(status: int) -> str:
+    if status >= 0:
+        return f"ended by itself with exit code {status}"
+    try:
+        return f"was killed by {signal.Signals(-status).name}"
+    except ValueError:
+        return f"was killed by signal {-status}"
+
+
+@contextmanager
+def _ending(workers: dict[Connection, _Worker]) -> Iterator[None]:
+    """End all workers with this context, and with this process if that is asked to end."""
+
+    def end() -> None:
+        for worker in workers.values():
+            with suppress(ProcessLookupError):
+                os.kill(worker.process, signal.SIGKILL)
+        for pipe, worker in workers.items():
+            pipe.close()
+            with suppress(ChildProcessError):
+                os.waitpid(worker.process, 0)
+        workers.clear()
+
+    def ended(number: int, _: FrameType | None) -> None:
+        end()
+        signal.signal(number, signal.SIG_DFL)
+        os.kill(os.getpid(), number)
+
+    changed = []
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is signal.SIG_DFL:
+            with suppress(ValueError):  # not in the main thread
+                signal.signal(number, ended)
+                changed.append(number)
+    try:
+        yield
+    finally:
+        end()
+        for number in changed:
+            signal.signal(number, signal.SIG_DFL)

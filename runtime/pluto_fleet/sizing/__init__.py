@@ -1,0 +1,1 @@
+"""How many drones missions need: candidate fleets, flown until it is sure what each can promise."""

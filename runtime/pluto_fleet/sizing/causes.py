@@ -1,0 +1,162 @@
+"""Why no fleet is large enough: found by flying again with one thing otherwise.
+
+What a failed run says is a symptom: its mission was late, or a drone fell. The cause is what makes the
+runs succeed if it is taken away: the mishaps, the limit of drones in the air, the time of charging, the
+distance that drones keep.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from statistics import median
+from typing import TYPE_CHECKING
+
+from ..shared.alone.faults import Faults
+from ..shared.domain.text import counted, duration, number, quoted
+from .batteries import swapping
+from .tries import Tally, flown
+
+if TYPE_CHECKING:
+    from ..files.fleet import FleetFile
+    from .question import Question
+    from .tries import Tries
+
+RUNS = 40
+"""Runs in which a change is tried."""
+
+AT_ONCE = 1.0
+"""Seconds in which a battery is charged that costs no time."""
+
+_FEW = 5
+_MOST_REASONS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """A cause, in words."""
+
+    what: str
+    """Its kind: `alone`, `faults`, `airborne`, `charging`, `apart`, `drones`, `runs` or `reason`."""
+    text: str
+
+
+class Causes:
+    """Looks for what keeps the largest fleets from succeeding."""
+
+    def __init__(self, tries: Tries) -> None:
+        self._tries, self._question = tries, tries.question
+
+    def any_is_late_alone(self) -> bool:
+        """Return whether a mission takes too long by itself: then no fleet can help."""
+        return self._late is not None
+
+    def found(self) -> list[Cause]:
+        """Return the causes, the surest first."""
+        if self._late is not None:
+            return [self._late]
+        best = self._best
+        causes = [*self._changes(best), *self._more(best)]
+        return [*causes, *reasons(self._question, best)]
+
+    @property
+    def _best(self) -> Tally:
+        """The fleet that came nearest."""
+        tallies = self._tries.tallies.values()
+        return max(tallies, key=lambda one: (one.succeeded / len(one.runs), one.drones))
+
+    @cached_property
+    def _late(self) -> Cause | None:
+        within, fleet = self._question.within, self._tries.stock.largest
+        if within is None:
+            return None
+        for mission in sorted(self._question.missions, key=lambda one: -len(one.trips)):
+            alone = self._question.alone(mission.name)
+            runs = list(flown(alone, fleet, self._tries.seed, 0, _FEW, self._tries.jobs))
+            if all(run.success and run.seconds > within for run in runs):
+                took = duration(median(run.seconds for run in runs))
+                drones = counted(len(fleet.drones), "drone")
+                text = (
+                    f"mission {quoted(mission.name)} takes {took} even if it has {drones} for itself and"
+                    f" nothing goes wrong: more than {duration(within)}"
+                )
+                return Cause("alone", text)
+        return None
+
+    def _changes(self, best: Tally) -> Iterator[Cause]:
+        question, fleet = self._question, self._fleet(best)
+        drones = counted(best.drones, "drone")
+        if question.faults != Faults():
+            calm = replace(question, faults=Faults())
+            if self._holds(calm, fleet):
+                text = f"mishaps (--fail): without them {drones} would do, or fewer"
+                if any("aboard" in reason for _, reason in best.failures):
+                    text += (
+                        "; one with an item aboard ends its mission, however many drones there are"
+                    )
+                yield Cause("faults", text)
+        limit = fleet.max_airborne
+        if limit is not None and self._holds(question, replace(fleet, max_airborne=None)):
+            text = f"max_airborne = {limit} keeps drones on the ground: without it {drones} would do, or fewer"
+            yield Cause("airborne", text)
+        quick = replace(question, app=swapping(question.app, AT_ONCE))
+        if self._holds(quick, fleet):
+            text = (
+                f"drones wait for their batteries: if these were full at once, {drones} would do, or"
+                " fewer (--swap says how long it takes to swap one)"
+            )
+            yield Cause("charging", text)
+        if fleet.apart and self._holds(question, replace(fleet, apart=0.0)):
+            text = (
+                f"drones wait for one another: if they need not keep {number(fleet.apart)} m apart,"
+                f" {drones} would do, or fewer"
+            )
+            yield Cause("apart", text)
+
+    def _more(self, best: Tally) -> Iterator[Cause]:
+        """Yield what more drones, or more runs, may change."""
+        largest = max(self._tries.tallies.values(), key=lambda one: one.drones)
+        half = [one for one in self._tries.tallies.values() if one.drones * 2 <= largest.drones]
+        before = max((one.succeeded / len(one.runs) for one in half), default=0.0)
+        if best is largest and best.succeeded / len(best.runs) > before + 0.1:
+            yield Cause("drones", f"more than {best.drones} drones may do: --max says how many")
+        rule = self._tries.rule
+        low, high = best.bounds
+        if best.failed > rule.most and high >= rule.confidence:
+            text = (
+                f"{counted(best.drones, 'drone')} may be enough, at {percent_of(low)} to"
+                f" {percent_of(high)}: more runs would tell (--runs {10 * rule.runs})"
+            )
+            yield Cause("runs", text)
+
+    def _fleet(self, tally: Tally) -> FleetFile:
+        fleet = self._tries.stock.of(tally.counts)
+        assert fleet is not None
+        return fleet
+
+    def _holds(self, question: Question, fleet: FleetFile) -> bool:
+        tally = Tally(counts=())
+        for run in flown(question, fleet, self._tries.seed, 0, RUNS, self._tries.jobs):
+            tally.take(run, self._tries.rule)
+            if self._tries.rule.refused(len(tally.runs), tally.failed):
+                return False
+        return True
+
+
+def reasons(question: Question, tally: Tally) -> Iterator[Cause]:
+    """Yield why a fleet's runs have failed, the most frequent reasons first."""
+    for (mission, reason), count in tally.failures.most_common(_MOST_REASONS):
+        why = reason or f"is not completed {when(question)}"
+        what = f"{count} of {counted(len(tally.runs), 'run')}: mission {quoted(mission)}"
+        yield Cause("reason", f"{what} {why}" if not reason else f"{what} fails: {why}")
+
+
+def when(question: Question) -> str:
+    """Return by when all must be completed, in words."""
+    return "" if question.within is None else f"within {duration(question.within)}"
+
+
+def percent_of(share: float) -> str:
+    """Return a share with as many digits as one near 1 needs."""
+    return f"{number(100 * share)} %" if share in (0.0, 1.0) else f"{100 * share:.1f} %"

@@ -1,0 +1,92 @@
+"""The question: which missions are to be completed, by when, and what may go wrong; and one run of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ..flight.simulate import simulate
+from ..shared.alone.faults import Faults
+from ..shared.domain.status import Status
+from ..trials.case import fresh
+from .batteries import most_charging
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..files.fleet import FleetFile
+    from ..shared.alone.simulate import SimulationResult
+    from ..shared.domain.model import Mission
+
+
+class Run(NamedTuple):
+    """What came of one run."""
+
+    success: bool
+    seconds: float
+    """Until its last mission ended, or the time was up."""
+    mission: str = ""
+    """The first that failed, or else one that was not completed in time; empty after a success."""
+    reason: str = ""
+    """Why it failed, without what differs from run to run; empty: it was late."""
+    batteries: tuple[tuple[str, int], ...] = ()
+    """How many were on chargers at once, at most, by category: where they are swapped."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Question:
+    """Missions, and when they have succeeded."""
+
+    app: App
+    missions: Sequence[Mission[Any]]
+    faults: Faults = field(default_factory=Faults)
+    begin: float = 0.0
+    """When the first mission may begin, in seconds after the midnight with which a simulation begins."""
+    by: float | None = None
+    """When all must be completed; None: no matter when."""
+    swapped: App | None = None
+    """The app with its true times of charging, if batteries are swapped instead."""
+
+    @property
+    def within(self) -> float | None:
+        """How long all may take, in seconds."""
+        return None if self.by is None else self.by - self.begin
+
+    def alone(self, name: str) -> Question:
+        """Return the same for one mission alone, no matter by when, and with nothing that goes wrong."""
+        missions = [mission for mission in self.missions if mission.name == name]
+        return replace(self, missions=missions, faults=Faults(), by=None)
+
+    def fly(self, fleet: FleetFile, seed: int) -> Run:
+        """Simulate the missions with this fleet."""
+        outcome = simulate(
+            self.app,
+            [fresh(mission) for mission in self.missions],
+            fleet,
+            seed=seed,
+            faults=self.faults,
+            until=self.by,
+            on_event=None,
+        )
+        batteries = most_charging(self.swapped, fleet, outcome.events) if self.swapped else ()
+        seconds = outcome.duration - self.begin
+        if outcome.completed:
+            return Run(True, seconds, batteries=batteries)
+        return Run(False, seconds, *_failure(outcome), batteries)
+
+
+def _failure(outcome: SimulationResult) -> tuple[str, str]:
+    for event in outcome.events:
+        if event["event"] == "mission.ended" and event["status"] != Status.COMPLETED.value:
+            ids = [drone.id for drone in outcome.drones]
+            return str(event["mission"]), _typical(str(event["reason"]), ids)
+    open_ = [one for one in outcome.missions if one.status is not Status.COMPLETED]
+    return open_[-1].name, outcome.given_up
+
+
+def _typical(reason: str, drones: Sequence[str]) -> str:
+    """Return a reason without the place, and without the drone."""
+    anyone = "|".join(map(re.escape, sorted(drones, key=len, reverse=True)))
+    reason = re.sub(rf"\b(?:{anyone})\b", "a drone", reason)
+    return re.sub(r" at \([-\d., ]+\)", "", reason)

@@ -1,0 +1,359 @@
+"""The motion model: what legs and charges take, and that simulated drones take just that."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import dist, sqrt
+from statistics import fmean, pstdev
+
+import pytest
+from hypothesis import assume, example, given
+from hypothesis import strategies as st
+
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.ideal import IdealDrones
+from pluto_fleet.shared.domain.actions import BUILT_IN, MEASURE
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData
+from pluto_fleet.shared.domain.model import Category, Point
+from pluto_fleet.shared.domain.motion import (
+    CLIMB_SPEED,
+    CRAZYFLIE,
+    MOST,
+    SHORTEST,
+    SINKS,
+    STRAIGHT,
+    Motion,
+    charged,
+    charging,
+    smoothly,
+    spread_of,
+)
+from pluto_fleet.shared.fleet.reach import flight_seconds
+from pluto_fleet.shared.fleet.telemetry import Charge, Leg
+from pluto_fleet.shared.time.kernel import FLEET
+from tests.gateway.traffic.skies import Sky
+from tests.runtime.files.an_app import APP
+
+STEPS = 400
+TIGHT = 0.995
+"""The least share of one of its bounds that each leg reaches: none is slower than it must be."""
+
+distances = st.floats(0.0, 200.0)
+speeds = st.floats(0.05, 5.0)
+overheads = st.floats(0.0, 5.0)
+smooth = st.builds(
+    Motion,
+    legs=st.just("smooth"),
+    limit=st.floats(0.05, 5.0),
+    take_off=overheads,
+    settles=overheads,
+    landing=overheads,
+    pace=st.floats(0.5, 2.0),
+)
+motions = st.sampled_from([STRAIGHT, CRAZYFLIE.exact]) | smooth
+
+# Legs
+
+
+def fastest(metres: float, seconds: float) -> tuple[float, float]:
+    """Return the peak speed and the peak acceleration of a smooth leg, by small differences."""
+    step = 1 / STEPS
+    at = [metres * smoothly(n * step) for n in range(STEPS + 1)]
+    speed = [(b - a) / step / seconds for a, b in pairwise(at)]
+    acceleration = [abs(b - a) / step / seconds for a, b in pairwise(speed)]
+    return max(speed), max(acceleration)
+
+
+@given(smooth, st.floats(0.01, 200.0), speeds)
+def test_a_smooth_leg_is_as_quick_as_its_bounds_allow(
+    motion: Motion, metres: float, speed: float
+) -> None:
+    """Its peak speed, its acceleration, and the shortest duration; one of them it reaches."""
+    seconds = replace(motion, pace=1.0).leg(metres, speed)
+    peak, push = fastest(metres, seconds)
+    limit = min(speed, motion.limit)
+    assert peak <= limit + 1e-9
+    assert push <= MOST + 1e-6
+    assert seconds >= SHORTEST
+    assert peak >= TIGHT * limit or push >= TIGHT * MOST or seconds == SHORTEST
+    assert motion.leg(metres, speed) == pytest.approx(motion.pace * seconds)
+
+
+def test_a_smooth_leg_begins_and_ends_at_rest() -> None:
+    """The second half mirrors the first; in the middle it is fastest."""
+    assert (smoothly(0.0), smoothly(0.5), smoothly(1.0)) == (0.0, 0.5, 1.0)
+    for part in (0.01, 0.2, 0.3, 0.45):
+        assert smoothly(1 - part) == pytest.approx(1 - smoothly(part))
+    assert smoothly(0.01) < 1e-6
+    flown = [smoothly(n / STEPS) for n in range(STEPS + 1)]
+    steps = [b - a for a, b in pairwise(flown)]
+    assert min(steps) >= 0.0
+    assert steps.index(max(steps)) in (STEPS // 2 - 1, STEPS // 2)
+
+
+@given(motions, distances, distances, speeds)
+def test_a_longer_way_takes_no_less(motion: Motion, one: float, other: float, speed: float) -> None:
+    """Up, down and across."""
+    less, more = sorted((one, other))
+    for takes in (motion.leg, motion.climb, motion.sink):
+        assert takes(less, speed) <= takes(more, speed)
+
+
+@given(motions, distances, speeds, speeds)
+def test_who_may_be_faster_takes_no_longer(
+    motion: Motion, metres: float, one: float, other: float
+) -> None:
+    slow, fast = sorted((one, other))
+    for takes in (motion.leg, motion.climb, motion.sink):
+        assert takes(metres, fast) <= takes(metres, slow)
+
+
+@given(smooth, st.floats(0.01, 20.0), speeds)
+def test_climbs_are_slower_and_landings_slower_still(
+    motion: Motion, metres: float, speed: float
+) -> None:
+    motion = replace(motion, pace=1.0)
+    up, _ = fastest(metres, motion.climb(metres, speed))
+    down, _ = fastest(metres, motion.sink(metres, speed))
+    assert up <= min(speed, motion.limit, 2 * CLIMB_SPEED) + 1e-9
+    assert down <= min(speed, SINKS * motion.limit, 2 * CLIMB_SPEED) + 1e-9
+
+
+@given(distances, speeds)
+def test_straight_legs_take_nothing_beside(metres: float, speed: float) -> None:
+    """At the category's speed, and up and down at one and the same."""
+    assert STRAIGHT.flies(metres, speed) == STRAIGHT.leg(metres, speed) == metres / speed
+    assert STRAIGHT.rises(metres, speed) == STRAIGHT.lands(metres, speed) == metres / CLIMB_SPEED
+
+
+@given(smooth, distances, speeds)
+def test_what_is_beside_the_legs_is_counted_once(
+    motion: Motion, metres: float, speed: float
+) -> None:
+    one = motion.rises(metres, speed) - motion.climb(metres, speed)
+    assert one == pytest.approx(motion.take_off + motion.settles)
+    assert motion.flies(metres, speed) - motion.leg(metres, speed) == pytest.approx(motion.settles)
+    assert motion.lands(metres, speed) - motion.sink(metres, speed) == pytest.approx(motion.landing)
+
+
+@given(st.floats(0.0, 1.0))
+def test_a_drone_is_where_its_leg_says(part: float) -> None:
+    """Smooth or straight; before it and after it nothing moves."""
+    start, end = (1.0, 2.0, 0.5), (4.0, 6.0, 1.0)
+    for is_smooth, share in ((True, smoothly(part)), (False, part)):
+        leg = Leg(start, end, 10.0, 14.0, is_smooth)
+        there = [a + share * (b - a) for a, b in zip(start, end, strict=True)]
+        assert leg.at(10.0 + 4.0 * part) == pytest.approx(tuple(there))
+        assert leg.length(10.0 + 4.0 * part) == pytest.approx(share * dist(start, end), abs=1e-9)
+        assert (leg.at(9.0), leg.at(15.0)) == (start, end)
+
+
+# Charges
+
+levels = st.floats(0.0, 1.0)
+fulls = st.floats(1.0, 1e5)
+tapers = st.just(0.0) | st.floats(0.01, 0.5)
+
+
+@given(levels, levels, fulls, tapers)
+@example(0.0, 1.0, 1200.0, 0.0)
+@example(0.0, 1.0, 1200.0, 0.2)
+def test_a_battery_is_as_full_as_was_promised(
+    one: float, other: float, full: float, taper: float
+) -> None:
+    """Charging for as long as it takes to a level ends there."""
+    level, target = sorted((one, other))
+    seconds = charging(level, target, full, taper)
+    assert 0.0 <= seconds <= full * (1 + 1e-9)
+    assert charged(level, seconds, full, taper) == pytest.approx(target, abs=1e-6)
+
+
+@given(levels, st.floats(0.0, 3.0), st.floats(0.0, 3.0), fulls, tapers)
+def test_a_charge_may_be_looked_at_in_between(
+    level: float, one: float, other: float, full: float, taper: float
+) -> None:
+    """It never falls, is never above 1, and goes on from wherever it is."""
+    first = charged(level, one * full, full, taper)
+    assert level - 1e-9 <= first <= 1.0
+    then = charged(first, other * full, full, taper)
+    assert then == pytest.approx(charged(level, (one + other) * full, full, taper), abs=1e-6)
+
+
+@given(fulls, tapers)
+def test_a_charge_from_empty_to_full_takes_its_time(full: float, taper: float) -> None:
+    """Even until its taper, at the fastest rate; from there on without a jump, ever more slowly."""
+    assert charging(0.0, 1.0, full, taper) == pytest.approx(full)
+    assert charged(0.0, full, full, taper) == pytest.approx(1.0)
+    slows = charging(0.0, 1 - taper, full, taper)
+    assert slows == pytest.approx(full * (1 - taper) / (1 + taper))
+    at = [charged(0.0, full * n / STEPS, full, taper) for n in range(STEPS + 1)]
+    gained = [b - a for a, b in pairwise(at)]
+    assert max(gained) <= (1 + taper) / STEPS + 1e-9
+    assert all(b <= a + 1e-9 for a, b in pairwise(gained))
+    even = gained[: int(STEPS * slows / full)]
+    assert even == pytest.approx([(1 + taper) / STEPS] * len(even))
+
+
+@given(levels, st.floats(0.0, 2.0), fulls)
+def test_without_a_taper_a_charge_is_even(level: float, share: float, full: float) -> None:
+    gained = charged(level, share * full, full, 0.0)
+    assert gained == pytest.approx(min(1.0, level + share))
+    assert Charge(level, 5.0, 1 / full).at(5.0 + share * full) == pytest.approx(gained)
+
+
+@given(levels, st.floats(0.0, 2.0), fulls, tapers)
+def test_what_is_told_of_a_charge_is_what_it_is(
+    level: float, share: float, full: float, taper: float
+) -> None:
+    """Also after its rate has changed; in the air a battery drains evenly."""
+    seconds = share * full
+    battery = Charge(level, 5.0, 1 / full, taper)
+    assert battery.at(4.0) == battery.at(5.0) == level
+    gained = charged(level, seconds, full, taper)
+    assert battery.at(5.0 + seconds) == pytest.approx(gained, abs=1e-6)
+    flies = battery.changing(5.0 + seconds, -1 / full)
+    assert flies.at(5.0 + 1.5 * seconds) == pytest.approx(max(0.0, gained - share / 2), abs=1e-6)
+    docked = flies.changing(5.0 + 1.5 * seconds, 1 / full)
+    again = charged(docked.level, seconds, full, taper)
+    assert docked.at(5.0 + 2.5 * seconds) == pytest.approx(again, abs=1e-6)
+
+
+# Flights
+
+coordinate = st.floats(0.0, 20.0).map(lambda value: round(value, 2))
+stops = st.lists(
+    st.tuples(coordinate, coordinate, st.floats(0.2, 3.0)), min_size=1, max_size=4
+) | st.just([(1.0, 1.0, 1.2)])
+WALL = Airspace(no_fly=(((8, 2), (9, 2), (9, 18), (8, 18)),))
+HOME = (1.0, 1.0, 0.0)
+
+
+def kind(motion: Motion, speed: float = 0.5) -> Category:
+    """Return a category whose drones move so, and whose batteries last."""
+    return Category(name="tireless", speed=speed, flight_time=1e6, charge_time=1.0, motion=motion)
+
+
+@dataclass
+class Hand:
+    """A clock that is moved by hand."""
+
+    now: float = 0.0
+
+
+class Ideal:
+    """One drone of a package alone, by its orders."""
+
+    def __init__(self, category: Category, seed: int = 1) -> None:
+        drone = DroneData(id="cf1", category=category.name, home=HOME)
+        fleet = FleetData(airspace=WALL, drones=[drone], motion=category.motion)
+        self.clock = Hand()
+        app = replace(APP, categories=(category,))
+        self.drones = IdealDrones(app, fleet, Faults(), seed, self.clock)
+        self.orders = 0
+
+    def does(self, what: str, **order: object) -> float:
+        """Let it do something, and return how long that took."""
+        begun, self.orders = self.clock.now, self.orders + 1
+        self.drones.obey({"id": self.orders, "drone": "cf1", "do": what, **order})
+        told: dict[str, object] = {}
+        while not told:
+            self.clock.now = max(self.clock.now, self.drones.due)
+            told = self.drones.advance()
+        assert told.get("done") == self.orders, told
+        return self.clock.now - begun
+
+    def flies(self, *stops: Point, action: str | None = None) -> float:
+        """Let it fly to all stops."""
+        given = {"seconds": 0.0, "flight": "a", "item": None, "parameters": {}}
+        return self.does("fly", stops=stops, action=action, **given)
+
+
+def in_traffic(category: Category, points: list[Point]) -> tuple[float, float]:
+    """Return how long a drone behind a gateway takes to all points, and from there home."""
+    sky = Sky([HOME[:2]], airspace=WALL, category=category, slack=category.motion.slack)
+
+    async def flight() -> tuple[float, float]:
+        assert await sky.fly("cf1", *points) is None
+        arrived = sky.kernel.now
+        await sky.goes_home("cf1")
+        return arrived, sky.kernel.now - arrived
+
+    task = sky.kernel.spawn(flight(), FLEET, "flight")
+    sky.kernel.run(task)
+    sky.kernel.close()
+    return task.result()
+
+
+@given(motions, speeds, stops)
+def test_a_flight_takes_exactly_what_was_expected(
+    motion: Motion, speed: float, points: list[Point]
+) -> None:
+    """There and back home, by a package alone and through the gateway."""
+    assume(not any(map(WALL.problem, points)))
+    category = kind(motion, speed)
+    there = flight_seconds(category, WALL, HOME, points, 0.0)
+    back = flight_seconds(category, WALL, points[-1], [HOME], 0.0)
+    alone = Ideal(category)
+    assert (alone.flies(*points), alone.does("home")) == pytest.approx((there, back))
+    assert in_traffic(category, points) == pytest.approx((there, back))
+
+
+def test_a_flight_home_takes_off_first() -> None:
+    """Where a drone has landed elsewhere; in its dock it lands where it rose."""
+    drone, category = Ideal(kind(CRAZYFLIE.exact)), kind(CRAZYFLIE.exact)
+    away = (4.0, 5.0, 1.2)
+    drone.flies(away)
+    assert drone.does("land") == pytest.approx(category.motion.lands(1.2, category.speed))
+    expected = flight_seconds(category, WALL, (4.0, 5.0, 0.0), [HOME], 0.0)
+    assert drone.does("home") == pytest.approx(expected)
+
+
+# Spread
+
+NEAR, FAR = (1.0, 1.0, 1.2), (5.0, 1.0, 1.2)
+SPREAD = 0.1
+BETWEEN = CRAZYFLIE.flies(dist(NEAR, FAR), 0.5)
+MEASURES = BUILT_IN[MEASURE].seconds
+
+
+def to_and_fro(motion: Motion, seed: int = 1, count: int = 2000) -> list[float]:
+    """Return how long a drone takes to fly there and measure, again and again."""
+    drone = Ideal(kind(motion), seed)
+    drone.flies(NEAR)
+    return [drone.flies((FAR, NEAR)[number % 2], action=MEASURE) for number in range(count)]
+
+
+def assert_spread(factors: Sequence[float]) -> None:
+    """Around what is expected, never more than three standard deviations away."""
+    assert fmean(factors) == pytest.approx(1.0, abs=SPREAD * 4 / sqrt(len(factors)))
+    assert pstdev(factors) == pytest.approx(SPREAD, rel=0.05)
+    assert max(abs(factor - 1.0) for factor in factors) <= 3 * SPREAD + 1e-9
+
+
+def test_legs_vary_as_much_as_their_spread() -> None:
+    """With all that is beside them, and what is done at their ends does not."""
+    taken = to_and_fro(replace(CRAZYFLIE.exact, spread=SPREAD))
+    assert_spread([(seconds - MEASURES) / BETWEEN for seconds in taken])
+
+
+def test_actions_vary_as_much_as_their_own_spread() -> None:
+    taken = to_and_fro(replace(CRAZYFLIE.exact, action_spread=SPREAD))
+    assert_spread([(seconds - BETWEEN) / MEASURES for seconds in taken])
+
+
+def test_without_a_spread_nothing_varies() -> None:
+    taken = to_and_fro(CRAZYFLIE.exact, count=20)
+    assert taken == pytest.approx([BETWEEN + MEASURES] * 20)
+
+
+def test_durations_hang_on_the_seed_and_the_drone() -> None:
+    """The same seed gives the same flights."""
+    motion = replace(CRAZYFLIE, spread=SPREAD)
+    first = to_and_fro(motion, seed=7, count=5)
+    assert first == to_and_fro(motion, seed=7, count=5)
+    assert first != to_and_fro(motion, seed=8, count=5)
+    assert spread_of(7, "cf1").random() == spread_of(7, "cf1").random()
+    assert spread_of(7, "cf1").random() != spread_of(7, "cf2").random()

@@ -1,0 +1,113 @@
+"""Makes journals in virtual time, of drones that move as a test wants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+
+from pluto_fleet.app import App
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet_text import fleet_text
+from pluto_fleet.flight.recorded_flight import RecordedFlight
+from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.ledger import Ledger
+from pluto_fleet.jobs.controls import Controls
+from pluto_fleet.journal.fold import Records
+from pluto_fleet.journal.header import header
+from pluto_fleet.journal.store import Store
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.app import moving
+from pluto_fleet.shared.domain.model import Category, Mission
+from pluto_fleet.shared.domain.motion import Motion
+from pluto_fleet.shared.time.kernel import Kernel
+from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.simulation.body import simulated
+from pluto_fleet.simulation.drones import SimulatedNavigation
+from tests.runtime import apps
+
+Around = Callable[[Kernel, Controls], Controls]
+
+
+class _Rows:
+    """A disk that takes no time; all is written at the end."""
+
+    def __init__(self) -> None:
+        self.rows: list[str] = []
+        self.life: RecordedFlight | None = None
+
+    def add(self, row: str) -> int:
+        """Take a row, which is durable at once."""
+        self.rows.append(row)
+        if self.life is not None:
+            self.life.recorder.durable(len(self.rows))
+        return len(self.rows)
+
+
+def flown(
+    path: Path,
+    app: App,
+    fleet: FleetFile,
+    *missions: Mission[apps.Trip],
+    motion: Motion | None = None,
+    seed: int = 0,
+    around: Around | None = None,
+) -> Path:
+    """Fly missions with a journal; `motion`: how the drones move, whatever the fleet file says."""
+    for index, mission in enumerate(missions):
+        mission.index = index
+    planned, app = app, moving(app, motion or fleet.motion)
+    kernel, disk, drones = VirtualTime(), _Rows(), simulated(app, fleet)
+    world = World(seed, fleet.airspace, fleet.world)
+    controls: Controls = SimulatedNavigation(kernel, drones, world, Faults(), seed, fleet.airspace)
+    if around is not None:
+        controls = around(kernel, controls)
+    gateway = Gateway(
+        kernel, controls, drones, fleet.airspace, ledger=Ledger(), apart=fleet.apart, measures=True
+    )
+    link = gateway.link(1)
+    life = RecordedFlight(
+        moving(planned, fleet.motion), fleet, kernel, link, disk, Records(), epoch=1
+    )
+    disk.life = life
+    link.on_flown(life.flown)
+    kernel.run(life.start(missions))
+    life.recorder.finish()
+    told = header(app, missions="", fleet=fleet_text(fleet), sim=True, seed=seed)
+    with closing(Store.create(path, told)) as store:
+        store.append(disk.rows)
+    return path
+
+
+def surveyed(
+    path: Path,
+    motion: Motion,
+    *,
+    said: Motion,
+    trips: int,
+    drones: int = 3,
+    speed: float = 0.5,
+    seed: int = 0,
+    around: Around | None = None,
+) -> Path:
+    """Fly trips to all over the map and all heights, with a fleet file that says another motion."""
+    chance = Random(f"{seed}/survey")
+    scout = Category(name="scout", speed=speed)
+    app = apps.changed(apps.app(apps.flow(), categories=[scout]), resumes=("allocate",))
+    fleet = apps.fleet(*[(1.0 + 2 * i, 0.5, 0.0) for i in range(drones)])
+    fleet = replace(fleet, motion=said)
+    missions = []
+    for number in range(drones):
+        mine = [
+            apps.Trip(
+                name=str(at),
+                action=chance.choice(("measure", "take_photo")),
+                target=(chance.uniform(1, 12), chance.uniform(1, 12), chance.uniform(0.5, 1.8)),
+            )
+            for at in range(trips // drones)
+        ]
+        missions.append(apps.mission(f"m{number}", *mine))
+    return flown(path, app, fleet, *missions, motion=motion, seed=seed, around=around)

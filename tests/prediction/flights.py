@@ -1,0 +1,79 @@
+"""One plan: what is promised of it, and one flight of it with simulated Crazyflies."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from subprocess import CompletedProcess
+
+from tests.flights_crazyflie.flight import Flight
+from tests.prediction.plans import Plan
+from tests.prediction.record import Flown, Promise
+
+LONGEST = 1800.0
+"""Seconds that no flight takes."""
+
+
+def promise(plan: Plan, source: Path, folder: Path, seeds: int) -> Promise:
+    """Simulate a plan with many seeds, without spread, and as a dry run."""
+    flight = prepared(plan, source, folder)
+    runs = json.loads(_said(flight, "simulate", "--runs", str(seeds), "--json"))["summary"]
+    makespan, battery = runs["makespan_s"], runs["battery_level"]
+    return Promise(
+        plan=plan.name,
+        drones=plan.drones,
+        p5=makespan["p5"],
+        median=makespan["median"],
+        p95=makespan["p95"],
+        battery=battery["median"],
+        flights=runs["attempts"]["median"],
+        exact=_outcome(_said(flight, "simulate", "--no-spread")),
+        dry_run=_outcome(_said(flight, "fly", "--crtp-sim", str(plan.drones), "--dry-run")),
+    )
+
+
+def fly(plan: Plan, source: Path, folder: Path) -> Flown:
+    """Fly a plan in real time to its end."""
+    flight = prepared(plan, source, folder)
+    try:
+        flight.start()
+        code = flight.see_through(LONGEST)
+        events = flight.events
+    finally:
+        flight.end()
+    levels = [event["battery"] for event in events if isinstance(event.get("battery"), float)]
+    kinds = [event["event"] for event in events]
+    ends = [event["t"] for event in events if event["event"] == "mission.ended"]
+    return Flown(
+        plan=plan.name,
+        code=code,
+        makespan=max(ends, default=0.0),
+        began=next(event["t"] for event in events if event["event"] == "brain.began"),
+        battery=min(levels, default=1.0),
+        flights=kinds.count("trip.launched"),
+        failed=kinds.count("trip.failed"),
+        load=os.getloadavg()[0],
+    )
+
+
+def prepared(plan: Plan, source: Path, folder: Path) -> Flight:
+    """Write a plan's files into a new folder."""
+    plan.write(folder)
+    return Flight(app=plan.app, source=source, folder=folder, drones=plan.drones)
+
+
+def _said(flight: Flight, command: str, *flags: str) -> str:
+    """Return what a command says about the plan."""
+    done: CompletedProcess[str] = flight.run(command, *flight.files, *flags)
+    if done.returncode != 0:
+        raise AssertionError(
+            f"{command} of {flight.folder} ended with {done.returncode}:\n{done.stderr}"
+        )
+    return done.stdout
+
+
+def _outcome(said: str) -> str:
+    """Return the duration of the line that says what a simulation has come to."""
+    (line,) = (line for line in said.splitlines() if " completed in " in line)
+    return line.partition(" completed in ")[2]

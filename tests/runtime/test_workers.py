@@ -1,0 +1,198 @@
+"""Work on all cores: in order, whole or not at all, and nothing is left behind."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Generator
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.process.workers import WorkerDied, cores, in_workers
+
+
+def squared(number: int) -> int:
+    print(f"{number} squared")
+    if number == 3:
+        print("three!", file=sys.stderr)
+    return number * number
+
+
+def assert_no_children() -> None:
+    with pytest.raises(ChildProcessError):
+        os.waitpid(-1, os.WNOHANG)
+
+
+@pytest.mark.parametrize("jobs", [1, 2, 7])
+def test_results_and_prints_come_in_order(jobs: int, capsys: pytest.CaptureFixture[str]) -> None:
+    """However many work at once."""
+    assert list(in_workers(squared, range(50), jobs)) == [number**2 for number in range(50)]
+    out, err = capsys.readouterr()
+    assert out.splitlines() == [f"{number} squared" for number in range(50)]
+    assert err == "three!\n"
+    assert_no_children()
+
+
+def test_what_is_not_wanted_is_not_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    """It would drown the answer."""
+    assert sum(in_workers(squared, range(5), 2, quiet=True)) == 30
+    assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("jobs", [1, 2, 7])
+def test_which_tasks_share_a_process_does_not_depend_on_the_jobs(jobs: int) -> None:
+    """So what one leaves behind for the next is always the same."""
+    seen: list[int] = []
+
+    def before(number: int) -> list[int]:
+        found = list(seen)
+        seen.append(number)
+        return found
+
+    shared = list(in_workers(before, range(100), jobs))
+    assert shared[:7] == [[], [0], [0, 1], [0, 1, 2], [0, 1, 2, 3], [0, 1, 2, 3, 4], []]
+    assert shared == list(in_workers(before, range(100), 3))
+    assert seen == []
+
+
+def fails(number: int) -> int:
+    if number >= 20:
+        raise LookupError(number)
+    return number
+
+
+@pytest.mark.parametrize("jobs", [1, 4])
+def test_an_error_comes_in_its_turn(jobs: int) -> None:
+    """After all that was done before it, as if there were no workers."""
+    work = in_workers(fails, range(40), jobs)
+    assert [next(work) for _ in range(20)] == list(range(20))
+    with pytest.raises(LookupError, match="20") as raised:
+        next(work)
+    assert "in fails" in str(raised.value.__cause__)
+    assert_no_children()
+
+
+class Odd(Exception):
+    """An error that no other process can read."""
+
+    def __init__(self, one: int, two: int) -> None:
+        super().__init__("odd")
+
+
+def test_an_error_that_cannot_be_sent_is_told_nevertheless() -> None:
+    """By its class and its text."""
+
+    def odd(_: int) -> None:
+        raise Odd(1, 2)
+
+    with pytest.raises(RuntimeError, match="Odd: odd"):
+        list(in_workers(odd, [0], 1))
+
+
+def dies(how: Callable[[], object]) -> Callable[[int], int]:
+    def work(number: int) -> int:
+        if number == 4:
+            how()
+        return number
+
+    return work
+
+
+@pytest.mark.parametrize(
+    ("how", "told"),
+    [
+        (lambda: os.kill(os.getpid(), signal.SIGKILL), "was killed by SIGKILL"),
+        (lambda: os.kill(os.getpid(), signal.SIGTERM), "was killed by SIGTERM"),
+    ],
+)
+def test_a_worker_that_dies_is_told_with_its_task(how: Callable[[], object], told: str) -> None:
+    """And the others are ended."""
+    with pytest.raises(WorkerDied) as died:
+        list(in_workers(dies(how), range(12), 2))
+    assert (died.value.place, died.value.how) == (4, told)
+    assert_no_children()
+
+
+def test_a_hook_cannot_leave_by_itself() -> None:
+    """As it cannot anywhere else."""
+    with pytest.raises(SystemExit, match=r"os._exit\(3\)"):
+        list(in_workers(dies(lambda: os._exit(3)), range(5), 1))
+
+
+def test_who_stops_early_leaves_no_worker() -> None:
+    """Though it would go on for a minute."""
+    work = in_workers(time.sleep, [0, 60, 60], 3)
+    assert isinstance(work, Generator)
+    next(work)
+    work.close()
+    assert_no_children()
+
+
+def test_an_interrupt_ends_all_at_once() -> None:
+    """Workers that are busy, too."""
+    parent = os.getpid()
+
+    def interrupts(seconds: int) -> None:
+        os.kill(parent, signal.SIGINT)
+        time.sleep(seconds)
+
+    with pytest.raises(KeyboardInterrupt):
+        list(in_workers(interrupts, [60, 60], 2))
+    assert_no_children()
+
+
+def test_a_child_of_a_hook_that_lives_on_is_not_waited_for(tmp_path: Path) -> None:
+    """It has what a worker had open, but the way to its reader."""
+    note = tmp_path / "child"
+
+    def forks(number: int) -> int:
+        child = os.fork()
+        if child == 0:
+            time.sleep(60)
+        note.write_text(str(child))
+        return number
+
+    try:
+        assert list(in_workers(forks, [1], 1)) == [1]
+    finally:
+        os.kill(int(note.read_text()), signal.SIGKILL)
+
+
+ENDED = """
+import os, sys, time
+from pluto_fleet.process.workers import in_workers
+
+def work(number):
+    os.write(1, f"{os.getpid()}\\n".encode())
+    time.sleep(60)
+
+list(in_workers(work, [1, 2], 2))
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_workers_end_with_who_is_told_to_end(number: signal.Signals) -> None:
+    """By `kill`, or as the terminal closes."""
+    path = os.pathsep.join(sys.path)
+    with subprocess.Popen(
+        [sys.executable, "-c", ENDED],
+        stdout=subprocess.PIPE,
+        env={**os.environ, "PYTHONPATH": path},
+    ) as process:
+        assert process.stdout is not None
+        workers = [int(process.stdout.readline()) for _ in range(2)]
+        process.send_signal(number)
+        assert process.wait() == -number
+        assert process.stdout.read() == b""  # no worker has it open any more
+    for worker in workers:
+        with pytest.raises(ProcessLookupError):
+            os.kill(worker, 0)
+
+
+def test_there_is_a_core() -> None:
+    """At least this one."""
+    assert cores() >= 1
