@@ -81,31 +81,30 @@ class Needs:
         self.place, self._drone, self._arrived, self._seen = drone.location, drone, arrived, 0
         self._heap: list[tuple[float, int, bool, Request]] = []
 
-    @property
-    def least(self) -> float:
-        """The least level that suffices for a request that waits; infinite: none does."""
-        heap = self._heap
+    def least(self, most: float = inf) -> float:
+        """Return the least level that suffices for a request that waits; infinite: none up to `most` does."""
+        heap, drone, place = self._heap, self._drone, self.place
         for request in self._arrived[self._seen :]:
             if not request.is_set:
-                heappush(
-                    heap,
-                    (request.at_least(self._drone, self.place), request.rank[1], False, request),
-                )
+                bound = request.at_least(drone, place)
+                heappush(heap, (bound, request.rank[1], False, request))
         self._seen = len(self._arrived)
         while heap:
             level, number, is_exact, request = heap[0]
             if request.is_set:
                 heappop(heap)
+            elif level > most:
+                break
             elif is_exact:
                 return level
             else:
-                heapreplace(heap, (request.level(self._drone), number, True, request))
+                heapreplace(heap, (request.level(drone), number, True, request))
         return inf
 
     def up_to(self, level: float, most: int) -> list[Request]:
         """Return the requests that need no more than a level; of many, one more than `most`."""
         found = list[tuple[float, int, bool, Request]]()
-        while len(found) <= most and self.least <= level < inf:
+        while len(found) <= most and self.least(level) < inf:
             found.append(heappop(self._heap))
         for one in found:
             heappush(self._heap, one)
