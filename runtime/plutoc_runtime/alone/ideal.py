@@ -184,7 +184,8 @@ class IdealDrones:
     def news(self) -> dict[str, Any]:
         """Return the telemetry of the drones whose motion has changed since the last call."""
         for drone in self._all:
-            drone.settle()  # it may have touched down by itself
+            if drone.due <= self._clock.now:
+                drone.settle()  # it may have touched down by itself
         return {drone.id: drone.news() for drone in self._all if drone.changed}
 
     def obey(self, order: Mapping[str, Any]) -> None:

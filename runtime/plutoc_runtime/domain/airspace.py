@@ -71,6 +71,8 @@ class Airspace:
 
         It is straight wherever it can be. Around corners its height changes evenly along the way.
         """
+        if not self.areas:
+            return None if self.problem(start) or self.problem(end) else (end,)
         way = self._ways(min(start, end), max(start, end))  # one way for both directions
         if way is None:
             return None

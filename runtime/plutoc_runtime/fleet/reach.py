@@ -235,7 +235,7 @@ class Reach:
             for action in app.actions
         }
         self._unknown = dict.fromkeys(app.categories, inf)
-        self._upright: dict[tuple[Category, str, float], float] = {}
+        self._least: dict[tuple[Category, str, float], tuple[float, float]] = {}
 
     def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
         """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
@@ -245,16 +245,19 @@ class Reach:
         share = needed(category, self.airspace, here, stops, home)
         return inf if share is None else share + category.reserve
 
-    def upright(self, category: Category, trip: Trip) -> float:
-        """Return what a trip needs beside the way, from the ground: a lower bound."""
+    def at_least(self, category: Category, trip: Trip) -> tuple[float, float]:
+        """Return what a trip takes at least of a level from the ground beside its way, and for each metre of that."""
         key = category, trip.action, trip.target[2]
-        if key not in self._upright:
-            motion, height = category.motion, min(trip.target[2], self.airspace.cruise_height)
-            seconds = motion.rises(height, category.speed) + motion.lands(height, category.speed)
+        if key not in self._least:
+            motion, speed, full = category.motion, category.speed, category.flight_time
+            height = min(trip.target[2], self.airspace.cruise_height)
+            seconds = motion.rises(height, speed) + motion.lands(height, speed)
             seconds += self.app.actions[trip.action].seconds
-            share = seconds * motion.drain / category.flight_time
-            self._upright[key] = category.reserve + share * _LESS
-        return self._upright[key]
+            # a metre of a short leg takes no less than one of a long leg
+            shares = (seconds, motion.flies(_FAR, speed) / _FAR)
+            least = [share * motion.drain / full * _LESS for share in shares]
+            self._least[key] = category.reserve + least[0], least[1]
+        return self._least[key]
 
     def levels(self, trip: Trip) -> Mapping[Category, float]:
         """Return for each category a battery level that surely suffices for the trip.
@@ -278,11 +281,5 @@ class Reach:
         return seconds * motion.drain / category.flight_time + category.reserve
 
 
-def a_metre(category: Category) -> float:
-    """Return the share that a metre of a long straight leg takes: on a short one it is no less."""
-    far = 1e6
-    seconds = category.motion.flies(far, category.speed)
-    return seconds * category.motion.drain / category.flight_time / far * _LESS
-
-
+_FAR = 1e6  # metres of a long leg
 _LESS = 1 - 1e-9  # sums of floats are not exact, and a bound must be one
