@@ -8,7 +8,8 @@ from pathlib import Path
 from random import Random
 
 from pluto_fleet.calibration.commands import read_flights
-from pluto_fleet.calibration.fit import Calibration, calibrated
+from pluto_fleet.calibration.fit import calibrated
+from pluto_fleet.calibration.found import Calibration
 from pluto_fleet.calibration.report import NAMES
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT, Motion
 from tests.calibrating.flights import surveyed

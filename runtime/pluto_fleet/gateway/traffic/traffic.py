@@ -327,9 +327,10 @@ class Traffic:
     def _elder(self, section: Section, since: float) -> Wait | None:
         """Return a drone that has waited for long for space that a section takes.
 
-        A landing is never blocked by that, nor a drone that makes room for the elder one.
+        A landing is never blocked by that, nor the way to one's dock, nor a drone that makes room for
+        the elder one.
         """
-        if section.lands:
+        if section.lands or section.tail:
             return None
         for wait in self._waiting.values():
             wanted = wait.section

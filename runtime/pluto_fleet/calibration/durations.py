@@ -1,0 +1,149 @@
+"""How long drones take, fitted to their commands: pace, overheads and how much all that varies.
+
+A command takes F · (pace · what its way takes + its overheads), with a factor F of its own, around 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from math import sqrt
+from statistics import fmean
+from typing import TYPE_CHECKING
+
+from ..jobs.flown import ACTION, LAND, LEG, TAKE_OFF
+from ..shared.domain.actions import BUILT_IN
+from ..shared.domain.text import quoted
+from .estimates import Fit, Row, fitted, student
+from .found import SPARE, SURE, WIDEST, Calibration, Found, too_few
+
+if TYPE_CHECKING:
+    from ..shared.domain.motion import Motion
+    from .commands import Command
+
+TICK = 1e-4
+"""What the seconds of a journal are rounded to."""
+MOVED = 0.01
+"""Metres from which on a leg counts: a drone that is there already need not fly."""
+CHANCE = 0.001
+"""How probable a difference may be by chance to be noted."""
+_PARAMETERS = ("pace", "settles", "take_off", "landing")
+_FROM = {
+    "pace": (LEG, "leg"),
+    "settles": (LEG, "leg"),
+    "take_off": (TAKE_OFF, "take-off"),
+    "landing": (LAND, "landing"),
+}
+"""From which commands each is found, and what people call these."""
+_OVERHEAD = {TAKE_OFF: "take_off", LAND: "landing"}
+"""What such a command takes that no other does."""
+
+
+def find_durations(what: Calibration, done: Sequence[Command]) -> None:
+    """Find pace, overheads and spread from all commands that move a drone."""
+    moves = [one for one in done if one.what != ACTION and one.metres >= MOVED]
+    known = _known(what, moves)
+    moves = [one for one in moves if _OVERHEAD.get(one.what) not in known]
+    fit = _fit_of(what.model, moves, known)
+    if "settles" not in known and (fit is None or _leaves_pace_open(fit)):
+        known["settles"] = what.model.settles
+        what.untold["settles"] = (
+            "all legs are about as long, so it cannot be told from the pace: the rest is found as if it"
+            f" were {what.model.settles:g} s"
+        )
+        fit = _fit_of(what.model, moves, known)
+    if fit is None or fit.spread.spare < SPARE:
+        for name in (*_PARAMETERS, "spread"):
+            what.untold.setdefault(name, too_few(len(moves), "flown command", SPARE + 4))
+        return
+    free = [name for name in _PARAMETERS if name not in known]
+    kept = [one for one, off in zip(moves, fit.residuals, strict=True) if off is not None]
+    for name, estimate in zip(free, fit.values, strict=True):
+        kind, called = _FROM[name]
+        count = sum(one.what == kind for one in kept)
+        what.found[name] = Found(estimate=estimate, count=count, of=called)
+    what.found["spread"] = Found(estimate=fit.spread, count=len(kept), of="flown command")
+    what.far_off += fit.left_out
+    _compare(what, "category", moves, fit)
+    _compare(what, "drone", moves, fit)
+
+
+def _known(what: Calibration, moves: Sequence[Command]) -> dict[str, float]:
+    """Return the parameters that cannot be found, with what they count as."""
+    known: dict[str, float] = {}
+    for name, (kind, called) in _FROM.items():
+        count, least = sum(one.what == kind for one in moves), SPARE if kind == LEG else 3
+        if count < least:
+            what.untold[name] = too_few(count, called, least)
+            known[name] = getattr(what.model, name) if kind == LEG else 0.0
+    return known
+
+
+def _fit_of(model: Motion, moves: Sequence[Command], known: Mapping[str, float]) -> Fit | None:
+    """Fit what is not known."""
+    plain = replace(model, pace=1.0, settles=0.0, take_off=0.0, landing=0.0)
+    free = [at for at, name in enumerate(_PARAMETERS) if name not in known]
+    rows = []
+    for one in moves:
+        factors = _factors(plain, one)
+        given = sum(factors[at] * known.get(name, 0.0) for at, name in enumerate(_PARAMETERS))
+        rows.append(Row(tuple(factors[at] for at in free), one.seconds, given))
+    return fitted(rows, relative=True, finest=TICK)
+
+
+def _factors(plain: Motion, one: Command) -> tuple[float, float, float, float]:
+    """Return how often a command takes each of the parameters."""
+    match one.what:
+        case "take_off":
+            return plain.climb(one.metres, one.speed), 1.0, 1.0, 0.0
+        case "land":
+            return plain.sink(one.metres, one.speed), 0.0, 0.0, 1.0
+        case _:
+            return plain.leg(one.metres, one.speed), 1.0, 0.0, 0.0
+
+
+def _leaves_pace_open(fit: Fit) -> bool:
+    """Return whether pace and settling cannot be told apart, as all legs are alike."""
+    if fit.spread.spare < SPARE:
+        return False
+    low, high = fit.values[0].interval(SURE)
+    return (high - low) / 2 > WIDEST["pace"] * abs(fit.values[0].value)
+
+
+def _compare(what: Calibration, key: str, commands: Sequence[Command], fit: Fit) -> None:
+    """Note what drones of a kind differ from all by more than chance: `[motion]` is for the whole fleet."""
+    groups: dict[str, list[float]] = {}
+    for one, off in zip(commands, fit.residuals, strict=True):
+        if off is not None:
+            groups.setdefault(getattr(one, key), []).append(off)
+    reach = student(1 - CHANCE / 2 / len(groups), fit.spread.spare) * fit.spread.value
+    for name, residuals in sorted(groups.items()):
+        mean, error = fmean(residuals), reach / sqrt(len(residuals))
+        if len(groups) > 1 and abs(mean) > error:
+            what.notes.append(
+                f"{key} {quoted(name)} takes {abs(mean):.1%} ± {error:.1%}"
+                f" {'longer' if mean > 0 else 'shorter'} than the whole fleet, for which [motion] holds"
+            )
+
+
+def find_actions(what: Calibration, done: Sequence[Command]) -> None:
+    """Find how much actions vary, each kind around its own mean."""
+    kinds = sorted({one.action for one in done})
+    rows = [Row(tuple(float(one.action == kind) for kind in kinds), one.seconds) for one in done]
+    fit = fitted(rows, relative=True, finest=TICK)
+    if fit is None or fit.spread.spare < SPARE:
+        least = SPARE + max(len(kinds), 1)
+        what.untold["action_spread"] = too_few(len(done), "built-in action", least)
+        return
+    what.found["action_spread"] = Found(
+        estimate=fit.spread, count=len(done) - fit.left_out, of="built-in action"
+    )
+    what.far_off += fit.left_out
+    for kind, estimate in zip(kinds, fit.values, strict=True):
+        low, high = estimate.interval(1 - CHANCE / len(kinds))
+        planned = BUILT_IN[kind].seconds if kind in BUILT_IN else None
+        if planned is not None and not low <= planned <= high:
+            what.notes.append(
+                f"{kind} takes {estimate.value:.2f} s ± {(high - low) / 2:.2f} s, and plans count with"
+                f" {planned:g} s"
+            )
