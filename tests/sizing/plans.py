@@ -13,7 +13,7 @@ from pluto_fleet.files.plan_check import unflyable
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.app import moving
-from pluto_fleet.shared.domain.model import Category, Item
+from pluto_fleet.shared.domain.model import Category, Item, Trip
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.sizing.answer import Answer, sized
 from pluto_fleet.sizing.bounds import Rule, usual_runs
@@ -128,7 +128,7 @@ def _categories(chance: Random) -> Sequence[Category]:
 
 
 def _mission(chance: Random, index: int) -> Mission:
-    trips = []
+    trips: list[Trip] = []
     for number in range(chance.randint(1, 3)):
         x, y = (round(chance.uniform(2.0, _SIDE - 1.0), 1) for _ in "xy")
         action = chance.choice(("take_photo", "measure", "pick_item"))
