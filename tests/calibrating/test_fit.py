@@ -29,6 +29,7 @@ def test_journals_of_a_known_motion_are_fitted_within_their_uncertainty(tmp_path
     """The first of a hundred cases; `python -m tests.calibrating` fits them all."""
     tally = campaign(range(12), tmp_path)
     assert tally.whole >= 0.95 * tally.cases, tally.lines()
+    assert tally.noted == []
     assert min(tally.told[name] for name in ("pace", "settles", "take_off", "spread")) == 12
 
 
@@ -36,6 +37,7 @@ def test_journals_of_a_known_motion_are_fitted_within_their_uncertainty(tmp_path
 def test_a_hundred_cases_are(tmp_path: Path) -> None:
     tally = campaign(range(100), tmp_path)
     assert tally.whole >= 95, tally.lines()
+    assert len(tally.noted) <= 2, tally.lines()
 
 
 def test_the_intervals_are_no_wider_than_they_need_be(tmp_path: Path) -> None:

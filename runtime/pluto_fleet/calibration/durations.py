@@ -29,6 +29,8 @@ MOVED = 0.01
 """Metres from which on a leg counts: a drone that is there already need not fly."""
 CHANCE = 0.001
 """How probable a difference may be by chance to be noted."""
+_SHORT = (1, 2, 3, 4)
+"""How many eighths of all legs may be the short ones."""
 _PARAMETERS = ("pace", "settles", "take_off", "landing")
 _FROM = {
     "pace": (LEG, "leg"),
@@ -135,12 +137,15 @@ def _look_at_short_legs(
 ) -> None:
     """Note that short legs take something besides, as a drone does that overshoots when it is hurried."""
     lengths = sorted(one.metres for one in moves if one.what == LEG)
-    short = lengths[len(lengths) // 3]
-    fit = _fit_of(what.model, moves, known, short=short)
-    if fit is None or fit.spread.spare < SPARE:
+    fits = [
+        (length, fit.values[-1])
+        for length in {lengths[len(lengths) * part // 8] for part in _SHORT}
+        if (fit := _fit_of(what.model, moves, known, short=length)) and fit.spread.spare >= SPARE
+    ]
+    if not fits:
         return
-    more = fit.values[-1]
-    error = student(1 - CHANCE / 2, more.spare) * more.error
+    short, more = max(fits, key=lambda fit: abs(fit[1].value) / fit[1].error)
+    error = student(1 - CHANCE / 2 / len(_SHORT), more.spare) * more.error
     if abs(more.value) > error:
         than = "longer" if more.value > 0 else "shorter"
         what.notes.append(
