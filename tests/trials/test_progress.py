@@ -7,7 +7,7 @@ from io import StringIO
 import pytest
 
 from pluto_fleet.report.progress import LINE_EVERY, Progress
-from pluto_fleet.trials import command
+from pluto_fleet.trials import command, explore
 from tests.trials.examples import example
 
 
@@ -57,6 +57,7 @@ def test_the_bar_fills_as_runs_are_done(seeds: int, monkeypatch: pytest.MonkeyPa
             pass
 
     monkeypatch.setattr(command, "trial_progress", lambda *, lines: Waiting())
+    monkeypatch.setattr(explore, "_MOST_ROWS", 5)
     assert command.test(example("drugs_distribution"), ["--seeds", str(seeds), "--json"]) == 0
     assert len(shares) > 100
     assert shares[0] == 0

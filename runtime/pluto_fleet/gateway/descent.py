@@ -110,9 +110,10 @@ class Descent:
             return []
         if traffic is not None and traffic.ground.below(drone.id, drone.home) is None:
             return []  # another stands there
-        step = 0.0 if traffic is None else traffic.step
-        ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, step)
-        enough = telemetry.battery_level * drone.category.flight_time
+        level = 0.0 if traffic is None else traffic.level
+        ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, level)
+        kind = drone.category
+        enough = telemetry.battery_level * kind.flight_time / kind.motion.drain
         return [way for way in ways if self._course(drone, way).seconds < enough]
 
     def _course(self, drone: FleetDrone, way: Section) -> Course:

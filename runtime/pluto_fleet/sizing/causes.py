@@ -100,6 +100,11 @@ class Causes:
         if limit is not None and self._holds(question, replace(fleet, max_airborne=None)):
             text = f"max_airborne = {limit} keeps drones on the ground: without it {drones} would do, or fewer"
             yield Cause("airborne", text)
+        stock = self._tries.stock
+        more = replace(stock, most=2 * stock.most).largest
+        if len(more.drones) > stock.most and self._holds(question, more):
+            text = f"more drones: {len(more.drones)} would do, or fewer (--max says how many are tried)"
+            yield Cause("drones", text)
         quick = replace(question, app=swapping(question.app, AT_ONCE))
         if self._holds(quick, fleet):
             text = (
@@ -115,15 +120,9 @@ class Causes:
             yield Cause("apart", text)
 
     def _more(self, best: Tally) -> Iterator[Cause]:
-        """Yield what more drones, or more runs, may change."""
-        largest = max(self._tries.tallies.values(), key=lambda one: one.drones)
-        half = [one for one in self._tries.tallies.values() if one.drones * 2 <= largest.drones]
-        before = max((one.succeeded / len(one.runs) for one in half), default=0.0)
-        if best is largest and best.succeeded / len(best.runs) > before + 0.1:
-            yield Cause("drones", f"more than {best.drones} drones may do: --max says how many")
-        rule = self._tries.rule
-        low, high = best.bounds
-        if best.failed > rule.most and high >= rule.confidence:
+        """Yield what more runs may change."""
+        rule, (low, high) = self._tries.rule, best.bounds
+        if high >= rule.confidence:
             text = (
                 f"{counted(best.drones, 'drone')} may be enough, at {percent_of(low)} to"
                 f" {percent_of(high)}: more runs would tell (--runs {10 * rule.runs})"
