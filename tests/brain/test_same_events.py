@@ -19,7 +19,8 @@ MOTIONS = (
     CRAZYFLIE,
     replace(CRAZYFLIE, spread=0.2, action_spread=0.2, drain=2.0, pace=0.7),
 )
-"""For each graph; at first its drone moves straight, and each time in another way."""
+"""For each graph; its drone moves each time in another way."""
+
 
 def flown(name: str, worlds: int) -> int:
     """Fly a random graph in some worlds by all three, and return how many events there were."""
@@ -28,7 +29,7 @@ def flown(name: str, worlds: int) -> int:
     events = 0
     for number in range(worlds):
         world = random_world(Random(rng.random()), package.graph)
-        motion = MOTIONS[number % len(MOTIONS)]
+        motion = MOTIONS[(number + len(text)) % len(MOTIONS)]
         world = replace(world, homes=world.homes[:1], motion=motion)
         with_traffic = record(package, world, patient=False)
         by_itself = record(package, world, patient=False, fly=alone)
