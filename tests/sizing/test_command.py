@@ -109,7 +109,12 @@ def test_a_program_gets_it_all(plan: Path, said: Said) -> None:
         ("scout2", True),
         ("scout3", True),
     ]
-    assert [one["verdict"] for one in data["tried"]] == ["refused", "refused", "promised", "promised"]
+    assert [one["verdict"] for one in data["tried"]] == [
+        "refused",
+        "refused",
+        "promised",
+        "promised",
+    ]
     assert (data["within_s"], data["confidence"], data["found"]) == (50.0, 0.8, True)
 
 
