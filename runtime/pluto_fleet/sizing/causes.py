@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from .question import Question
     from .tries import Tries
 
-RUNS = 40
-"""Runs in which a change is tried."""
+RUNS, MOST_RUNS = 40, 300
+"""Runs in which a change is tried: as many as it took to refuse the fleet, within these bounds."""
 
 AT_ONCE = 1.0
 """Seconds in which a battery is charged that costs no time."""
@@ -121,6 +121,9 @@ class Causes:
 
     def _more(self, best: Tally) -> Iterator[Cause]:
         """Yield what more runs may change."""
+        tallies, rate = self._tries.tallies.values(), best.succeeded / len(best.runs)
+        equal = (one for one in tallies if one.succeeded / len(one.runs) == rate)
+        best = min(equal, key=lambda one: one.drones)
         rule, (low, high) = self._tries.rule, best.bounds
         if high >= rule.confidence:
             text = (
@@ -135,12 +138,15 @@ class Causes:
         return fleet
 
     def _holds(self, question: Question, fleet: FleetFile) -> bool:
+        """Return whether a change makes the runs succeed, and not only luck: with the same seeds as before."""
+        rule, best = self._tries.rule, self._best
+        most = max(RUNS, min(len(best.runs), MOST_RUNS))
         tally = Tally(counts=())
-        for run in flown(question, fleet, self._tries.seed, 0, RUNS, self._tries.jobs):
-            tally.take(run, self._tries.rule)
-            if self._tries.rule.refused(len(tally.runs), tally.failed):
+        for run in flown(question, fleet, self._tries.seed, 0, most, self._tries.jobs):
+            tally.take(run, rule)
+            if rule.refused(len(tally.runs), tally.failed):
                 return False
-        return True
+        return 2 * tally.failed / most <= best.failed / len(best.runs)
 
 
 def reasons(question: Question, tally: Tally) -> Iterator[Cause]:
