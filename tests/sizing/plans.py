@@ -13,14 +13,14 @@ from pluto_fleet.files.plan_check import unflyable
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.app import moving
-from pluto_fleet.shared.domain.model import Category, Item, Trip
+from pluto_fleet.shared.domain.model import Category, Item
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.sizing.answer import Answer, sized
 from pluto_fleet.sizing.bounds import Rule, usual_runs
 from pluto_fleet.sizing.fleets import Stock
 from pluto_fleet.sizing.question import Question
 from pluto_fleet.sizing.tries import flown
-from tests.runtime.apps import Mission, app, fleet, flow, mission, pick, release, trip
+from tests.runtime.apps import Mission, Trip, app, fleet, flow, mission, pick, release, trip
 
 CONFIDENCE = 0.99
 """Of the plans by chance."""
