@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..jobs.flown import BROKEN_OFF, DONE, LAND, TAKE_OFF
 from ..shared.domain.motion import charging
-from .estimates import Row, fitted
+from .estimates import Fit, Row, fitted
 from .found import SPARE, Calibration, Found, too_few
 
 if TYPE_CHECKING:
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 TICK, STEP = 1e-4, 1e-5
 """What the seconds and the batteries of a journal are rounded to."""
+NEAR, LITTLE = 0.05, 0.01
+"""How far off a charge, as a share of it, or a flight, as a share of a battery, is never left out."""
 FULL, CHARGED = 0.985, 0.02
 """Shares of a battery: one that is full does not tell when it was; what must have been charged."""
 BESIDE = 0.3
@@ -26,22 +28,21 @@ BESIDE = 0.3
 def find_battery(what: Calibration, runs: Sequence[Sequence[Command]]) -> None:
     """Find what a flight takes of a battery, and how long that takes to be charged."""
     flights = [Row((share,), used) for run in runs for share, used in _flights(run)]
-    _factor_found(what, "drain", flights, "flight", relative=False, finest=STEP)
+    fit = fitted(flights, relative=False, finest=STEP, near=LITTLE)
+    _keep(what, "drain", fit, "flight", len(flights))
     charges = [
         Row((expected,), took) for run in runs for expected, took in _charges(run, what.model.taper)
     ]
-    _factor_found(what, "charge", charges, "charge", relative=True, finest=TICK)
+    fit = fitted(charges, relative=True, finest=TICK, near=NEAR)
+    _keep(what, "charge", fit, "charge", len(charges))
 
 
-def _factor_found(
-    what: Calibration, name: str, rows: Sequence[Row], of: str, *, relative: bool, finest: float
-) -> None:
-    fit = fitted(rows, relative=relative, finest=finest)
+def _keep(what: Calibration, name: str, fit: Fit | None, of: str, count: int) -> None:
+    """Keep the factor that was fitted, if it was."""
     if fit is None or fit.spread.spare < SPARE:
-        what.untold[name] = too_few(len(rows), f"whole {of}", SPARE + 1)
+        what.untold[name] = too_few(count, f"whole {of}", SPARE + 1)
         return
-    what.far_off += fit.left_out
-    what.found[name] = Found(estimate=fit.values[0], count=len(rows) - fit.left_out, of=of)
+    what.found[name] = Found(estimate=fit.values[0], count=count - fit.left_out, of=of)
 
 
 def _by_drone(run: Iterable[Command]) -> Iterator[list[Command]]:

@@ -23,10 +23,14 @@ if TYPE_CHECKING:
 
 TICK = 1e-4
 """What the seconds of a journal are rounded to."""
+NEAR = 0.05
+"""How far off a duration, as a share of it, is never left out: so it may be with drones that are well."""
 MOVED = 0.01
 """Metres from which on a leg counts: a drone that is there already need not fly."""
 CHANCE = 0.001
 """How probable a difference may be by chance to be noted."""
+_SHORT = (1, 2, 3, 4)
+"""How many eighths of all legs may be the short ones."""
 _PARAMETERS = ("pace", "settles", "take_off", "landing")
 _FROM = {
     "pace": (LEG, "leg"),
@@ -66,6 +70,8 @@ def find_durations(what: Calibration, done: Sequence[Command]) -> None:
     what.far_off += fit.left_out
     _compare(what, "category", moves, fit)
     _compare(what, "drone", moves, fit)
+    if "settles" in what.found:
+        _look_at_short_legs(what, moves, known)
 
 
 def _known(what: Calibration, moves: Sequence[Command]) -> dict[str, float]:
@@ -79,16 +85,19 @@ def _known(what: Calibration, moves: Sequence[Command]) -> dict[str, float]:
     return known
 
 
-def _fit_of(model: Motion, moves: Sequence[Command], known: Mapping[str, float]) -> Fit | None:
-    """Fit what is not known."""
+def _fit_of(
+    model: Motion, moves: Sequence[Command], known: Mapping[str, float], *, short: float = 0.0
+) -> Fit | None:
+    """Fit what is not known; with `short`, also what shorter legs take besides, as the last value."""
     plain = replace(model, pace=1.0, settles=0.0, take_off=0.0, landing=0.0)
     free = [at for at, name in enumerate(_PARAMETERS) if name not in known]
     rows = []
     for one in moves:
         factors = _factors(plain, one)
         given = sum(factors[at] * known.get(name, 0.0) for at, name in enumerate(_PARAMETERS))
-        rows.append(Row(tuple(factors[at] for at in free), one.seconds, given))
-    return fitted(rows, relative=True, finest=TICK)
+        besides = (float(one.what == LEG and one.metres < short),) if short else ()
+        rows.append(Row((*[factors[at] for at in free], *besides), one.seconds, given))
+    return fitted(rows, relative=True, finest=TICK, near=NEAR)
 
 
 def _factors(plain: Motion, one: Command) -> tuple[float, float, float, float]:
@@ -116,21 +125,52 @@ def _compare(what: Calibration, key: str, commands: Sequence[Command], fit: Fit)
     for one, off in zip(commands, fit.residuals, strict=True):
         if off is not None:
             groups.setdefault(getattr(one, key), []).append(off)
-    reach = student(1 - CHANCE / 2 / len(groups), fit.spread.spare) * fit.spread.value
-    for name, residuals in sorted(groups.items()):
-        mean, error = fmean(residuals), reach / sqrt(len(residuals))
-        if len(groups) > 1 and abs(mean) > error:
-            what.notes.append(
-                f"{key} {quoted(name)} takes {abs(mean):.1%} ± {error:.1%}"
-                f" {'longer' if mean > 0 else 'shorter'} than the whole fleet, for which [motion] holds"
-            )
+    for name, residuals in sorted(groups.items()) if len(groups) > 1 else ():
+        differs = _differs(residuals, fit, len(groups))
+        if differs:
+            whole = "than the whole fleet, for which [motion] holds"
+            what.notes.append(f"{key} {quoted(name)} takes {differs} {whole}")
+
+
+def _look_at_short_legs(
+    what: Calibration, moves: Sequence[Command], known: Mapping[str, float]
+) -> None:
+    """Note that short legs take something besides, as a drone does that overshoots when it is hurried."""
+    lengths = sorted(one.metres for one in moves if one.what == LEG)
+    fits = [
+        (length, fit.values[-1])
+        for length in {lengths[len(lengths) * part // 8] for part in _SHORT}
+        if (fit := _fit_of(what.model, moves, known, short=length)) and fit.spread.spare >= SPARE
+    ]
+    if not fits:
+        return
+    short, more = max(fits, key=lambda fit: abs(fit[1].value) / fit[1].error)
+    error = student(1 - CHANCE / 2 / len(_SHORT), more.spare) * more.error
+    if abs(more.value) > error:
+        than = "longer" if more.value > 0 else "shorter"
+        what.notes.append(
+            f"legs of less than {short:.1f} m take {abs(more.value):.2f} s ± {error:.2f} s {than} than pace"
+            " and settles explain, which are alike for all legs"
+        )
+
+
+def _differs(residuals: Sequence[float], fit: Fit, groups: int) -> str:
+    """Return by how much some commands are off on average, if that is more than chance."""
+    if not residuals:
+        return ""
+    spare, deviation = fit.spread.spare, fit.spread.value
+    error = student(1 - CHANCE / 2 / groups, spare) * deviation / sqrt(len(residuals))
+    mean = fmean(residuals)
+    if abs(mean) <= error:
+        return ""
+    return f"{abs(mean):.1%} ± {error:.1%} {'longer' if mean > 0 else 'shorter'}"
 
 
 def find_actions(what: Calibration, done: Sequence[Command]) -> None:
     """Find how much actions vary, each kind around its own mean."""
     kinds = sorted({one.action for one in done})
     rows = [Row(tuple(float(one.action == kind) for kind in kinds), one.seconds) for one in done]
-    fit = fitted(rows, relative=True, finest=TICK)
+    fit = fitted(rows, relative=True, finest=TICK, near=NEAR)
     if fit is None or fit.spread.spare < SPARE:
         least = SPARE + max(len(kinds), 1)
         what.untold["action_spread"] = too_few(len(done), "built-in action", least)

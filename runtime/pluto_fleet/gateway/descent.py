@@ -110,8 +110,8 @@ class Descent:
             return []
         if traffic is not None and traffic.ground.below(drone.id, drone.home) is None:
             return []  # another stands there
-        level = 0.0 if traffic is None else traffic.level
-        ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, level)
+        step = 0.0 if traffic is None else traffic.step
+        ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, step)
         kind = drone.category
         enough = telemetry.battery_level * kind.flight_time / kind.motion.drain
         return [way for way in ways if self._course(drone, way).seconds < enough]

@@ -28,7 +28,7 @@ ELDER = 20.0
 OVERSHOOT, STOPPING = 0.6, 2.0
 """How far a real drone overshoots when it stops, in metres, and for how long."""
 SWAY = 0.05
-"""How far two hovering real drones may come nearer to each other than they were told, in metres."""
+"""By how much two real drones may be nearer to each other than the places where they were told to be."""
 _EXACT = 1e-9
 
 Ways = Callable[[Section], Iterable[Section]]
@@ -311,7 +311,7 @@ class Traffic:
     def _is_in_the_way(self, claim: Reservation, way: tuple[Point, ...], stands: bool) -> bool:
         shape, limit = claim.shape(self._kernel.now), self.limit
         if self.is_real and claim.touches_down:
-            limit = self.apart - _EXACT
+            limit = self.apart - SWAY  # docks may stand just so far apart
         if not meets(way, shape, limit):
             return False
         if claim.moves:
