@@ -5,13 +5,14 @@
 
 `tests/as_before.json` was written by the second command at the last commit whose packages carried the
 whole runtime (0984158): one hash for each seed, of what `simulate --json --trace` printed, without
-mishaps and with them. What a mission does, and when, is the same since.
+mishaps and with them. What a mission does, and when, is the same since, where drones fly straight.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from argparse import ArgumentParser
@@ -20,6 +21,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from plutoc.cli import main as plutoc
+from tests.flying import fly_straight
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"
@@ -30,14 +32,14 @@ MISHAPS = {"nothing goes wrong": "", "mishaps": "crash=10%,link=5%,action=5%,bat
 
 _MANY_RUNS = """
 import contextlib, hashlib, importlib, io, os, sys
-name, seeds, mishaps, trace = sys.argv[1:]
+name, seeds, mishaps, fleet, trace = sys.argv[1:]
 app = importlib.import_module(f"{name}.flow").APP
 try:
     main = importlib.import_module(f"{name}._runtime.command").main
 except ModuleNotFoundError:  # so it was before
     main = importlib.import_module(f"{name}._runtime.cli").main
 for seed in range(int(seeds)):
-    command = ["simulate", "missions.toml", "--fleet", "fleet.toml", "--seed", str(seed)]
+    command = ["simulate", "missions.toml", "--fleet", fleet, "--seed", str(seed)]
     command += ["--json", "--trace", trace, *(["--fail", mishaps] if mishaps else [])]
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
@@ -53,7 +55,9 @@ for seed in range(int(seeds)):
 
 def hashes(example: Path, package: Path, mishaps: str, seeds: int) -> list[str]:
     """Return a hash of what each of the first seeds printed, flown by a compiled package."""
-    command = [sys.executable, "-c", _MANY_RUNS, example.name, str(seeds), mishaps]
+    fleet = Path(shutil.copy(example / "fleet.toml", package))
+    fly_straight(fleet)
+    command = [sys.executable, "-c", _MANY_RUNS, example.name, str(seeds), mishaps, str(fleet)]
     done = subprocess.run(
         [*command, str(package / "trace.jsonl")],
         cwd=example,

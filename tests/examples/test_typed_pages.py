@@ -13,11 +13,12 @@ from plutoc.cli import main
 from tests.examples.typed import ROOT, Reader, Step, is_shown, only_read, steps
 
 TUTORIAL = [ROOT / "docs/tutorial/README.md", ROOT / "docs/tutorial/exercise.md"]
+PAGES = [*TUTORIAL, ROOT / "docs/sizing.md"]
 README = (ROOT / "README.md").read_text("utf-8")
 
 
-@pytest.mark.parametrize("file", TUTORIAL, ids=lambda file: file.stem)
-def test_what_the_tutorial_has_one_type_shows_what_it_shows(
+@pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
+def test_what_a_page_has_one_type_shows_what_it_shows(
     file: Path, tmp_path: Path, update: bool
 ) -> None:
     """From nothing to a flown mission, a stopped flight and its resumption; in order, in one folder."""

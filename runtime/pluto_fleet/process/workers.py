@@ -27,7 +27,7 @@ from .forked import leave, not_for_children, refused
 T = TypeVar("T")
 R = TypeVar("R")
 
-_ENOUGH, _MOST = 16, 16
+_ENOUGH, _MOST = 20, 50
 """Into how many parts tasks are divided, unless a part would have more than so many of them."""
 
 _BY_A_PERSON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)

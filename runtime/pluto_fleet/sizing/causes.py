@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from .question import Question
     from .tries import Tries
 
-RUNS = 40
-"""Runs in which a change is tried."""
+RUNS, MOST_RUNS = 40, 300
+"""Runs in which a change is tried: as many as it took to refuse the fleet, within these bounds."""
 
 AT_ONCE = 1.0
 """Seconds in which a battery is charged that costs no time."""
@@ -100,6 +100,11 @@ class Causes:
         if limit is not None and self._holds(question, replace(fleet, max_airborne=None)):
             text = f"max_airborne = {limit} keeps drones on the ground: without it {drones} would do, or fewer"
             yield Cause("airborne", text)
+        stock = self._tries.stock
+        more = replace(stock, most=2 * stock.most).largest
+        if len(more.drones) > stock.most and self._holds(question, more):
+            text = f"more drones: {len(more.drones)} would do, or fewer (--max says how many are tried)"
+            yield Cause("drones", text)
         quick = replace(question, app=swapping(question.app, AT_ONCE))
         if self._holds(quick, fleet):
             text = (
@@ -115,15 +120,12 @@ class Causes:
             yield Cause("apart", text)
 
     def _more(self, best: Tally) -> Iterator[Cause]:
-        """Yield what more drones, or more runs, may change."""
-        largest = max(self._tries.tallies.values(), key=lambda one: one.drones)
-        half = [one for one in self._tries.tallies.values() if one.drones * 2 <= largest.drones]
-        before = max((one.succeeded / len(one.runs) for one in half), default=0.0)
-        if best is largest and best.succeeded / len(best.runs) > before + 0.1:
-            yield Cause("drones", f"more than {best.drones} drones may do: --max says how many")
-        rule = self._tries.rule
-        low, high = best.bounds
-        if best.failed > rule.most and high >= rule.confidence:
+        """Yield what more runs may change."""
+        tallies, rate = self._tries.tallies.values(), best.succeeded / len(best.runs)
+        equal = (one for one in tallies if one.succeeded / len(one.runs) == rate)
+        best = min(equal, key=lambda one: one.drones)
+        rule, (low, high) = self._tries.rule, best.bounds
+        if high >= rule.confidence:
             text = (
                 f"{counted(best.drones, 'drone')} may be enough, at {percent_of(low)} to"
                 f" {percent_of(high)}: more runs would tell (--runs {10 * rule.runs})"
@@ -136,12 +138,15 @@ class Causes:
         return fleet
 
     def _holds(self, question: Question, fleet: FleetFile) -> bool:
+        """Return whether a change makes the runs succeed, and not only luck: with the same seeds as before."""
+        rule, best = self._tries.rule, self._best
+        most = max(RUNS, min(len(best.runs), MOST_RUNS))
         tally = Tally(counts=())
-        for run in flown(question, fleet, self._tries.seed, 0, RUNS, self._tries.jobs):
-            tally.take(run, self._tries.rule)
-            if self._tries.rule.refused(len(tally.runs), tally.failed):
+        for run in flown(question, fleet, self._tries.seed, 0, most, self._tries.jobs):
+            tally.take(run, rule)
+            if rule.refused(len(tally.runs), tally.failed):
                 return False
-        return True
+        return 2 * tally.failed / most <= best.failed / len(best.runs)
 
 
 def reasons(question: Question, tally: Tally) -> Iterator[Cause]:

@@ -22,8 +22,11 @@ Counts = tuple[int, ...]
 ALONE = 1.0
 """Metres between docks where the fleet file has one drone."""
 
-BESIDE = 0.15
+BESIDE = 0.2
 """Metres that docks are farther apart than drones must be."""
+
+_AWAY = 0.3
+"""Metres that new docks are away from walls and no-fly areas."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,4 +153,6 @@ def _line(through: float, step: float, end: float) -> list[float]:
 
 
 def _is_permitted(space: Airspace, place: Point) -> bool:
-    return space.problem(place) is None
+    x, y, z = place
+    beside = [(x + dx, y + dy, z) for dx in (-_AWAY, _AWAY) for dy in (-_AWAY, _AWAY)]
+    return not any(map(space.problem, [place, *beside]))

@@ -9,7 +9,7 @@ as a promise takes; if it cannot be promised, the search goes on without it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import combinations, permutations
+from itertools import combinations, pairwise, permutations
 from typing import TYPE_CHECKING
 
 from .fleets import Counts, Stock
@@ -96,9 +96,14 @@ class Search:
         if self._in_vain():
             return None
         best = max(range(len(tried)), key=lambda which: self._rate(all_[tried[which]]))
-        around = [0, *tried, tried[-1]][best : best + 3]
-        between = range(around[0], around[-1] + 1)
-        return next(filter(self._holds, (all_[place] for place in between)), None)
+        near = tried[max(0, best - 1) : best + 2]
+        between = (
+            all_[place]
+            for low, high in pairwise(near)
+            if self._rate(all_[low]) != self._rate(all_[high])  # else it makes no difference
+            for place in range(low + 1, high)
+        )
+        return next(filter(self._holds, between), None)
 
     def _rate(self, counts: Counts) -> float:
         tally = self._tries.tallies.get(counts)

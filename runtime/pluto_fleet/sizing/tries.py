@@ -90,14 +90,19 @@ class Tries:
         self.question, self.stock, self.rule = question, stock, rule
         self.tallies: dict[Counts, Tally] = {}
         self.seed, self.jobs, self._watch = seed, jobs, watch
+        self._enough = HOPEFUL
+        """How many runs leave hope."""
 
     def hopeful(self, counts: Counts) -> bool:
         """Return whether some runs leave hope for a fleet."""
-        return self._flown(counts, HOPEFUL).verdict is not Verdict.REFUSED
+        return self._flown(counts, self._enough).verdict is not Verdict.REFUSED
 
     def promised(self, counts: Counts) -> bool:
         """Return whether a fleet can be promised, after as many runs as that takes."""
-        return self._flown(counts, self.rule.runs).verdict is Verdict.PROMISED
+        tally = self._flown(counts, self.rule.runs)
+        if tally.verdict is Verdict.REFUSED:  # a larger one may well fail in that very run, too
+            self._enough = max(self._enough, len(tally.runs))
+        return tally.verdict is Verdict.PROMISED
 
     def _flown(self, counts: Counts, most: int) -> Tally:
         tally = self.tallies.setdefault(counts, Tally(counts=counts))

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 from ..domain.actions import BUILT_IN, PICK, RELEASE
 from ..domain.airspace import permitted_way
 from ..domain.errors import Failure, FlightFailed
-from ..domain.motion import CLIMB_SPEED, spread_of, varied
+from ..domain.motion import CLIMB_SPEED, Spread
 from ..fleet.reach import docked, flight_seconds, grip_problem
 from ..fleet.telemetry import Charge, Leg, place_on, resting
 from ..hooks.plain_data import item_of, point_of, value_data
-from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
+from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, befell, draw, failed
 from .world import World
 
 if TYPE_CHECKING:
@@ -37,16 +37,16 @@ class IdealDrone:
 
     def __init__(self, entry: DroneData, category: Category, clock: Clock, seed: int) -> None:
         self.id, self.home, self.category, self._clock = entry.id, entry.home, category, clock
-        self.motion, self.chance = category.motion, spread_of(seed, entry.id)
-        self.down: FlightFailed | None = None
-        """The failure for which it takes no commands, if any."""
+        self.motion, self.spread = category.motion, Spread(seed, entry.id)
+        self.down: FlightFailed | None = None  # why it takes no commands, if it takes none
         self.reachable_at = 0.0  # where its link is lost: not before it has landed
         self.carries: Item | None = None
         self.settings: dict[str, float] = {}
         self.drawn = Drawn()
         self.work: Work
-        self.order, self.wakes = 0, inf
-        """The order that it carries out, by its `work`, and until when it waits."""
+        self.order, self.wakes = 0, inf  # what `work` carries out, and until when it waits
+        self.draws: list[tuple[float, float]] = []
+        """For each leg of its way when it begins, and what was drawn for it."""
         self.landed = self.changed = True
         self.due = inf
         self._what: Failure | None = None
@@ -110,6 +110,8 @@ class IdealDrone:
     def turn(self, legs: list[Leg], now: float) -> None:
         """Fly other legs from now on."""
         self._flown = self._metres(now)
+        self.spread.put_back([drawn for begins, drawn in self.draws if begins > now])
+        self.draws = []
         self._legs, self.changed = legs, True
         self._look_ahead()
 
@@ -202,12 +204,15 @@ class IdealDrones:
     def _go_on(self, order: int, work: Work) -> float:
         """Go on with an order until it waits, and return until when; tell its end."""
         try:
-            return next(work)
+            while (until := next(work)) <= self._clock.now:
+                pass  # it need not wait
+            return until
         except StopIteration as end:
             self._told.append({"done": order, "value": end.value})
         except FlightFailed as error:
-            what, why = error.failure.name, str(error)
-            self._told.append({"failed": order, "failure": what, "reason": why})
+            self._told.append(
+                {"failed": order, "failure": error.failure.name, "reason": str(error)}
+            )
         return inf
 
     def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
@@ -218,18 +223,17 @@ class IdealDrones:
         for stop in stops:
             way += permitted_way(airspace, drone.id, way[-1], stop)
         seconds = flight_seconds(drone.category, airspace, start, stops, order["seconds"])
-        drone.begin(draw(*self._chance, Order(id=order["flight"], seconds=seconds)))
+        drone.begin(draw(*self._chance, order["flight"], seconds))
         yield from self._follow(drone, way)
         action, item = order["action"], item_of(order["item"])
         if action is None:
             return None
-        why = grip_problem(drone.id, drone.category, drone.carries, action, item)
-        if why is None:
-            chance, spread = drone.chance, drone.motion.action_spread
-            yield from self._pass(drone, BUILT_IN[action].seconds * varied(chance, spread))
-            why = f"{drone.id} could not do it" if drone.drawn.action else None
-        if why is not None:
+        if why := grip_problem(drone.id, drone.category, drone.carries, action, item):
             raise failed(f"{action} failed", why, drone.location)
+        factor = drone.spread.factor(drone.motion.action_spread)
+        yield from self._pass(drone, BUILT_IN[action].seconds * factor)
+        if drone.drawn.action:
+            raise failed(f"{action} failed", f"{drone.id} could not do it", drone.location)
         if action in (PICK, RELEASE):
             drone.carries = item if action == PICK else None
         now = self._clock.now
@@ -246,17 +250,18 @@ class IdealDrones:
         """Return the value that was written under a name, or else what is measured here."""
         yield from ()  # it answers at once
         drone.check()
-        name = order["name"]
         if order["do"] == "write":
-            drone.settings[name] = order["value"]
+            drone.settings[order["name"]] = order["value"]
             return None
-        measured = self._world.measure(name, drone.location, self._clock.now)
-        return drone.settings.get(name, measured)
+        measured = self._world.measure(order["name"], drone.location, self._clock.now)
+        return drone.settings.get(order["name"], measured)
 
     def _home(self, drone: IdealDrone, _: object) -> Work:
         """Take off, if it stands, fly to its dock, and land."""
         drone.begin(Drawn())
-        yield from self._follow(drone, self._way_home(drone), lands=True)
+        start = self._above(drone)
+        way = permitted_way(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
+        yield from self._follow(drone, [start, *way], lands=True)
 
     def _land(self, drone: IdealDrone, _: object) -> Work:
         """Land here; does nothing for a drone that stands on the ground."""
@@ -267,30 +272,22 @@ class IdealDrones:
     def _recover(self, drone: IdealDrone, _: object) -> Work:
         """Bring a drone home after a failed flight, landed; False: it has crashed, and is lost."""
         if drone.failure() is Failure.LINK:
-            yield from self._wait(drone.reachable_at)
+            yield drone.reachable_at
         if drone.failure() is Failure.CRASH:
             return False
         if drone.failure() is Failure.LINK:
             drone.down = None  # the link is back
         try:
-            yield from self._fly_home(drone)
+            drone.begin(Drawn())
+            if not (drone.landed and docked(drone.location, drone.home)):
+                yield from self._home(drone, None)
         except FlightFailed:  # someone carries it into its dock, and restarts it
-            yield from self._wait(self._clock.now + CARRYING_HOME)
+            yield self._clock.now + CARRYING_HOME
             drone.down, drone.settings = None, {}
             drone.turn([resting(drone.home, self._clock.now)], self._clock.now)
             drone.touch_down(self._clock.now)
         drone.carries = None
         return True
-
-    def _fly_home(self, drone: IdealDrone) -> Work:
-        drone.begin(Drawn())
-        if not (drone.landed and docked(drone.location, drone.home)):
-            yield from self._follow(drone, self._way_home(drone), lands=True)
-
-    def _way_home(self, drone: IdealDrone) -> list[Point]:
-        start = self._above(drone)
-        over = (*drone.home[:2], start[2])
-        return [start, *permitted_way(self._airspace, drone.id, start, over)]
 
     def _above(self, drone: IdealDrone) -> Point:
         x, y, z = drone.location
@@ -305,11 +302,14 @@ class IdealDrones:
             drone.location,
             self._clock.now,
         )
-        began, legs = now, list[Leg]()
+        began, legs, draws = now, list[Leg](), list[tuple[float, float]]()
 
         def fly(target: Point, before: float, seconds: float, after: float) -> None:
             nonlocal here, now
-            factor = varied(drone.chance, motion.spread)
+            factor = 1.0
+            if motion.spread:
+                draws.append((now, drone.spread.draw()))
+                factor += motion.spread * draws[-1][1]
             leaves = now + factor * before
             arrives = leaves + factor * seconds
             legs.append(Leg(here, target, leaves, arrives, motion.smooth))
@@ -325,15 +325,12 @@ class IdealDrones:
             fly((*here[:2], 0.0), 0.0, motion.sink(here[2], speed), motion.landing)
         if legs:
             drone.turn(legs, began)
-            yield from self._wait(min(now, drone.due))
+            drone.draws = draws
+            yield min(now, drone.due)
             drone.check()
         if lands:
             drone.touch_down(self._clock.now)
 
     def _pass(self, drone: IdealDrone, seconds: float) -> Work:
-        yield from self._wait(min(self._clock.now + seconds, drone.due))
+        yield min(self._clock.now + seconds, drone.due)
         drone.check()
-
-    def _wait(self, until: float) -> Work:
-        if until > self._clock.now:
-            yield until

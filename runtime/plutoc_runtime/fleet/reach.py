@@ -21,12 +21,10 @@ if TYPE_CHECKING:
     from ..domain.fleet_data import FleetData
     from ..domain.model import Category, Item, Mission, Point, Trip
 
-Stop = tuple["Point", float]
-"""A point to fly to, and the seconds that the drone is busy there."""
+Stop = tuple["Point", float]  # a point to fly to, and the seconds that the drone is busy there
 Stops = Sequence[Stop]
 
-DOCK_REACH = 0.2
-"""How near its home a drone must land to be charged there, in metres."""
+DOCK_REACH = 0.2  # how near its home a drone must land to be charged there, in metres
 
 
 def docked(landed_at: Point, home: Point) -> bool:
@@ -88,8 +86,7 @@ class Miss(NamedTuple):
     """What a drone lacks, and by how much."""
 
     lacks: Lacks
-    by: float
-    """How much is lacking: of two alike the smaller is nearer."""
+    by: float  # how much is lacking: of two alike the smaller is nearer
     reason: str
 
 
@@ -284,7 +281,5 @@ class Reach:
         return seconds * motion.drain / category.flight_time + category.reserve
 
 
-_FAR = 1e6
-"""Metres: the length of a long leg."""
-_LESS = 1 - 1e-9
-"""Sums of floats are not exact, and a lower bound must be one."""
+_FAR = 1e6  # metres of a long leg
+_LESS = 1 - 1e-9  # sums of floats are not exact, and a bound must be one

@@ -8,6 +8,7 @@ from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.motion import charged, smoothly
+from ..hooks.plain_data import point_of
 
 if TYPE_CHECKING:
     from ..domain.model import Point
@@ -90,8 +91,6 @@ class KnownState:
 
     __slots__ = ("_charge", "_clock", "_legs", "_motion", "landed")
 
-    silence = 0.0
-
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
         self._clock, self._motion = clock, motion
         self._legs, self._charge = [resting(home, 0.0)], Charge(0.0, 0.0)
@@ -118,18 +117,13 @@ class KnownState:
         if legs is not None:
             smooth = self._motion.smooth
             self._legs = [
-                Leg(_point(a), _point(b), leaves, at, smooth) for a, b, leaves, at in legs
+                Leg(point_of(a), point_of(b), leaves, at, smooth) for a, b, leaves, at in legs
             ]
         elif "at" in told:
-            self._legs = [resting(_point(told["at"]), now)]
+            self._legs = [resting(point_of(told["at"]), now)]
         match told.get("battery"):
             case [level, since, rate]:
                 self._charge = Charge(level, since, rate, self._motion.taper)
             case float(level) | int(level):
                 self._charge = Charge(level, now)
         self.landed = told.get("landed", self.landed)
-
-
-def _point(told: Sequence[float]) -> Point:
-    x, y, z = told
-    return x, y, z

@@ -53,8 +53,7 @@ def declaration_above(frame: FrameType, line: int) -> str:
     return ""
 
 
-_KNOWN: dict[tuple[CodeType, int], str] = {}
-"""A cache of comments, by the line below them."""
+_KNOWN: dict[tuple[CodeType, int], str] = {}  # a cache of comments, by the line below them
 
 
 def waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:

@@ -12,9 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
-from ..domain.model import Drone, Result
 from ..domain.status import DroneStatus, Status, TripStatus
-from ..hooks import plain_data
 from ..hooks.plain_data import (
     Data,
     fields_of,
@@ -22,14 +20,13 @@ from ..hooks.plain_data import (
     known_fields,
     trip_data,
     trip_of,
-    value_of,
 )
 from .location import waiting_at
 
 if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
-    from ..domain.model import Mission, Telemetry, Trip
+    from ..domain.model import Drone, Mission, Trip
     from ..fleet.fleet import Fleet
     from ..fleet.needs import Request
     from .mission import MissionState
@@ -91,13 +88,9 @@ def _is_sound(app: App, trip: Trip) -> bool:
 
 
 def _trip(app: App, trip: Trip) -> Data:
-    data = trip_data(app, trip)
-    facts = (
-        ("reason", trip.reason or None),
-        ("start_time", trip.start_time),
-        ("end_time", trip.end_time),
-    )
-    return data | {name: value for name, value in facts if value is not None}
+    flown = {"start_time": trip.start_time, "end_time": trip.end_time}
+    facts = {"reason": trip.reason or None, **flown}
+    return trip_data(app, trip) | {name: one for name, one in facts.items() if one is not None}
 
 
 def whereabouts_of(state: MissionState, flow: Callable[..., Any]) -> Data:
@@ -157,10 +150,9 @@ def hindrances(fleet: Fleet, request: Request) -> dict[str, Any]:
 def _never(request: Request, drone: Drone, known: Any) -> str | None:
     """Return why a drone can never fly it, as far as known."""
     category, trip = drone.category, request.trip
-    if drone in known or not category.can(trip.action):
-        return request.never(drone)
     heavy = trip.item is not None and trip.item.mass > category.payload
-    return request.never(drone) if heavy else None
+    asked = drone in known or heavy or not category.can(trip.action)
+    return request.never(drone) if asked else None
 
 
 def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[str, Trip]:
@@ -191,9 +183,6 @@ _LISTS = {
 """The lists of a record, and the usual status of the trips in them."""
 
 
-# For those who simulate: missions and drones as objects
-
-
 def fleet_data(fleet: FleetData) -> Data:
     """Return what a brain needs to know of a fleet."""
     drones = [{"id": one.id, "category": one.category, "home": one.home} for one in fleet.drones]
@@ -203,51 +192,3 @@ def fleet_data(fleet: FleetData) -> Data:
         "max_airborne": fleet.max_airborne,
         "motion": asdict(fleet.motion),
     }
-
-
-def mission_data(app: App, mission: Mission[Any]) -> Data:
-    """Return a mission to begin."""
-    return {"name": mission.name, **plain_data.mission_data(app, mission)}
-
-
-def take_over(
-    app: App, missions: Sequence[Mission[Any]], standing: Mapping[str, Mapping[str, Any]]
-) -> None:
-    """Bring missions up to date with where they stand in their brain."""
-    for mission in missions:
-        update(app, mission, standing[mission.name])
-
-
-def results_of(
-    missions: Sequence[Mission[Any]], stored: Sequence[Sequence[Any]]
-) -> tuple[Result[Any, Any], ...]:
-    """Return the results of these missions, which are up to date."""
-    named = {one.name: one for one in missions}
-    trips = {
-        (one.name, trip.name): trip
-        for one in missions
-        for trip in (*one.trips, *one.completed_trips)
-    }
-    return tuple(
-        Result(named[mission], trips.get((mission, trip)), round_, attempt, value_of(value))
-        for mission, trip, round_, attempt, value in stored
-    )
-
-
-def drones_of(
-    app: App, fleet: FleetData, stand: Mapping[str, Any], telemetry: Callable[[str], Telemetry]
-) -> tuple[Drone, ...]:
-    """Return the drones of a fleet as they stand."""
-    categories = {category.name: category for category in app.categories}
-    return tuple(
-        Drone(
-            id=one.id,
-            category=categories[one.category],
-            home=one.home,
-            telemetry=telemetry(one.id),
-            status=DroneStatus(stand[one.id]["status"]),
-            trips=stand[one.id]["trips"],
-            index=index,
-        )
-        for index, one in enumerate(fleet.drones)
-    )

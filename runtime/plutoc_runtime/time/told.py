@@ -63,8 +63,7 @@ class ToldTime(Kernel):
         """Whether the brain is being called: without a runner, nothing happens between two calls."""
         self.hooks: dict[int, Future[None]] = {}
         """The hooks that take their time, by their numbers; each is set when it has ended."""
-        self.calls = 0
-        """The number of the hook that was called last."""
+        self.calls = 0  # the number of the hook that was called last
 
     def call(
         self,

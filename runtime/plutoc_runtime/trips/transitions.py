@@ -20,9 +20,7 @@ if TYPE_CHECKING:
     from ..domain.trace import Trace
     from ..time.kernel import Kernel
 
-
-LONGEST = 3_000
-"""Characters of a reason; longer than any that a hook may give."""
+LONGEST = 3_000  # characters of a reason; longer than any that a hook may give
 
 
 class Transitions:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from .legs import between
 
 if TYPE_CHECKING:
-    from ...shared.domain.model import Point, Telemetry
+    from ...jobs.telemetry import Telemetry
+    from ...shared.domain.model import Point
 
 DRIFT = 0.3
 """Metres that a hovering drone may drift before it is noticed."""

@@ -27,6 +27,8 @@ ELDER = 20.0
 """Seconds after which later requests may not take what a drone waits for."""
 OVERSHOOT, STOPPING = 0.6, 2.0
 """How far a real drone overshoots when it stops, in metres, and for how long."""
+SWAY = 0.05
+"""By how much two real drones may be nearer to each other than the places where they were told to be."""
 _EXACT = 1e-9
 
 Ways = Callable[[Section], Iterable[Section]]
@@ -54,6 +56,8 @@ class Traffic:
         self.limit = self.step - _EXACT
         self.is_real = slack > 0
         """Whether drones are real: simulated ones stop at once."""
+        self.level = self.step + (SWAY if self.is_real else 0.0)
+        """The height between two ways of which one leads over the other."""
         self._overshoot = OVERSHOOT if self.is_real else 0.0
         self._most = len(drones) if max_airborne is None else max_airborne
         self.is_limited = self._most < len(drones)
@@ -242,7 +246,7 @@ class Traffic:
     # Reservations
 
     def _ways(self, section: Section, ways: Ways | None) -> Iterable[Section]:
-        return sections(section, self.step, self._airspace) if ways is None else ways(section)
+        return sections(section, self.level, self._airspace) if ways is None else ways(section)
 
     def _give(self, section: Section) -> Section:
         claim = self._claim(section.drone)
@@ -312,7 +316,7 @@ class Traffic:
         if not are_near(section.box, claim.shape_box, limit):
             return False
         if self.is_real and claim.touches_down(self._kernel.now):
-            limit = self.apart - _EXACT
+            limit = self.apart - SWAY  # docks may stand just so far apart
         if not meets(way, shape, limit):
             return False
         if claim.moves:
@@ -328,9 +332,10 @@ class Traffic:
     def _elder(self, section: Section, since: float) -> Wait | None:
         """Return a drone that has waited for long for space that a section takes.
 
-        A landing is never blocked by that, nor a drone that makes room for the elder one.
+        A landing is never blocked by that, nor the way to one's dock, nor a drone that makes room for
+        the elder one.
         """
-        if section.lands:
+        if section.lands or section.tail:
             return None
         for wait in self._waiting.values():
             wanted = wait.section
