@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import chain, islice, pairwise
 from math import dist, hypot
 from typing import TYPE_CHECKING
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ...jobs.landing_sites import free_spots, is_free
 from ...shared.fleet.reach import docked
 from .legs import leg_problem
+from .reservations import box_of
 from .way_back import way_back
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ...jobs.telemetry import Telemetry
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Point
+    from .reservations import Box
 
 
 FURTHEST, SHARE = 1.5, 0.05
@@ -41,6 +43,16 @@ class Section:
     """Where it goes next by default: to its dock."""
     aside: bool = False
     """It only makes room for others."""
+    whole: tuple[Point, ...] = field(init=False, compare=False, repr=False)
+    """It with its tail."""
+    box: Box = field(init=False, compare=False, repr=False)
+    """The box around all that."""
+
+    def __post_init__(self) -> None:
+        # Frozen, yet both are asked for again and again.
+        whole = (*self.points, *self.tail) if self.tail else self.points
+        object.__setattr__(self, "whole", whole)
+        object.__setattr__(self, "box", box_of(whole))
 
     def bent(self, offset: float) -> Section:
         """Return the section with the middle of its only leg raised, which costs next to nothing."""
