@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import defaultdict
 from math import comb
 
 import pytest
@@ -36,14 +36,14 @@ def test_too_few_runs_are_refused_with_how_many_it_takes() -> None:
 
 def outcomes(rule: Rule, probability: float) -> tuple[float, float, float]:
     """Return how probably a fleet is promised or refused, and how many runs that takes on average."""
-    going, promised, refused, flown = Counter({0: 1.0}), 0.0, 0.0, 0.0
+    going, promised, refused, flown = {0: 1.0}, 0.0, 0.0, 0.0
     for runs in range(1, rule.runs + 1):
         flown += sum(going.values())
-        after: Counter[int] = Counter()
+        after: dict[int, float] = defaultdict(float)
         for failed, chance in going.items():
             after[failed] += chance * probability
             after[failed + 1] += chance * (1 - probability)
-        going = Counter()
+        going = {}
         for failed, chance in after.items():
             if rule.refused(runs, failed):
                 refused += chance
