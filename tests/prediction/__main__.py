@@ -35,6 +35,8 @@ AT_ONCE = 4 * CORES
 """Flights side by side: one of five drones takes 6 % of a core, and three seconds of it to start."""
 _BETWEEN = 4.0
 """Seconds between the first flights' starts."""
+_LONGEST = 900.0
+"""Seconds of the longest plan that is flown: among random ones there are longer ones."""
 _INTERRUPTED = 128
 """The least exit code of what was interrupted."""
 
@@ -115,7 +117,8 @@ def _fly(
     """Fly what was not flown before, the longest first; return how many were not as meant."""
     known_lines = kept(options.keep)
     said, done = promised(known_lines), flown(known_lines)
-    names = sorted(said.keys() & plans.keys(), key=lambda name: -said[name].median)
+    short = (name for name in said.keys() & plans.keys() if said[name].median <= _LONGEST)
+    names = sorted(short, key=lambda name: -said[name].median)
     left = [
         name
         for name in names
