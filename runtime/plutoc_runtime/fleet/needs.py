@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Request(Future["Drone"]):
     """A mission's request for a drone; as a future it is set to the drone that it gets."""
 
-    __slots__ = ("_levels", "_reach", "_surely", "_trips", "goal", "policy", "rank", "trip", "why")
+    __slots__ = ("_levels", "_reach", "_trips", "goal", "policy", "rank", "trip", "why")
 
     def __init__(
         self, reach: Reach, trips: Sequence[Trip], policy: Policy, rank: tuple[int, int]
@@ -31,15 +31,14 @@ class Request(Future["Drone"]):
         """Where its drone flies to first."""
         self.why = ""
         """Why its drone was chosen."""
-        self._reach, self._trips, self._surely = reach, trips, reach.levels(trips[0])
+        self._reach, self._trips = reach, trips
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
         level = drone.telemetry.battery_level
-        return level >= self._surely[drone.category] or (
-            level >= self.at_least(drone, drone.telemetry.location) and level >= self.level(drone)
-        )
+        here = drone.telemetry.location
+        return level >= self.at_least(drone, here) and level >= self.level(drone)
 
     def at_least(self, drone: Drone, here: Point) -> float:
         """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
@@ -52,7 +51,7 @@ class Request(Future["Drone"]):
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
         category, home = drone.category, drone.home
-        if self._surely[category] <= 1.0 or self._level(category, home, home) <= 1.0:
+        if self._level(category, home, home) <= 1.0:
             return None
         reach = self._reach
         return why_not(reach.app, reach.airspace, category, home, chain_of(self._trips))
