@@ -37,6 +37,7 @@ CAMPAIGNS = {
     "python -m tests.flights_crazyflie.examples": "fly every example with such Crazyflies, some ten minutes",
     "python -m tests.calibrating --cases 100": "fit journals of drones whose motion is known: is it told right?",
     "python -m tests.prediction": "hold what is promised of a plan against simulated Crazyflies, some ten minutes",
+    "python -m tests.prediction.phases": "what each phase of a Crazyflie's flight takes besides its trajectory, some ten minutes",
     "python -m tests.flights_crazyflie.pauses": "land and take off again, after pauses of 0 to 6 s",
 }
 MEASURES = {
