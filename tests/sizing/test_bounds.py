@@ -36,14 +36,14 @@ def test_too_few_runs_are_refused_with_how_many_it_takes() -> None:
 
 def outcomes(rule: Rule, probability: float) -> tuple[float, float, float]:
     """Return how probably a fleet is promised or refused, and how many runs that takes on average."""
-    going, promised, refused, flown = defaultdict(float, {0: 1.0}), 0.0, 0.0, 0.0
+    going, promised, refused, flown = {0: 1.0}, 0.0, 0.0, 0.0
     for runs in range(1, rule.runs + 1):
         flown += sum(going.values())
-        after = defaultdict[int, float](float)
+        after: dict[int, float] = defaultdict(float)
         for failed, chance in going.items():
             after[failed] += chance * probability
             after[failed + 1] += chance * (1 - probability)
-        going = defaultdict(float)
+        going = {}
         for failed, chance in after.items():
             if rule.refused(runs, failed):
                 refused += chance

@@ -124,7 +124,7 @@ def test_where_there_is_none_the_cause_is_told_and_it_is_exit_1(plan: Path, said
     assert code == 1
     assert out.split("\n\n")[1] == (
         "no fleet is sure to complete all 3 missions within 20 s in 80 % of runs:\n"
-        '  mission "M1" takes 27 s even if it has 16 drones for itself and nothing goes wrong: more'
+        '  mission "M1" takes 25 s even if it has 16 drones for itself and nothing goes wrong: more'
         " than 20 s\n"
     )
 

@@ -6,7 +6,7 @@ There is no tick: what was due is applied, at its own time, the next time a dron
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
-from math import dist, inf
+from math import inf
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from ..domain.airspace import permitted_way
 from ..domain.errors import Failure, FlightFailed
 from ..domain.motion import CLIMB_SPEED, Spread
 from ..fleet.reach import docked, flight_seconds, grip_problem
-from ..fleet.telemetry import Charge, Leg, place_on, resting
+from ..fleet.telemetry import Charge, KnownState, Leg, place_on, resting
 from ..hooks.plain_data import item_of, point_of, value_data
 from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, befell, draw, failed
 from .world import World
@@ -28,16 +28,16 @@ if TYPE_CHECKING:
 
 _wakes, _when = attrgetter("wakes"), itemgetter(0)
 
-Work = Generator[float, None, Any]
-"""What a drone does: until when it waits, again and again; in the end it returns the result."""
+Work = Generator[float, None, Any]  # it yields until when it waits, and returns the result
 
 
-class IdealDrone:
+class IdealDrone(KnownState):
     """The state of one drone, initially in its dock."""
 
     def __init__(self, entry: DroneData, category: Category, clock: Clock, seed: int) -> None:
-        self.id, self.home, self.category, self._clock = entry.id, entry.home, category, clock
-        self.motion, self.spread = category.motion, Spread(seed, entry.id)
+        super().__init__(clock, entry.home, category.motion)
+        self.id, self.home, self.category = entry.id, entry.home, category
+        self.spread = Spread(seed, entry.id)
         self.down: FlightFailed | None = None  # why it takes no commands, if it takes none
         self.reachable_at = 0.0  # where its link is lost: not before it has landed
         self.carries: Item | None = None
@@ -45,32 +45,15 @@ class IdealDrone:
         self.drawn = Drawn()
         self.work: Work
         self.order, self.wakes = 0, inf  # what `work` carries out, and until when it waits
-        self.draws: list[tuple[float, float]] = []
-        """For each leg of its way when it begins, and what was drawn for it."""
-        self.landed = self.changed = True
-        self.due = inf
-        self._what: Failure | None = None
-        """When the next thing happens by itself, and what: None is a touch-down."""
+        self.due = inf  # when the next thing happens by itself
+        self._what: Failure | None = None  # that thing; None is a touch-down
         self._began = self._flown = 0.0
         self._charge = Charge(1.0, clock.now, taper=self.motion.taper)
-        self._legs = [resting(entry.home, clock.now)]
         self.touch_down(clock.now)
 
-    @property
-    def location(self) -> Point:
-        """Where it is."""
-        return place_on(self._legs, self._clock.now)
-
-    @property
-    def flown(self) -> float:
-        """How many metres it has flown, up and down included."""
-        return self._metres(self._clock.now)
-
-    def _metres(self, now: float) -> float:
-        flown = self._flown
-        for leg in self._legs:
-            flown += leg.length(now)
-        return flown
+    def flown(self, now: float) -> float:
+        """Return how many metres it has flown at a time, up and down included."""
+        return sum((leg.length(now) for leg in self._legs), self._flown)
 
     def news(self) -> dict[str, object]:
         """Return its telemetry: exact until it flies or charges otherwise."""
@@ -109,9 +92,7 @@ class IdealDrone:
 
     def turn(self, legs: list[Leg], now: float) -> None:
         """Fly other legs from now on."""
-        self._flown = self._metres(now)
-        self.spread.put_back([drawn for begins, drawn in self.draws if begins > now])
-        self.draws = []
+        self._flown = self.flown(now)
         self._legs, self.changed = legs, True
         self._look_ahead()
 
@@ -120,6 +101,7 @@ class IdealDrone:
         self.wakes = inf
         if self.failure() is None and not self.landed:
             now = self._clock.now
+            self.spread.put_back(now)
             self.turn([resting(self.location, now)], now)
 
     def touch_down(self, now: float) -> None:
@@ -143,6 +125,7 @@ class IdealDrone:
 
     def _happen(self, when: float, what: Failure | None) -> None:
         x, y, z = here = place_on(self._legs, when)
+        self.spread.put_back(when)
         if what is not None:
             self.down = befell(self.id, what, here)
         if what is Failure.LINK:
@@ -210,9 +193,8 @@ class IdealDrones:
         except StopIteration as end:
             self._told.append({"done": order, "value": end.value})
         except FlightFailed as error:
-            self._told.append(
-                {"failed": order, "failure": error.failure.name, "reason": str(error)}
-            )
+            told = {"failed": order, "failure": error.failure.name, "reason": str(error)}
+            self._told.append(told)
         return inf
 
     def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
@@ -231,7 +213,7 @@ class IdealDrones:
         if why := grip_problem(drone.id, drone.category, drone.carries, action, item):
             raise failed(f"{action} failed", why, drone.location)
         factor = drone.spread.factor(drone.motion.action_spread)
-        yield from self._pass(drone, BUILT_IN[action].seconds * factor)
+        yield from self._until(drone, self._clock.now + BUILT_IN[action].seconds * factor)
         if drone.drawn.action:
             raise failed(f"{action} failed", f"{drone.id} could not do it", drone.location)
         if action in (PICK, RELEASE):
@@ -244,7 +226,7 @@ class IdealDrones:
         drone.check()
         if drone.drawn.action:
             raise failed("the action failed", f"{drone.id} could not do it", drone.location)
-        yield from self._pass(drone, inf)
+        yield from self._until(drone, inf)
 
     def _asked(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
         """Return the value that was written under a name, or else what is measured here."""
@@ -296,41 +278,23 @@ class IdealDrones:
     def _follow(self, drone: IdealDrone, way: Sequence[Point], *, lands: bool = False) -> Work:
         """Fly a route whose first point is above the drone's place on the ground, or where it hovers."""
         drone.check()
-        motion, speed, here, now = (
-            drone.motion,
-            drone.category.speed,
-            drone.location,
-            self._clock.now,
-        )
-        began, legs, draws = now, list[Leg](), list[tuple[float, float]]()
-
-        def fly(target: Point, before: float, seconds: float, after: float) -> None:
-            nonlocal here, now
-            factor = 1.0
-            if motion.spread:
-                draws.append((now, drone.spread.draw()))
-                factor += motion.spread * draws[-1][1]
-            leaves = now + factor * before
-            arrives = leaves + factor * seconds
-            legs.append(Leg(here, target, leaves, arrives, motion.smooth))
-            here, now = target, now + factor * (before + seconds + after)
-
-        if drone.landed:
+        motion, rises, here, now = drone.motion, drone.landed, drone.location, self._clock.now
+        if rises:
             drone.lift_off()
             drone.check()  # a fault at take-off leaves it on the ground
-            fly(way[0], motion.take_off, motion.climb(way[0][2], speed), motion.settles)
-        for target in way[1:]:
-            fly(target, 0.0, motion.leg(dist(here, target), speed), motion.settles)
-        if lands:
-            fly((*here[:2], 0.0), 0.0, motion.sink(here[2], speed), motion.landing)
-        if legs:
-            drone.turn(legs, began)
-            drone.draws = draws
-            yield min(now, drone.due)
-            drone.check()
+        drone.spread.put_back(now)
+        legs = list[Leg]()
+        for place, before, seconds, after in motion.stages(way, drone.category.speed, rises, lands):
+            factor = drone.spread.factor(motion.spread, begins=now)
+            leaves = now + factor * before
+            legs.append(Leg(here, place, leaves, leaves + factor * seconds, motion.smooth))
+            here, now = place, now + factor * (before + seconds + after)
+        drone.turn(legs, self._clock.now)
+        yield from self._until(drone, now)
         if lands:
             drone.touch_down(self._clock.now)
 
-    def _pass(self, drone: IdealDrone, seconds: float) -> Work:
-        yield min(self._clock.now + seconds, drone.due)
+    def _until(self, drone: IdealDrone, when: float) -> Work:
+        """Wait until a time; raise what keeps it from waiting so long."""
+        yield min(when, drone.due)
         drone.check()

@@ -105,7 +105,7 @@ def simulate(
         return Outcome(
             duration=ended,
             standing=flown.brain.standing(),
-            flown={drone.id: drone.flown for drone in flown.drones.drones.values()},
+            flown={drone.id: drone.flown(flown.now) for drone in flown.drones.drones.values()},
             events=tuple(events),
             given_up=given_up,
         )

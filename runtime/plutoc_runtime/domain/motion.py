@@ -7,12 +7,15 @@ high-level commander): its peak speed is 35/16 of its mean one. Seconds, metres,
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import sqrt
+from itertools import pairwise
+from math import dist, sqrt
 from random import Random
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from .model import Point
 
 CLIMB_SPEED = 0.3
 """Metres a second, straight up and straight down; on smooth legs that is about the mean."""
@@ -80,12 +83,29 @@ class Motion:
         """Return the seconds straight down, to the ground."""
         return self.climb(metres, min(speed, SINKS * self.limit))
 
+    def stages(
+        self, way: Sequence[Point], speed: float, rises: bool, lands: bool
+    ) -> Iterator[tuple[Point, float, float, float]]:
+        """Yield where each leg of a way ends, and the seconds before it, on it and after it.
+
+        A drone that `rises` stands below the first point; one that `lands` comes down from the last.
+        """
+        if rises:
+            yield way[0], self.take_off, self.climb(way[0][2], speed), self.settles
+        for here, there in pairwise(way):
+            yield there, 0.0, self.leg(dist(here, there), speed), self.settles
+        if lands:
+            x, y, z = way[-1]
+            yield (x, y, 0.0), 0.0, self.sink(z, speed), self.landing
+
 
 class Spread:
     """What one drone's durations are drawn from: the same in every run of a seed."""
 
     def __init__(self, seed: int, drone: str) -> None:
-        self._random, self._put_back = Random(f"{seed}/{drone}/motion"), list[float]()
+        self._random = Random(f"{seed}/{drone}/motion")
+        self._ahead: list[tuple[float, float]] = []  # when what was drawn ahead begins, and that
+        self._put_back: list[float] = []
 
     def draw(self) -> float:
         """Return how many standard deviations the next duration differs from the expected one."""
@@ -93,13 +113,20 @@ class Spread:
             return self._put_back.pop()
         return max(-_TAIL, min(_TAIL, self._random.gauss(0.0, 1.0)))
 
-    def put_back(self, drawn: Sequence[float]) -> None:
-        """Draw these again, in their order: what they were drawn for did not begin."""
-        self._put_back += reversed(drawn)
+    def factor(self, spread: float, begins: float | None = None) -> float:
+        """Return by which factor the next duration differs from the expected one.
 
-    def factor(self, spread: float) -> float:
-        """Return by which factor the next duration differs from the expected one."""
-        return 1.0 + spread * self.draw() if spread else 1.0
+        `begins`: when that which takes so long begins, if it is drawn ahead.
+        """
+        drawn = self.draw() if spread else 0.0
+        if spread and begins is not None:
+            self._ahead.append((begins, drawn))
+        return 1.0 + spread * drawn
+
+    def put_back(self, now: float) -> None:
+        """Draw again, in its order, what was drawn ahead for what has not begun by now."""
+        self._put_back += [drawn for begins, drawn in reversed(self._ahead) if begins > now]
+        self._ahead.clear()
 
 
 def smoothly(part: float) -> float:

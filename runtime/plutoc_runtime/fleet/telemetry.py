@@ -89,10 +89,10 @@ class Charge:
 class KnownState:
     """The state of one drone, as it was told last: the drone's `Telemetry`."""
 
-    __slots__ = ("_charge", "_clock", "_legs", "_motion", "landed")
+    __slots__ = ("_charge", "_clock", "_legs", "landed", "motion")
 
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
-        self._clock, self._motion = clock, motion
+        self._clock, self.motion = clock, motion
         self._legs, self._charge = [resting(home, 0.0)], Charge(0.0, 0.0)
         self.landed = True
         """Whether it stands on the ground."""
@@ -115,7 +115,7 @@ class KnownState:
         if legs is None and "leg" in told:
             legs = [told["leg"]]
         if legs is not None:
-            smooth = self._motion.smooth
+            smooth = self.motion.smooth
             self._legs = [
                 Leg(point_of(a), point_of(b), leaves, at, smooth) for a, b, leaves, at in legs
             ]
@@ -123,7 +123,7 @@ class KnownState:
             self._legs = [resting(point_of(told["at"]), now)]
         match told.get("battery"):
             case [level, since, rate]:
-                self._charge = Charge(level, since, rate, self._motion.taper)
+                self._charge = Charge(level, since, rate, self.motion.taper)
             case float(level) | int(level):
                 self._charge = Charge(level, now)
         self.landed = told.get("landed", self.landed)

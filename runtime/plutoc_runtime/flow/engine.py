@@ -13,9 +13,9 @@ from ..domain.model import Mission
 from ..domain.status import FAILED, UNEXECUTED, Status
 from ..time.future import Future
 from ..time.kernel import Task, mission_key
-from .location import as_crash, blame, blamed
 from .mission import Core, MissionState
 from .run import Run
+from .standing import as_crash, blame, blamed
 
 
 class Engine:

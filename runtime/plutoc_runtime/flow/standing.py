@@ -1,4 +1,8 @@
-"""Missions and drones as plain data: what begins, where each stands, and for what it waits."""
+"""Missions and drones as plain data: what begins, where each stands, and for what it waits.
+
+And in which block a mission waits, or an error arose: `flow.py` quotes a block's declaration above
+each call of it.
+"""
 
 from __future__ import annotations
 
@@ -13,22 +17,19 @@ from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
 from ..domain.status import DroneStatus, Status, TripStatus
-from ..hooks.plain_data import (
-    Data,
-    fields_of,
-    item_data,
-    known_fields,
-    trip_data,
-    trip_of,
-)
-from .location import waiting_at
+from ..domain.text import said
+from ..hooks.plain_data import fields_of, item_data, known_fields, trip_data, trip_of
 
 if TYPE_CHECKING:
+    from types import CodeType, FrameType
+
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
     from ..domain.model import Drone, Mission, Trip
     from ..fleet.fleet import Fleet
     from ..fleet.needs import Request
+    from ..hooks.plain_data import Data
+    from ..trips.flight import Flight
     from .mission import MissionState
 
 
@@ -56,21 +57,21 @@ def standing_of(app: App, state: MissionState) -> Data:
         "waited": sorted(map(list, state.waited or ())),
         "first_start": state.first_start,
         "last_action_end": state.last_action_end,
-        "flight": (
-            None
-            if flight is None
-            else {
-                "trip": flight.trip.name,
-                "drone": flight.drone,
-                "since": flight.launched_at,
-                "retry": flight.retry,
-                "outcome": flight.result().value if flight.is_set else None,
-            }
-        ),
+        "flight": flight and _flight(flight),
         "carrier": None if state.carrier is None else state.carrier.id,
         "carries": item_data(state.carries),
         "interrupted": state.interrupted,
         "ended": state.ended,
+    }
+
+
+def _flight(flight: Flight) -> Data:
+    return {
+        "trip": flight.trip.name,
+        "drone": flight.drone,
+        "since": flight.launched_at,
+        "retry": flight.retry,
+        "outcome": flight.result().value if flight.is_set else None,
     }
 
 
@@ -175,11 +176,7 @@ def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[s
     return trips
 
 
-_LISTS = {
-    "gone": TripStatus.SKIPPED,
-    "done": TripStatus.COMPLETED,
-    "todo": TripStatus.WAITING,
-}
+_LISTS = {"gone": TripStatus.SKIPPED, "done": TripStatus.COMPLETED, "todo": TripStatus.WAITING}
 """The lists of a record, and the usual status of the trips in them."""
 
 
@@ -192,3 +189,70 @@ def fleet_data(fleet: FleetData) -> Data:
         "max_airborne": fleet.max_airborne,
         "motion": asdict(fleet.motion),
     }
+
+
+# Where in the graph
+
+
+def blame(error: BaseException, flow: Callable[..., Any]) -> None:
+    """Add to an error that escapes from a flow in which block it arose: `in block watch = TripMonitor`."""
+    block = blamed(error, flow)
+    if block:
+        error.add_note(f"in block {block}")
+
+
+def as_crash(error: BaseException) -> Exception:
+    """Return an error that ends the app as a bug: a block's `SystemExit` would pass for a normal end."""
+    if isinstance(error, Exception):
+        return error
+    return RuntimeError(f"it raised {said(error)}").with_traceback(error.__traceback__)
+
+
+def blamed(error: BaseException, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block in which an error arose; empty if it was in none.
+
+    Of a fork and its gate it is what stands in their place: `launch -> [a, b] -> first = GateFIFO`.
+    """
+    from traceback import walk_tb  # only where something has gone wrong
+
+    code, found = getattr(flow, "__code__", None), ""
+    for frame, line in walk_tb(error.__traceback__):
+        if code is not None and frame.f_code.co_filename == code.co_filename:
+            found = declaration_above(frame, line) or found
+    return found
+
+
+def declaration_above(frame: FrameType, line: int) -> str:
+    """Return the nearest comment above a line of a function that is not within an arm before it."""
+    import linecache
+
+    margin = None
+    for number in range(line, frame.f_code.co_firstlineno, -1):
+        text = linecache.getline(frame.f_code.co_filename, number, frame.f_globals)
+        indent = len(text) - len(text.lstrip())
+        if not text.strip() or (margin is not None and indent > margin):
+            continue
+        margin = indent
+        if text.lstrip().startswith("# "):
+            return text.strip().removeprefix("# ")
+    return ""
+
+
+_KNOWN: dict[tuple[CodeType, int], str] = {}  # a cache of comments, by the line below them
+
+
+def waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block at which a mission's coroutine waits, or nothing.
+
+    It is found by the suspended frames, so that observing a flight costs it nothing.
+    """
+    file, found = flow.__code__.co_filename, ""
+    while coroutine is not None:
+        frame: FrameType | None = getattr(coroutine, "cr_frame", None)
+        if frame is not None and frame.f_code.co_filename == file:
+            place = frame.f_code, frame.f_lineno
+            if place not in _KNOWN:
+                _KNOWN[place] = declaration_above(frame, frame.f_lineno)
+            found = _KNOWN[place] or found
+        coroutine = getattr(coroutine, "cr_await", None)
+    return found

@@ -89,7 +89,6 @@ class Branch(Protocol):
 
     def abort(self, reason: str) -> None:
         """Fail the trip in flight."""
-        ...
 
 
 class Limit:
