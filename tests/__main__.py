@@ -35,6 +35,7 @@ CAMPAIGNS = {
     "python -m tests.kill.misbehaving --times 3": "let hooks misbehave in real flights under a supervisor",
     "python -m tests.flights_crazyflie.campaign": "let each fault happen to a simulated Crazyflie, some twenty minutes",
     "python -m tests.flights_crazyflie.examples": "fly every example with such Crazyflies, some ten minutes",
+    "python -m tests.calibrating --cases 100": "fit journals of drones whose motion is known: is it told right?",
     "python -m tests.prediction": "hold what is promised of a plan against simulated Crazyflies, some ten minutes",
     "python -m tests.flights_crazyflie.pauses": "land and take off again, after pauses of 0 to 6 s",
 }

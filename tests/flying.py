@@ -22,7 +22,7 @@ from pluto_fleet.trials.invariants import Items, items_of
 from plutoc.cli import main
 
 if TYPE_CHECKING:
-    from pluto_fleet.shared.alone.simulate import SimulationResult
+    from pluto_fleet.flight.outcome import SimulationResult
     from pluto_fleet.shared.domain.model import Mission
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -33,6 +33,10 @@ A_WEEK = 7 * 86_400.0
 
 MISHAPS = {"crash": 0.10, "link": 0.05, "action": 0.05}
 """What `--fail crash=10%,link=5%,action=5%` lets go wrong."""
+
+
+STRAIGHT_LEGS = '[motion]\nlegs = "straight"\n'
+"""What a fleet file says whose drones are to be back in half of the time that a Crazyflie takes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,6 +75,12 @@ class Example:
             on_event=trace.append,
         )
         return Flown(outcome=outcome, trace=trace)
+
+
+def fly_straight(fleet: Path) -> None:
+    """Let the drones of a fleet file fly straight."""
+    with fleet.open("a", encoding="utf-8") as file:
+        file.write(f"\n{STRAIGHT_LEGS}")
 
 
 def compiled(name: str, into: Path) -> Path:

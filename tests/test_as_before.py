@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.as_before import EXAMPLES, KEPT, MISHAPS, compiled, hashes
+from tests.as_before import EXAMPLES, KEPT, MISHAPS, as_it_was, compiled, hashes
 
 SEEDS = 20
 
@@ -16,7 +16,8 @@ SEEDS = 20
 def test_simulate_prints_what_it_printed(example: str, tmp_path: Path) -> None:
     kept = json.loads(KEPT.read_text("utf-8"))[example]
     assert set(kept) == set(MISHAPS)
-    package = compiled(EXAMPLES / example, tmp_path)
+    source = as_it_was(example, tmp_path)
+    package = compiled(source, tmp_path)
     for name, mishaps in MISHAPS.items():
-        found = hashes(EXAMPLES / example, package, mishaps, SEEDS)
+        found = hashes(source, package, mishaps, SEEDS)
         assert found == kept[name][:SEEDS], name

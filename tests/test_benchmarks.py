@@ -86,6 +86,29 @@ def test_the_choice_of_drones_is_measured() -> None:
     assert list(told["share_ms"]) == ["3 x 2"]
 
 
+def test_simulations_are_measured() -> None:
+    """Here in small, beside a bare loop that flies as many trips."""
+    few = ["--rounds", "1", "--fleets", "2", "3", "--trips", "5", "10"]
+    script = str(ROOT / "benchmarks" / "simulate.py")
+    done = subprocess.run(
+        [sys.executable, script, *few, "--json"],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        text=True,
+        check=False,  # so little says nothing of the growth
+    )
+    told = json.loads(done.stdout)
+    assert {"apart = 0", "apart = 0.5", "bare loop"} <= told["start_s"].keys()
+    sizes = [
+        "10 trips, 2 drones",
+        "10 trips, 3 drones",
+        "5 trips, 20 drones",
+        "10 trips, 20 drones",
+    ]
+    assert list(told["net_s"]) == sizes
+    assert {"drones, apart = 0", "trips, bare loop"} <= told["exponents"].keys()
+
+
 def test_the_house_is_measured() -> None:
     """Each package has its line, and so have the rings."""
     sizes, *rings = python(str(ROOT / "benchmarks" / "house.py")).stdout.split("\n\n")

@@ -14,12 +14,15 @@ def init_file(graph: Graph, *, former: bool) -> str:
     """Return the text of `__init__.py`, not yet formatted."""
     exports = exports_of(graph, former=former)
     imports = [Import(module=module, name=name) for name, module in exports.items()]
+    homes: dict[str, list[str]] = {}
+    for name, module in exports.items():
+        homes.setdefault(module, []).append(f'"{name}"')
     return render(
         "init.py",
         app=graph.name,
         imports=import_lines(imports),
         exports=list(exports),
-        homes=list(exports.items()),
+        homes={module: ", ".join(names) for module, names in homes.items()},
     )
 
 

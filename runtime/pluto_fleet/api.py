@@ -21,6 +21,7 @@ from .files.plan_check import endless, problems
 from .files.reading import shortened
 from .flight.config import End, FlightResult, Stops
 from .flight.lives import FlightObserver, FlightSetup, reopen, run_flight
+from .flight.outcome import SimulationResult
 from .flight.simulate import simulate as _simulate
 from .jobs.reports import Down
 from .journal.header import header
@@ -28,7 +29,6 @@ from .journal.store import Store
 from .older import loaded_again, provide
 from .seam import checked, is_older
 from .shared.alone.faults import Faults
-from .shared.alone.simulate import SimulationResult
 from .shared.domain.airspace import Airspace
 from .shared.domain.app import moving
 from .shared.domain.errors import BadInput

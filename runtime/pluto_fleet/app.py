@@ -136,7 +136,7 @@ def _category(data: Mapping[str, Any]) -> Category:
 def _mean_and_top(category: Category) -> list[float | None]:
     if not category.motion.smooth:
         return [category.speed, None]
-    return [category.speed / PEAK, category.speed]
+    return [min(category.speed, category.motion.limit) / PEAK, category.speed]
 
 
 def _action(data: Mapping[str, Any], hook: Callable[..., Any] | None) -> Action:

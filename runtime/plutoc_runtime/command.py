@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser
     from types import ModuleType
 
-    from .alone.simulate import SimulationResult
+    from .alone.simulate import Outcome
     from .domain.app import App
 
 _SEAM = ".".join(map(str, SEAM))
@@ -152,7 +152,7 @@ def _checked(app: App, options: Any) -> int:
     return _told(app.name, outcome, options)
 
 
-def _told(name: str, outcome: SimulationResult, options: Any) -> int:
+def _told(name: str, outcome: Outcome, options: Any) -> int:
     from .alone.simulate import outcome_data
     from .domain.trace import dumped
 
@@ -165,23 +165,22 @@ def _told(name: str, outcome: SimulationResult, options: Any) -> int:
         print(dumped({**outcome_data(name, options.seed, outcome), "world": _WORLD}))
     else:
         print("\n".join(map(printable, _report(outcome))))
-    statuses = {mission.status for mission in outcome.missions}
-    if statuses & {Status.UNCERTAIN, Status.HELD}:
-        return 4
-    return 1 if outcome.given_up or statuses & {Status.FAILED, Status.CANCELLED} else 0
+    statuses = {mission["status"] for mission in outcome.standing["missions"].values()}
+    return 1 if outcome.given_up or Status.FAILED.value in statuses else 0
 
 
-def _report(outcome: SimulationResult) -> Iterator[str]:
+def _report(outcome: Outcome) -> Iterator[str]:
+    missions, drones = outcome.standing["missions"], outcome.standing["drones"]
     yield from outcome.log
-    for mission in outcome.missions:
-        reason = mission.reason and f": {mission.reason}"
-        yield f"{mission.name}: {mission.status.value}{reason}"
+    for name, mission in missions.items():
+        reason = mission["reason"] and f": {mission['reason']}"
+        yield f"{name}: {mission['status']}{reason}"
     if outcome.given_up:
         yield f"given up: {outcome.given_up}"
-    completed = sum(mission.status is Status.COMPLETED for mission in outcome.missions)
-    done = f"{completed} of {counted(len(outcome.missions), 'mission')} completed"
+    completed = sum(one["status"] == Status.COMPLETED.value for one in missions.values())
+    done = f"{completed} of {counted(len(missions), 'mission')} completed"
     flights = counted(outcome.count("trip.launched"), "flight")
-    drones = f"{counted(len(outcome.drones), 'drone')}, {outcome.crashed} crashed"
+    drones = f"{counted(len(drones), 'drone')}, {outcome.crashed} crashed"
     yield f"{done} in {duration(outcome.duration)} ({flights}; {drones})"
     yield f"flown with {_WORLD}; with pluto-fleet they keep apart"
 

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from pluto_fleet.flight import simulate as library
+from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.shared.alone import simulate as alone
 from pluto_fleet.shared.alone.faults import CARRYING_HOME, OUTAGE, Faults
 from pluto_fleet.shared.alone.ideal import IdealDrones
-from pluto_fleet.shared.alone.simulate import SimulationResult
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Point, Trip
@@ -114,7 +114,7 @@ def track(airspace: Airspace, mission: Any, home: Point, faults: Faults, seed: i
         places.append(tuple(brain.drones()["cf1"]["at"]))
         now += 0.1
     assert brain.standing()["missions"]["a"]["status"] in ("COMPLETED", "FAILED")
-    flown.close()
+    flown.brain.close()
     return places
 
 

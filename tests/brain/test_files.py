@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +20,7 @@ from pluto_fleet.shared.alone import simulate as alone
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from pluto_fleet.shared.domain.model import AfterTrip
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT
 from pluto_fleet.trials.explore import random_missions
 from tests.flying import EXAMPLES
 from tests.runtime.files.an_app import APP, PLAIN
@@ -36,7 +37,8 @@ def told(fleet: FleetData) -> object:
     drones = [
         tuple(getattr(drone, one.name) for one in fields(DroneData)) for drone in fleet.drones
     ]
-    return fleet.airspace, drones, fleet.after_trip, fleet.max_airborne, fleet.world
+    behaviour = fleet.after_trip, fleet.max_airborne, fleet.motion
+    return fleet.airspace, drones, behaviour, fleet.world
 
 
 def plain(missions: list[Mission[Any]]) -> str:
@@ -89,6 +91,14 @@ worlds = st.builds(
 )
 
 
+MOTIONS = (
+    STRAIGHT,
+    CRAZYFLIE,
+    replace(CRAZYFLIE, pace=1.25, drain=0.9),
+    replace(STRAIGHT, landing=2.0),
+)
+
+
 @st.composite
 def fleets(draw: st.DrawFn) -> full_fleet.FleetFile:
     """Return a fleet whose drones stand apart."""
@@ -113,6 +123,7 @@ def fleets(draw: st.DrawFn) -> full_fleet.FleetFile:
         ),
         after_trip=draw(st.sampled_from(AfterTrip)),
         max_airborne=draw(st.none() | st.integers(1, 9)),
+        motion=draw(st.sampled_from(MOTIONS)),
         world=draw(worlds),
     )
 

@@ -26,10 +26,10 @@ from pluto_fleet.shared.domain.motion import (
     SINKS,
     STRAIGHT,
     Motion,
+    Spread,
     charged,
     charging,
     smoothly,
-    spread_of,
 )
 from pluto_fleet.shared.fleet.reach import flight_seconds
 from pluto_fleet.shared.fleet.telemetry import Charge, Leg
@@ -355,5 +355,5 @@ def test_durations_hang_on_the_seed_and_the_drone() -> None:
     first = to_and_fro(motion, seed=7, count=5)
     assert first == to_and_fro(motion, seed=7, count=5)
     assert first != to_and_fro(motion, seed=8, count=5)
-    assert spread_of(7, "cf1").random() == spread_of(7, "cf1").random()
-    assert spread_of(7, "cf1").random() != spread_of(7, "cf2").random()
+    assert Spread(7, "cf1").draw() == Spread(7, "cf1").draw()
+    assert Spread(7, "cf1").draw() != Spread(7, "cf2").draw()

@@ -19,18 +19,17 @@ MOTIONS = (
     CRAZYFLIE,
     replace(CRAZYFLIE, spread=0.2, action_spread=0.2, drain=2.0, pace=0.7),
 )
-WORLDS = 4
-"""For each graph; at first its drone moves straight, and each time in another way."""
+"""For each graph; its drone moves each time in another way."""
 
 
-def flown(name: str) -> int:
+def flown(name: str, worlds: int) -> int:
     """Fly a random graph in some worlds by all three, and return how many events there were."""
     text, checked, rng, _ = drawn(name)
     package = packaged(OURS.planner(checked))
     events = 0
-    for number in range(WORLDS):
+    for number in range(worlds):
         world = random_world(Random(rng.random()), package.graph)
-        motion = MOTIONS[number % len(MOTIONS)]
+        motion = MOTIONS[(number + len(text)) % len(MOTIONS)]
         world = replace(world, homes=world.homes[:1], motion=motion)
         with_traffic = record(package, world, patient=False)
         by_itself = record(package, world, patient=False, fly=alone)
@@ -47,10 +46,10 @@ def flown(name: str) -> int:
 
 def test_one_drone_leaves_the_same_events_under_every_driver() -> None:
     """Byte for byte, also where things go wrong."""
-    assert sum(flown(f"same/{number}") for number in range(25)) > 800
+    assert sum(flown(f"same/{number}", 3) for number in range(25)) > 800
 
 
 @pytest.mark.long
 def test_one_drone_leaves_the_same_events_in_many_graphs() -> None:
-    """More of the same."""
-    assert sum(flown(f"same/long/{number}") for number in range(1_000)) > 50_000
+    """More of the same, each in one world."""
+    assert sum(flown(f"same/long/{number}", 1) for number in range(1_000)) > 20_000

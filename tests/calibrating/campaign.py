@@ -8,7 +8,8 @@ from pathlib import Path
 from random import Random
 
 from pluto_fleet.calibration.commands import read_flights
-from pluto_fleet.calibration.fit import Calibration, calibrated
+from pluto_fleet.calibration.fit import calibrated
+from pluto_fleet.calibration.found import Calibration
 from pluto_fleet.calibration.report import NAMES
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT, Motion
 from tests.calibrating.flights import surveyed
@@ -24,6 +25,8 @@ class Tally:
     told: Counter[str] = field(default_factory=Counter)
     inside: Counter[str] = field(default_factory=Counter)
     missed: list[str] = field(default_factory=list)
+    noted: list[str] = field(default_factory=list)
+    """What was noted, though in all cases there is nothing to note."""
 
     def add(self, case: int, truth: Motion, what: Calibration) -> None:
         """Count a case."""
@@ -38,11 +41,12 @@ class Tally:
         self.cases += 1
         self.whole += not missed
         self.missed += [f"case {case}: {one}" for one in missed]
+        self.noted += [f"case {case}: noted: {one}" for one in what.notes]
 
     def lines(self) -> list[str]:
         """Return what to print."""
         each = [f"{name:14} {self.inside[name]} of {self.told[name]}" for name in NAMES]
-        return [*each, f"all of a case  {self.whole} of {self.cases}", *self.missed]
+        return [*each, f"all of a case  {self.whole} of {self.cases}", *self.missed, *self.noted]
 
 
 def truth_of(case: int) -> Motion:

@@ -90,6 +90,7 @@ def surveyed(
     trips: int,
     drones: int = 3,
     speed: float = 0.5,
+    within: float = 12.0,
     seed: int = 0,
     around: Around | None = None,
 ) -> Path:
@@ -105,7 +106,11 @@ def surveyed(
             apps.Trip(
                 name=str(at),
                 action=chance.choice(("measure", "take_photo")),
-                target=(chance.uniform(1, 12), chance.uniform(1, 12), chance.uniform(0.5, 1.8)),
+                target=(
+                    chance.uniform(1, within),
+                    chance.uniform(1, within),
+                    chance.uniform(0.5, 1.8),
+                ),
             )
             for at in range(trips // drones)
         ]

@@ -9,10 +9,12 @@ import pytest
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.drones.errors import Locked, NotReady
 from pluto_fleet.drones.protocol import BATTERY_LOW, LOCKED
+from pluto_fleet.lithium import volts_at
 from tests.crazyflie.hangar import FAST, hangar
 
 pytest.importorskip("cflib")
 
+FULL = volts_at(1.0)
 TWO_CELLS = Build(id="cf1", home=(1.0, 2.0, 0.0), cells=2)
 CRASHED = (
     "it has crashed: once it stands upright and is whole, bring it back, or switch it off and on"
@@ -70,8 +72,8 @@ async def test_one_with_more_cells_than_the_fleet_file_says_does_not_fly(folder:
         cf = await one.connected()
         (reason,) = await cf.preflight()
         assert reason == (
-            "its battery has 8.40 V, more than one cell has: say in the fleet file how many it has,"
-            " such as cells = 2"
+            f"its battery has {2 * FULL:.2f} V, more than one cell has: say in the fleet file how"
+            " many it has, such as cells = 2"
         )
         with pytest.raises(NotReady, match="more than one cell has"):
             await cf.takeoff(0.5, FAST)
@@ -82,13 +84,16 @@ async def test_how_many_cells_it_may_have_is_said_from_its_volts(folder: Path) -
     async with hangar(folder, {"cells": 2}, build) as one:
         cf = await one.connected()
         (reason,) = await cf.preflight()
-        assert "has 12.60 V, more than 2 cells have" in reason and "such as cells = 3" in reason
+        assert (
+            f"has {3 * FULL:.2f} V, more than 2 cells have" in reason
+            and "such as cells = 3" in reason
+        )
 
 
 async def test_one_with_two_cells_is_as_full_as_each_of_them(folder: Path) -> None:
     async with hangar(folder, {"cells": 2, "least_voltage": 3.0}, TWO_CELLS) as one:
         cf = await one.connected()
-        assert cf.telemetry.voltage == pytest.approx(8.4, abs=0.01)
+        assert cf.telemetry.voltage == pytest.approx(2 * FULL, abs=0.01)
         await one.let("volts", 7.6)
         await one.drone_tells()
         assert 0.35 < cf.telemetry.battery_level < 0.45

@@ -17,7 +17,7 @@ from plutoc.compile import planned
 from plutoc.emit.package import emit
 from plutoc.registry import STD, Blocks
 from plutoc_blocks import BLOCKS
-from plutoc_runtime.flow.location import blame, blamed
+from plutoc_runtime.flow.standing import blame, blamed
 from tests.emit import failing
 from tests.emit.plans import checked_of
 

@@ -9,10 +9,10 @@ from heapq import heappop, heappush
 from selectors import DefaultSelector, SelectorKey
 from typing import TYPE_CHECKING, Any, TypeVarTuple
 
+from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.flight.simulate import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.shared.alone.simulate import SimulationResult
 from pluto_fleet.shared.domain.errors import BadInput
 
 if TYPE_CHECKING:

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from pluto_fleet.app import described
+from pluto_fleet.flight.outcome import SimulationResult, result_of
 from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.shared.alone.simulate import SimulationResult
 from pluto_fleet.shared.alone.simulate import simulate as by_itself
+from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.shared.domain.model import Drone, Mission
+from pluto_fleet.shared.domain.model import Drone, Mission, Point
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
 from tests.equivalence.behaviour import Behaviour
@@ -66,10 +67,26 @@ class Fly(Protocol):
     ) -> SimulationResult: ...
 
 
-def alone(app: App, *missions_and_fleet: Any, **how: Any) -> SimulationResult:
+class Told(NamedTuple):
+    """What a brain alone says of a drone."""
+
+    location: Point
+    battery_level: float
+    landed: bool
+
+
+def alone(
+    app: App, missions: Sequence[Mission[Any]], fleet: FleetFile, **how: Any
+) -> SimulationResult:
     """Fly without the library."""
     given: Any = app.given
-    return by_itself(given, *missions_and_fleet, **how)
+    outcome = by_itself(given, missions, fleet, **how)
+
+    def told(drone: str) -> Told:
+        stands = outcome.standing["drones"][drone]
+        return Told(tuple(stands["at"]), stands["battery"], stands["landed"])
+
+    return result_of(moving(given, fleet.motion), missions, fleet, outcome, told)
 
 
 def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool = True) -> Record:

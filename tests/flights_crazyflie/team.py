@@ -19,7 +19,7 @@ from pluto_fleet.shared.domain.actions import Plain
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Point
-from pluto_fleet.shared.domain.motion import SLACK
+from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
 from tests.kill.lives import eventually
 
@@ -122,7 +122,7 @@ async def commanded(
         log.append(f"{monotonic() - began:6.2f} {line}")
 
     team = make_team(kernel, crafts, real, HALL, folder, say)
-    gateway = Gateway(kernel, team, crafts, HALL, apart=APART, slack=SLACK)
+    gateway = Gateway(kernel, team, crafts, HALL, apart=APART, slack=CRAZYFLIE.slack)
     team.begin()
     try:
         yield Flown(kernel, team, gateway, log)

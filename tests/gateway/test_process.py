@@ -48,7 +48,7 @@ def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
         assert fleet_report.jobs["photo"].value == photo
         assert fleet_report.drones["cf1"].carrying == "pills"
         await brain.told(link.land("cf1"))
-        whats = ["take_off", "leg", "action", "action", "land"]
+        whats = ["take_off", "leg", "action", "leg", "action", "land"]
         assert [one["what"] for one in flown] == whats  # each before what follows from it
         assert link.telemetry("cf1").landed
         await link.goodbye()

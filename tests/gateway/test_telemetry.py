@@ -5,8 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Mapping
 
-from pluto_fleet.jobs.telemetry import Publisher
-from pluto_fleet.shared.domain.model import Telemetry
+from pluto_fleet.jobs.telemetry import Publisher, Telemetry
 from tests.gateway.flights import Field
 
 News = Mapping[str, bool]

@@ -1,7 +1,7 @@
 """Keeps a journal as this version writes it, for all later ones to go on from.
 
 `python -m tests.journal.keeping` flies `golden/source` with mishaps, stops it in the middle, and puts
-its journal into `golden/LANGUAGE-VERSION`, with the app as it was and what the journal comes to.
+its journal into `golden/LANGUAGE-VERSION-EVENTS`, with the app as it was and what the journal comes to.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pluto_fleet.journal.fold import replayed
-from pluto_fleet.journal.header import LANGUAGE
+from pluto_fleet.journal.header import EVENTS, LANGUAGE
 from pluto_fleet.journal.store import Store
 from plutoc import __version__
 from tests.flying import compiled_file
@@ -60,7 +60,7 @@ def written(records: object) -> str:
 
 def main() -> None:
     """Fly, stop, and keep."""
-    kept = GOLDEN / f"{LANGUAGE}-{__version__}"
+    kept = GOLDEN / f"{LANGUAGE}-{__version__}-{EVENTS}"
     with tempfile.TemporaryDirectory() as name:
         package = compiled_file(SOURCE / "app.pluto", Path(name) / APP)
         journal = Path(name) / JOURNAL

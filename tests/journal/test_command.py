@@ -54,7 +54,6 @@ EVENTS: list[dict[str, object]] = [
         "reason": "was it released?",
     },
     {"t": 10.0, "event": "a.word.of.later", "mission": "North", "what": "\x1b[2J"},
-    {"t": 10.5, "event": "drone.flew", "drone": "cf1", "what": "land", "seconds": 4.0},
     {"t": 11.0, "event": "trip.failed", "mission": "North"},
 ]
 
@@ -112,6 +111,15 @@ def test_programs_read_an_object_for_each_event(path: Path, printed: Printed) ->
     assert [json.loads(line) for line in lines] == [
         {**event, "wall": 45_296.5} for event in [HEADER, *EVENTS]
     ]
+
+
+def test_only_programs_read_measurements(path: Path, printed: Printed) -> None:
+    measured = {"t": 12.0, "event": "drone.flew", "drone": "cf1", "what": "land", "seconds": 4.0}
+    store = Store.open(path)
+    store.append([json.dumps([measured])])
+    store.close()
+    assert len(printed(path)[1]) == 1 + len(EVENTS)
+    assert measured.items() <= json.loads(printed(path, "--json")[1][-1]).items()
 
 
 def test_without_a_name_it_is_the_newest(

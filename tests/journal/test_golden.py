@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.journal.header import LANGUAGE
+from pluto_fleet.journal.header import EVENTS, LANGUAGE
 from plutoc import __version__
 from tests.flying import compiled_file
 from tests.journal.keeping import APP, GOLDEN, JOURNAL, RECORDS, SOURCE, records_of, said, written
@@ -20,7 +20,7 @@ each_version = pytest.mark.parametrize("kept", KEPT, ids=lambda path: str(path.n
 
 def test_this_version_has_its_journal() -> None:
     """`python -m tests.journal.keeping` makes it."""
-    assert f"{LANGUAGE}-{__version__}" in [kept.name for kept in KEPT]
+    assert f"{LANGUAGE}-{__version__}-{EVENTS}" in [kept.name for kept in KEPT]
 
 
 @each_version
@@ -52,5 +52,6 @@ def test_an_app_compiled_today_goes_on_to_the_end_and_flies_nothing_twice(
     ward = [("Ward", trip, 0) for trip in ("pick", "release", "look")]
     south = [("South", trip, turn) for trip in ("A", "B") for turn in (0, 1)]
     assert code == 0, "\n".join(report)
+    assert any(event["event"] == "drone.flew" for event in events)
     assert done == Counter([*north, *ward, *south])
     assert "3 of 3 missions completed" in report[-1]

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.flying import STRAIGHT_LEGS
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plan:
@@ -55,7 +57,8 @@ def fleet(categories: str, *, after_trip: str = "home") -> str:
         for i, category in enumerate(categories.split())
     ]
     head = "[map]\nsize = [5.0, 4.0]\ncruise_height = 1.0\n"
-    return f'{head}[fleet]\nafter_trip = "{after_trip}"\n{"".join(drones)}'
+    behaviour = f'[fleet]\nafter_trip = "{after_trip}"\n{STRAIGHT_LEGS}'
+    return f"{head}{behaviour}{''.join(drones)}"
 
 
 PLANS = (

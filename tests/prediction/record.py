@@ -34,9 +34,9 @@ class Flown:
     plan: str
     code: int
     makespan: float
-    """Seconds from the start of the app until the last mission ended."""
+    """Seconds from the beginning of the missions until the last one ended."""
     began: float
-    """Seconds until the drones were ready, which the makespan includes."""
+    """Seconds before that: drones are connected, and checked."""
     battery: float
     flights: int
     failed: int

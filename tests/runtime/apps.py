@@ -9,9 +9,9 @@ from typing import Any
 from pluto_fleet.app import App, described
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.alone.simulate import SimulationResult
 from pluto_fleet.shared.domain import app as brain_app
 from pluto_fleet.shared.domain import model
 from pluto_fleet.shared.domain.actions import BUILT_IN, Action

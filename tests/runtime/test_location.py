@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.own_policy import own_policy
 from pluto_fleet.shared.fleet.policies import Policy, nearest

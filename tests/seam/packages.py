@@ -86,7 +86,7 @@ def begun(package: Path, journal: Path, until: str = "launched") -> subprocess.P
     """Begin a flight, and return its process when it says this; at first: when the first trip flies."""
     words = [sys.executable, "-m", package.name, "fly", *plan(package.name)]
     flying = subprocess.Popen(
-        [*words, "--sim", "--speed", "20", "--journal", str(journal)],
+        [*words, "--sim", "--speed", "50", "--journal", str(journal)],
         env=environment(package),
         stdout=subprocess.PIPE,
         text=True,

@@ -7,14 +7,22 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
 import pluto_fleet
 from pluto_fleet.seam import NEWEST, OLDEST, problem, written
-from pluto_fleet.shared.domain.app import SEAM
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.app import SEAM, moving
+from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, PEAK, STRAIGHT, Motion
 from tests.flying import EXAMPLES, compiled
+from tests.runtime.files.an_app import APP
 
 NAME = "drugs_distribution"
 LIBRARY = Path(pluto_fleet.__path__[0]).parent
@@ -115,6 +123,33 @@ def test_an_app_that_is_too_old_is_told_to_be_compiled_anew(tmp_path: Path) -> N
         f" pluto-fleet {FIRST + 2}.0.0 speaks {FIRST + 1}.0 to {FIRST + 2}.0:"
         f' compile drugs_distribution anew, or pip install "pluto-fleet<{FIRST + 2}"\n'
     )
+
+
+@pytest.mark.parametrize(
+    ("motion", "told"),
+    [
+        (STRAIGHT, {"scout": [0.5, None], "carrier": [3.0, None]}),
+        (
+            replace(CRAZYFLIE, limit=1.0),
+            {"scout": [0.5 / PEAK, 0.5], "carrier": [1.0 / PEAK, 3.0]},
+        ),
+    ],
+    ids=["straight", "smooth"],
+)
+def test_a_brain_of_seam_3_0_is_told_how_fast_its_drones_are_on_average(
+    motion: Motion, told: dict[str, list[float | None]]
+) -> None:
+    """It knows no motion: of a fast category that is what the position controller follows."""
+
+    class Brain:
+        def __init__(self, app: object, fleet: Mapping[str, object], **_: object) -> None:
+            self.fleet = fleet
+
+    categories = (Category(name="scout", speed=0.5), Category(name="carrier", speed=3.0))
+    brain: Any = SimpleNamespace(Brain=Brain)
+    app = moving(replace(APP, categories=categories, brain=brain), motion)
+    made: Any = app.new_brain({"drones": []}, space=Airspace())
+    assert made.fleet == {"drones": [], "speeds": told}
 
 
 def test_what_is_said_of_a_seam_depends_on_nothing_but_the_two() -> None:

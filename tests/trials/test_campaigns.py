@@ -18,6 +18,7 @@ from tests.trials.examples import example, fleet_of
 
 
 @pytest.mark.long  # thousands of runs
+@pytest.mark.first
 def test_no_example_does_what_no_run_may_do(capsys: pytest.CaptureFixture[str]) -> None:
     """Struck at every row of its journal, by everything that can strike."""
     code = campaign.main(["--seeds", "1"])
@@ -56,7 +57,7 @@ def test_a_mistake_in_the_world_is_found_by_them_and_shown_as_it_is(
         if body.landed:
             x, y, _ = body.location
             body.lift_off(now)
-            up = body.model.climb(height, body.drone.category.speed)
+            up = body.model.climb(height - body.location[2], body.drone.category.speed)
             await self._move(body, (x, y, height), (0.0, up, 0.0), "to take off")
 
     monkeypatch.setattr(Body, "lift_off", lift_off)

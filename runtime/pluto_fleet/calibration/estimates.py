@@ -82,11 +82,12 @@ class Fit:
         return sum(one is None for one in self.residuals)
 
 
-def fitted(rows: Sequence[Row], *, relative: bool, finest: float) -> Fit | None:
+def fitted(rows: Sequence[Row], *, relative: bool, finest: float, near: float) -> Fit | None:
     """Fit the parameters to measurements; None: these do not determine them.
 
     `relative`: each measurement varies in proportion to itself; otherwise all vary alike.
-    `finest`: the standard deviation that comes from rounding alone.
+    `finest`: the standard deviation that comes from rounding alone. `near`: what is not further off
+    than that is never left out.
     """
     count = len(rows[0].factors) if rows else 0
     if len(rows) <= count or not count:
@@ -98,7 +99,8 @@ def fitted(rows: Sequence[Row], *, relative: bool, finest: float) -> Fit | None:
     off = robust[2]
     typical = max(_SAME * median(sorted(map(abs, off))[count:]), finest)
     judged = len(rows) - count >= JUDGED_FROM
-    kept = [not judged or abs(one) <= OUTLIER * typical for one in off]
+    furthest = max(OUTLIER * typical, near)
+    kept = [not judged or abs(one) <= furthest for one in off]
     good = [row for row, keep in zip(rows, kept, strict=True) if keep]
     solved = _solved(good, relative, lambda _: 1.0, rounds=10)
     spare = len(good) - count

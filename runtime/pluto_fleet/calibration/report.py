@@ -11,7 +11,7 @@ from ..shared.domain.text import counted, number
 
 if TYPE_CHECKING:
     from .commands import Flights
-    from .fit import Calibration, Found
+    from .found import Calibration, Found
 
 IN_SECONDS = ("settles", "take_off", "landing")
 NAMES = (
@@ -70,11 +70,14 @@ def _counts(what: Calibration, journals: Sequence[Flights]) -> str:
 def _row(what: Calibration, name: str, found: Found) -> tuple[str, ...]:
     digits = digits_of(name, found)
     low, high = (written(name, end, digits) for end in (found.low, found.high))
+    error = written(name, found.estimate.error, digits)
+    if not any(digit in error for digit in "123456789"):
+        error = f"< {error.replace('0.000', '0.001')}"
     return (
         name,
         written(name, said(what, name)),
         written(name, found.value, digits),
-        written(name, found.estimate.error, digits),
+        error,
         f"{low.removesuffix(' %').removesuffix(' s')} … {high}",
         counted(found.count, found.of),
     )
@@ -95,6 +98,12 @@ def written(name: str, value: float, digits: int | None = None) -> str:
     """Return a value as a fleet file has it, with its unit."""
     amount, unit = (value, "s") if name in IN_SECONDS else (100 * value, "%")
     return f"{number(amount) if digits is None else f'{amount:.{digits}f}'} {unit}"
+
+
+def in_file(name: str, found: Found) -> str:
+    """Return a value that was found as it is put into a fleet file."""
+    factor = 1 if name in IN_SECONDS else 100
+    return written(name, round(factor * found.value, digits_of(name, found)) / factor)
 
 
 def as_data(what: Calibration, journals: Sequence[Flights]) -> dict[str, Any]:

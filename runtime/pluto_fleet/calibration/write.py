@@ -13,10 +13,10 @@ from tomlkit.exceptions import TOMLKitError
 from ..files.fleet import read_motion
 from ..files.reading import Table, parsed
 from ..shared.domain.errors import BadInput
-from .report import digits_of, written
+from .report import in_file
 
 if TYPE_CHECKING:
-    from .fit import Calibration
+    from .found import Calibration
 
 
 def write(what: Calibration, path: Path, text: str) -> Iterator[str]:
@@ -24,11 +24,7 @@ def write(what: Calibration, path: Path, text: str) -> Iterator[str]:
 
     Raises `BadInput` if a value may not stand there, or the file cannot be written; then it is as before.
     """
-    values = {
-        name: written(name, found.value, digits_of(name, found))
-        for name, found in what.found.items()
-        if name != "charge"
-    }
+    values = {name: in_file(name, found) for name, found in what.found.items() if name != "charge"}
     changed, after = _changed(path, text, values)
     if after != text:
         _replace(path, after)
@@ -55,6 +51,8 @@ def _changed(path: Path, text: str, values: dict[str, str]) -> tuple[dict[str, o
             changed[name] = None if before is None else before.unwrap()
             motion[name] = value
     after = tomlkit.dumps(document) if changed else text
+    if text.count("\n") == text.count("\r\n") > 0:  # new lines end as all others do
+        after = after.replace("\r\n", "\n").replace("\n", "\r\n")
     read = parsed(f"{path}, with what was found", after)
     read_motion(Table(read, read.data))
     read.refuse_if_bad()

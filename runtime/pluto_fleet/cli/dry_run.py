@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 
     from ..app import App
     from ..files.drones import DroneEntry
+    from ..flight.outcome import SimulationResult
     from ..jobs.controls import Controls
-    from ..shared.alone.simulate import SimulationResult
 
     # was an import of itself
     from ..shared.domain.actions import Plain

@@ -29,8 +29,8 @@ from .picture import drawing, kind_of, write
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..flight.outcome import SimulationResult
     from ..report.progress import Progress
-    from ..shared.alone.simulate import SimulationResult
     from ..trials.invariants import Items
     from .options import Options
     from .plans import LoadedPlan

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import atexit
 import sys
 import threading
@@ -17,6 +16,7 @@ from ..shared.domain.errors import ANY_ERROR
 from ..shared.domain.text import said
 
 if TYPE_CHECKING:
+    from asyncio import AbstractEventLoop, Task
     from multiprocessing.process import BaseProcess
 
 T = TypeVar("T")
@@ -28,12 +28,14 @@ _KILLED_AFTER = 1.0
 """Seconds between terminating a process and killing it."""
 
 
-_stubborn: list[asyncio.Task[Any]] = []
+_stubborn: list[Task[Any]] = []
 """References to tasks that ignore their cancellation, so that they are not garbage-collected."""
 
 
 def run(main: Coroutine[Any, Any, T]) -> T:
     """Like `asyncio.run`, but a hook's own tasks can neither end it nor block it for ever."""
+    import asyncio  # a simulation does without
+
     loop = asyncio.new_event_loop()
     asyncio.set_event_loop(loop)
     try:
@@ -49,7 +51,7 @@ def run(main: Coroutine[Any, Any, T]) -> T:
         loop.close()
 
 
-def _through(loop: asyncio.AbstractEventLoop, main: Coroutine[Any, Any, T]) -> T:
+def _through(loop: AbstractEventLoop, main: Coroutine[Any, Any, T]) -> T:
     """Run to the end, even if an error such as `SystemExit` in a hook's own task stops the loop."""
     task = loop.create_task(main)
     while not task.done():

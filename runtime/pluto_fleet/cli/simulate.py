@@ -8,6 +8,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..flight.outcome import SimulationResult
 from ..flight.simulate import simulate as simulated
 from ..journal.event_line import line
 from ..process.signal_guard import Interrupted
@@ -16,7 +17,7 @@ from ..report.report import exit_code, report
 from ..report.sentences import line_of
 from ..shared import output
 from ..shared.alone.faults import Faults
-from ..shared.alone.simulate import SimulationResult, outcome_data
+from ..shared.alone.simulate import outcome_data
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import duration
 from ..shared.domain.trace import Event, dumped

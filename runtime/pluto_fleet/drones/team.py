@@ -29,11 +29,11 @@ if TYPE_CHECKING:
 
     from ..jobs.controls import FleetDrone
     from ..jobs.job import Job
-    from ..jobs.telemetry import Subscription
+    from ..jobs.telemetry import Subscription, Telemetry
     from ..process.realtime import RealTime
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.errors import FlightFailed
-    from ..shared.domain.model import Item, Point, Telemetry
+    from ..shared.domain.model import Item, Point
     from .protocol import DroneNavigation
     from .real_fleet import RealDrone, RealFleet, RequiredAction
 

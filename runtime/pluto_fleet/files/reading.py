@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -66,11 +67,20 @@ class Document:
     """A parsed plan, and everything that is wrong with it."""
 
     def __init__(
-        self, path: str, data: dict[str, object], where: TomlLines, words: Wording = IN_A_FILE
+        self,
+        path: str,
+        data: dict[str, object],
+        find: Callable[[], TomlLines] = dict,
+        words: Wording = IN_A_FILE,
     ) -> None:
+        """`find` is called for the lines as soon as one is asked for."""
         self.path, self.data, self.words = path, data, words
         self.problems: list[Problem] = []
-        self._where = where
+        self._find = find
+
+    @cached_property
+    def _where(self) -> TomlLines:
+        return self._find()
 
     def line(self, place: TomlPath) -> int | None:
         """Return the line of a path."""
@@ -105,7 +115,7 @@ def read(path: Path) -> Document:
 
 def parsed(path: str, text: str) -> Document:
     """Parse a plan file's text; raise `BadInput` if it is not TOML."""
-    return Document(path, files.parsed(path, text, advice), places(text))
+    return Document(path, files.parsed(path, text, advice), partial(places, text))
 
 
 def text_of(path: Path) -> str:

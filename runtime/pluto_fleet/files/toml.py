@@ -12,8 +12,6 @@ from bisect import bisect_right
 from collections.abc import Mapping
 from contextlib import suppress
 
-import tomlkit
-
 TomlPath = tuple[str | int, ...]
 TomlLines = Mapping[TomlPath, int]
 """The line, from 1, of every table, key and element."""
@@ -148,11 +146,15 @@ class _Scanner:
 
 def toml_text(table: Mapping[str, object]) -> str:
     """Write a whole file."""
+    import tomlkit  # only to write
+
     return tomlkit.dumps(table)
 
 
 def toml_value(value: object) -> str:
     """Write one value on one line."""
+    import tomlkit
+
     if isinstance(value, dict):
         pairs = [
             f"{tomlkit.key(key).as_string()} = {toml_value(one)}" for key, one in value.items()

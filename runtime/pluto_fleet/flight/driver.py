@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ..shared.hooks.plain_data import mission_data
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, EventKind
 from .orders import Message, Order
 
 if TYPE_CHECKING:
+    from ..app import App
     from ..shared.brain import Brain
+    from ..shared.domain.model import Mission
     from ..shared.domain.trace import Event
     from ..shared.time.kernel import Kernel, Timer
+
+
+def begun(app: App, missions: Iterable[Mission[Any]]) -> list[dict[str, Any]]:
+    """Return missions as a brain takes them to begin."""
+    return [{"name": one.name, **mission_data(app, one)} for one in missions]
 
 
 class Driver:

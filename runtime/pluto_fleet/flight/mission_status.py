@@ -91,14 +91,20 @@ def aside(record: Record) -> tuple[Status, str] | None:
 
 
 def count_flights(journal: Path) -> tuple[int, int, float]:
-    """Count the flights and those that failed; say when the last mission ended, too."""
+    """Count the flights and those that failed; return how many seconds the missions took, too.
+
+    That is from when the drones were connected, as in a simulation; 0: none has ended.
+    """
     launched = failed = 0
-    last = "[]"
+    first, last = "[]", "[]"
     with closing(Reader(journal)) as reader:
         for row in reader.rows():  # within a text, quotation marks are escaped
             launched += row.text.count('"event": "trip.launched"')
             failed += row.text.count('"event": "trip.failed"')
+            if first == "[]" and '"event": "brain.began"' in row.text:
+                first = row.text
             if '"event": "mission.ended"' in row.text:
                 last = row.text
+    begins = [event["t"] for event in json.loads(first) if event["event"] == "brain.began"]
     ends = [event["t"] for event in json.loads(last) if event["event"] == "mission.ended"]
-    return launched, failed, max(ends, default=0.0)
+    return launched, failed, max(ends) - min(begins, default=0.0) if ends else 0.0

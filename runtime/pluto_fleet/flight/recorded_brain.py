@@ -15,11 +15,12 @@ from ..jobs.reports import reported_result
 from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.status import Status
-from ..shared.flow.standing import drones_of, fleet_data, update
+from ..shared.flow.standing import fleet_data, update
 from ..shared.time.kernel import FLEET, Kernel
 from .driver import Driver
 from .mission_status import aside, in_order
 from .orders import Dispatcher, Order, outcome
+from .outcome import drones_of
 from .reconcile import Outcome, ended, id_of, in_flight, outcome_of, trip_of
 
 if TYPE_CHECKING:

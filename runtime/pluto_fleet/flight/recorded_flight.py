@@ -14,10 +14,10 @@ from ..files.reading import shortened
 from ..process.text import of
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import place, quoted
-from ..shared.flow.standing import mission_data
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, Task
 from .control import Control
+from .driver import begun
 from .recorded_brain import RecordedBrain
 from .recovery import Recovery
 
@@ -71,8 +71,7 @@ class RecordedFlight(RecordedBrain):
         self._begin(missions)
 
     def _begin(self, missions: Sequence[Mission[Any]]) -> None:
-        data = [mission_data(self.app, one) for one in missions]
-        self.driver.call(partial(self.brain.begin, data))
+        self.driver.call(partial(self.brain.begin, begun(self.app, missions)))
 
     def _set_out(self, whole: Coroutine[Any, Any, float]) -> Task[float]:
         self.control.whole = task = self.kernel.spawn(whole, FLEET, "the session")

@@ -4,36 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import closing
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..app import App
 from ..gateway.gateway import Gateway
-from ..shared.alone.simulate import Bound, SimulationResult, see_through
+from ..shared.alone.simulate import Bound, Outcome, see_through
+from ..shared.alone.simulate import simulate as without_traffic
 from ..shared.alone.world import World
 from ..shared.domain.app import moving
-from ..shared.flow.standing import (
-    drones_of,
-    fleet_data,
-    mission_data,
-    results_of,
-    take_over,
-)
+from ..shared.fleet.telemetry import KnownState
+from ..shared.flow.standing import fleet_data
 from ..shared.time.virtual import VirtualTime
 from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation
-from .driver import Driver
+from .driver import Driver, begun
 from .orders import Dispatcher
+from .outcome import SimulationResult, result_of
 
 if TYPE_CHECKING:
-    from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.controls import Controls
     from ..process.hook_runner import RealHooks
     from ..shared.alone.faults import Faults
-    from ..shared.domain.model import Mission
+    from ..shared.domain.model import Mission, Telemetry
     from ..shared.domain.trace import Event
     from ..shared.time.future import Future
     from ..shared.time.kernel import Kernel
+
+_LEGS = (3, 1)
+"""The first seam whose brains are told several legs at once."""
 
 Listener = Callable[["Event"], object]
 Around = Callable[["Kernel", "Controls"], "Controls"]
@@ -86,15 +87,9 @@ class Simulation:
             hooks.ended = lambda number: driver.tell({"hook": number})
             hooks.stir = driver.pump
 
-    @property
-    def now(self) -> float:
-        """The time, in seconds since the start."""
-        return self._kernel.now
-
     def start(self, missions: Iterable[Mission[Any]]) -> Future[float]:
         """Begin missions at this instant; return what is set when all has ended."""
-        data = [mission_data(self._app, one) for one in missions]
-        self._driver.call(partial(self.brain.begin, data))
+        self._driver.call(partial(self.brain.begin, begun(self._app, missions)))
         return self._driver.done
 
     def close(self) -> None:
@@ -114,19 +109,17 @@ class Simulation:
         self, missions: Sequence[Mission[Any]], events: Sequence[Event], ended: float, given_up: str
     ) -> SimulationResult:
         """Return the outcome of the missions, which are brought up to date."""
-        standing = self.brain.standing()
-        take_over(self._app, missions, standing["missions"])
-        return SimulationResult(
+        bodies, standing = self._navigation.bodies, self.brain.standing()
+        for drone, stands in standing["drones"].items():
+            stands["battery"] = bodies[drone].battery_level  # the brain was told of it earlier
+        outcome = Outcome(
             duration=ended,
-            missions=tuple(missions),
-            drones=drones_of(
-                self._app, self._fleet, standing["drones"], self._navigation.bodies.__getitem__
-            ),
+            standing=standing,
             flown={one.id: self._navigation.flown(one.id) for one in self._drones},
             events=tuple(events),
-            results=results_of(missions, standing["results"]),
             given_up=given_up,
         )
+        return result_of(self._app, missions, self._fleet, outcome, bodies.__getitem__)
 
 
 def simulate(
@@ -143,8 +136,21 @@ def simulate(
     """Fly the missions in virtual time, until the last one has ended or a time is reached.
 
     Without such a time it is given up if missions fly again and again without success.
+    Drones that are not kept apart fly in the brain's own world, as each has the air to itself there.
     `around` wraps the drones' controls for the gateway.
     """
+    if not fleet.apart and around is None and app.seam >= _LEGS:
+        outcome = without_traffic(
+            app,
+            missions,
+            fleet,
+            seed=seed,
+            faults=faults,
+            until=until,
+            on_event=on_event,
+            new_brain=App.new_brain,
+        )
+        return result_of(app, missions, fleet, outcome, partial(_known, fleet, outcome))
     bound, events = Bound(missions), list[Any]()
 
     def listen(event: Event) -> None:
@@ -158,8 +164,21 @@ def simulate(
     simulation = Simulation(app, fleet, kernel, seed, faults, listen, around)
     with closing(simulation):
         run = partial(kernel.run, simulation.start(missions))
-        ended, given_up = see_through(simulation, run, app.name, bound, until)
+        ended, given_up = see_through(simulation.brain, kernel, run, app.name, bound, until)
         return simulation.outcome(missions, events, ended, given_up)
+
+
+@dataclass(slots=True)
+class _End:
+    now: float
+
+
+def _known(fleet: FleetFile, outcome: Outcome, drone: str) -> Telemetry:
+    """Return how a drone is at the end."""
+    stand = outcome.standing["drones"][drone]
+    known = KnownState(_End(outcome.duration), stand["at"], fleet.motion)
+    known.take(stand)
+    return known
 
 
 _NOTHING: Mapping[str, object] = {}

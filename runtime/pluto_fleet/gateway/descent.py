@@ -112,7 +112,8 @@ class Descent:
             return []  # another stands there
         step = 0.0 if traffic is None else traffic.step
         ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, step)
-        enough = telemetry.battery_level * drone.category.flight_time
+        kind = drone.category
+        enough = telemetry.battery_level * kind.flight_time / kind.motion.drain
         return [way for way in ways if self._course(drone, way).seconds < enough]
 
     def _course(self, drone: FleetDrone, way: Section) -> Course:

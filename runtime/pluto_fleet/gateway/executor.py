@@ -9,7 +9,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..jobs.job import motors_cut
-from ..shared.domain.airspace import permitted_way
 from ..shared.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from ..shared.fleet.reach import docked, flight_seconds
 from ..shared.time.kernel import FLEET, Kernel, Task
@@ -22,8 +21,9 @@ if TYPE_CHECKING:
     from ..jobs.controls import Controls, FleetDrone
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
+    from ..jobs.telemetry import Telemetry
     from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Point, Telemetry
+    from ..shared.domain.model import Point
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
 
@@ -72,11 +72,13 @@ class Executor:
     # Jobs
 
     def fly(self, job: Job, report: Callable[[object], object]) -> None:
-        """Take off, fly to the job's stops and do its action; then report."""
+        """Take off, fly to the job's stops and do its action; then report.
+
+        Of jobs that are given at one instant the first goes first, as those of a brain elsewhere do,
+        which come one by one.
+        """
         name = f"{job.drone} flies {job.id}"
-        self._jobs[job.drone] = self._kernel.spawn(
-            self._done(job, report), self._key(job.drone), name
-        )
+        self._jobs[job.drone] = self._kernel.spawn(self._done(job, report), FLEET, name)
 
     async def _done(self, job: Job, report: Callable[[object], object]) -> None:
         try:
@@ -158,10 +160,8 @@ class Executor:
 
     async def home(self, drone: str) -> None:
         """Take off, if it stands, fly to its dock, and land there, or beside it where another stands."""
-        await self.takeoff(drone, self._airspace.cruise_height)
-        here, (x, y, _) = self._controls.telemetry[drone].location, self._drones[drone].home
-        for point in permitted_way(self._airspace, drone, here, (x, y, here[2])):
-            await self.go_to(drone, point)
+        self._refuse_if_cut(drone)
+        await self.travels(drone, partial(self._home, drone), partial(self.begins, drone))
         await self.land(drone)
 
     async def read(self, drone: str, name: str) -> float:
@@ -234,14 +234,11 @@ class Executor:
 
     async def _flies_home(self, drone: str) -> bool:
         telemetry, home = self._controls.telemetry[drone], self._drones[drone].home
-        begins = partial(self.begins, drone)
         try:
             if telemetry.landed and docked(telemetry.location, home):
-                begins()
-                return True
-            await self.travels(drone, partial(self._home, drone), begins)
-            if not telemetry.landed:  # another drone was in its dock
-                await self.land(drone)
+                self.begins(drone)
+            else:
+                await self.home(drone)
         except FlightFailed:
             return False
         return True
@@ -340,11 +337,14 @@ class Executor:
         """Straight to a point; above its dock, a drone is about to land."""
         points, stands = self._start(drone, self._airspace.cruise_height)
         points += self._envelope.straight(points[-1], target)
-        tail: tuple[Point, ...] = ()
-        if self._traffic is not None and docked(target, self._drones[drone].home):
-            below = self._traffic.ground.below(drone, target)
-            tail = () if below is None else (below,)
-        return Section(drone, tuple(points), stands, False, tail)
+        return Section(drone, tuple(points), stands, False, self._tail(drone, target))
+
+    def _tail(self, drone: str, target: Point) -> tuple[Point, ...]:
+        """Return where it goes from there: down, if that is above its dock and no other is in it."""
+        if self._traffic is None or not docked(target, self._drones[drone].home):
+            return ()
+        below = self._traffic.ground.below(drone, target)
+        return () if below is None else (below,)
 
     def way_down(self, drone: str) -> Section:
         """Return the way down, straight or beside it."""
@@ -357,15 +357,12 @@ class Executor:
         return Section(drone, (*points, (*points[-1][:2], 0.0)), False, True)
 
     def _home(self, drone: str) -> Section:
-        """To its dock, and land there, unless another stands on it."""
-        x, y, z = self._drones[drone].home
+        """To above its dock, at the height that it has."""
+        x, y, _ = self._drones[drone].home
         points, stands = self._start(drone, self._airspace.cruise_height)
-        points += way_from(self._airspace, drone, points[-1], (x, y, points[-1][2]))
-        traffic = self._traffic
-        lands = traffic is None or traffic.ground.below(drone, (x, y, z)) is not None
-        if lands:
-            points.append((x, y, 0.0))
-        return Section(drone, tuple(points), stands, lands)
+        above = (x, y, points[-1][2])
+        points += way_from(self._airspace, drone, points[-1], above)
+        return Section(drone, tuple(points), stands, False, self._tail(drone, above))
 
     def _start(self, drone: str, height: float) -> tuple[list[Point], bool]:
         """Return where a drone is, where it will be after its take-off, and whether it must take off."""

@@ -26,8 +26,9 @@ if TYPE_CHECKING:
     from ..jobs.controls import Controls
     from ..jobs.flown import Flown
     from ..jobs.job import Job, Report
+    from ..jobs.telemetry import Telemetry
     from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Point, Telemetry
+    from ..shared.domain.model import Point
     from .ledger import Ledger
 
 

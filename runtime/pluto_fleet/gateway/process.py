@@ -23,7 +23,7 @@ from ..process.ipc import listening
 from ..process.realtime import RealTime
 from ..shared.alone.world import World
 from ..shared.domain.errors import BadInput
-from ..shared.domain.motion import SLACK
+from ..shared.domain.motion import CRAZYFLIE
 from ..shared.domain.text import printable
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, EventKind
@@ -203,7 +203,7 @@ def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedN
 def _slack(settings: Settings) -> float:
     """Return how much further apart drones are kept, as they are not exactly on their way."""
     slack = max((drone.category.motion.slack for drone in settings.drones), default=0.0)
-    return slack if settings.real is None else max(slack, SLACK)
+    return slack if settings.real is None else max(slack, CRAZYFLIE.slack)
 
 
 async def _command(

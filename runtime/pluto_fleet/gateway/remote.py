@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from ..jobs.flown import Flown
     from ..jobs.job import Job, Report
     from ..jobs.reports import Down, DroneReport, FleetReport
-    from ..shared.domain.model import Point, Telemetry
+    from ..jobs.telemetry import Telemetry
+    from ..shared.domain.model import Point
     from ..shared.time.kernel import Kernel
 
 GATEWAY_TIMEOUT = 5.0

@@ -19,9 +19,9 @@ from ..shared.domain.errors import Failure
 from ..shared.hooks.plain_data import point_of
 
 if TYPE_CHECKING:
-    from ..jobs.telemetry import Publisher, Subscription
+    from ..jobs.telemetry import Publisher, Subscription, Telemetry
     from ..shared.domain.errors import FlightFailed
-    from ..shared.domain.model import Point, Telemetry
+    from ..shared.domain.model import Point
 
 SEEN = "seen.json"
 """The file, in the gateway's folder."""

@@ -22,9 +22,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..jobs.job import Job
+    from ..jobs.telemetry import Telemetry
     from ..process.ipc import Message
     from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point, Telemetry
+    from ..shared.domain.model import Item, Point
 
 STALE_AFTER = 2.0
 """Seconds without a message after which a drone's position is stale."""

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Category, Item, Point, Telemetry
+    from ..shared.domain.model import Category, Item, Point
     from .job import Job
     from .reports import DroneReport
+    from .telemetry import Telemetry
 
 
 class FleetDrone(Protocol):

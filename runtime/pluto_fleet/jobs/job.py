@@ -9,9 +9,10 @@ from ..shared.domain.errors import Failure, FlightFailed
 
 if TYPE_CHECKING:
     from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point, Telemetry
+    from ..shared.domain.model import Item, Point
     from .flown import Flown
     from .reports import Down, DroneReport, FleetReport
+    from .telemetry import Telemetry
 
 
 Report = Callable[[object], object]

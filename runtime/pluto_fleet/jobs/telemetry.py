@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, Protocol, TypeVar
 
-if TYPE_CHECKING:
-    from ..shared.domain.model import Telemetry
+from ..shared.domain import model
 
 V = TypeVar("V")
+
+
+class Telemetry(model.Telemetry, Protocol):
+    """The current state of a drone, and how old that is."""
+
+    @property
+    def silence(self) -> float:
+        """Seconds since its last message; infinite: it has sent none."""
 
 
 class Publisher:

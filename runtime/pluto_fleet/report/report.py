@@ -22,8 +22,8 @@ from ..shared.domain.text import (
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..flight.outcome import SimulationResult
     from ..journal.fold import Record, Records
-    from ..shared.alone.simulate import SimulationResult
     from ..shared.domain.model import Drone, Mission
 
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from ..jobs.reports import DroneReport
 from ..shared.alone.faults import Drawn, befell
 from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.domain.motion import CLIMB_SPEED, spread_of
+from ..shared.domain.motion import CLIMB_SPEED, Spread
 from ..shared.fleet.reach import docked
 from ..shared.fleet.telemetry import Charge, Leg, resting
 from ..shared.hooks.plain_data import item_data, item_of, point_of
@@ -65,7 +65,7 @@ class Body:
 
     def __init__(self, drone: SimulatedDrone, clock: Callable[[], float], seed: int = 0) -> None:
         self.drone, self._clock, self.model = drone, clock, drone.category.motion
-        self.chance = spread_of(seed, drone.id)
+        self.spread = Spread(seed, drone.id)
         """What the spread of its durations is drawn from."""
         self.key: Key = FLEET + 1 + drone.index
         self.down: FlightFailed | None = None

@@ -12,14 +12,13 @@ from ..jobs.job import motors_cut
 from ..shared.alone.faults import (
     CARRYING_HOME,
     OUTAGE,
+    Drawn,
     Faults,
-    Order,
     draw,
     failed,
 )
 from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.domain.motion import varied
 from ..shared.domain.text import place
 from ..shared.fleet.reach import grip_problem
 from ..shared.time.future import Future
@@ -29,9 +28,10 @@ from .body import Body, SimulatedDrone
 if TYPE_CHECKING:
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
+    from ..jobs.telemetry import Telemetry
     from ..shared.alone.world import World
     from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Item, Point, Telemetry
+    from ..shared.domain.model import Item, Point
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
@@ -67,7 +67,7 @@ class SimulatedNavigation:
         record: Callable[[WorldAction], object] | None = None,
     ) -> None:
         self._kernel, self._world, self._airspace = kernel, world, airspace
-        self._faults, self._seed = faults, seed
+        self._faults, self._seed, self._fails = faults, seed, faults != Faults()
         self.record = record
         """Called right before each action of a drone on the world."""
         self.bodies = {drone.id: Body(drone, kernel.time, seed) for drone in drones}
@@ -127,8 +127,10 @@ class SimulatedNavigation:
         """Begin a flight: draw its faults."""
         body, now = self.bodies[drone], self._kernel.now
         body.check(now)
-        order = None if job is None else Order(id=job.id, seconds=seconds)
-        body.begin(draw(self._faults, self._seed, order), now)
+        drawn = Drawn()
+        if job is not None and self._fails:
+            drawn = draw(self._faults, self._seed, job.id, seconds)
+        body.begin(drawn, now)
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Take off to a height; one that flies stays where it is."""
@@ -167,7 +169,7 @@ class SimulatedNavigation:
             raise FlightFailed(Failure.REFUSED, f"{drone} has no action {action}")
         problem = grip_problem(drone, body.drone.category, body.carries, action, item)
         if problem is None:
-            seconds = BUILT_IN[action].seconds * varied(body.chance, body.model.action_spread)
+            seconds = BUILT_IN[action].seconds * body.spread.factor(body.model.action_spread)
             await self._pass(body, seconds, f"to {action}")
             problem = f"{drone} could not do it" if body.fails_to_act else None
         if problem is not None:
@@ -268,7 +270,7 @@ class SimulatedNavigation:
     ) -> float:
         """Move: for some seconds not yet, then on its way, and then at rest."""
         before, seconds, after = times
-        factor = varied(body.chance, body.model.spread)
+        factor = body.spread.factor(body.model.spread)
         now = self._kernel.now
         leaves = now + factor * before
         body.move(target, now, leaves, leaves + factor * seconds)

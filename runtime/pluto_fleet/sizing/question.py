@@ -16,7 +16,7 @@ from .batteries import most_charging
 if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
-    from ..shared.alone.simulate import SimulationResult
+    from ..flight.outcome import SimulationResult
     from ..shared.domain.model import Mission
 
 

@@ -13,10 +13,8 @@ from ..domain.text import place, quoted
 if TYPE_CHECKING:
     from ..domain.model import Point
 
-OUTAGE = 20.0
-"""Seconds until a lost link is restored."""
-CARRYING_HOME = 300.0
-"""Seconds until someone has carried a drone home."""
+OUTAGE = 20.0  # seconds until a lost link is restored
+CARRYING_HOME = 300.0  # seconds until someone has carried a drone home
 
 _BEFALL = {
     Failure.CRASH: "crashed",
@@ -24,16 +22,6 @@ _BEFALL = {
     Failure.BATTERY: "ran out of battery",
 }
 """What happens at one moment of a flight; each has the name of its field below."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Order:
-    """A flight about to take off. It has the same id in every run."""
-
-    id: str
-    """`mission/trip/round/attempt`."""
-    seconds: float
-    """The expected seconds until its action is done."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,8 +34,7 @@ class Faults:
     battery: float = 0.0
 
 
-FAULTS = tuple(fault.name for fault in fields(Faults))
-"""The faults of `--fail`."""
+FAULTS = tuple(fault.name for fault in fields(Faults))  # the faults of `--fail`
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,14 +52,15 @@ class Drawn:
         return [(began + after, what) for after, what in drawn if after is not None]
 
 
-def draw(faults: Faults, seed: int, order: Order | None) -> Drawn:
-    """Draw the faults of a flight. The way home, which has no order, has none."""
-    if order is None:
-        return Drawn()
-    chance, moments = Random(f"{seed}/{order.id}"), dict[str, float]()
+def draw(faults: Faults, seed: int, flight: str, seconds: float) -> Drawn:
+    """Draw the faults of a flight by its id, `mission/trip/round/attempt`: the same in every run.
+
+    They happen within the expected seconds until its action is done.
+    """
+    chance, moments = Random(f"{seed}/{flight}"), dict[str, float]()
     for name in (what.value for what in _BEFALL):
         # Both numbers are drawn in any case, so one probability does not change the other's outcome.
-        happens, when = chance.random() < getattr(faults, name), chance.random() * order.seconds
+        happens, when = chance.random() < getattr(faults, name), chance.random() * seconds
         if happens:
             moments[name] = when
     return Drawn(**moments, action=chance.random() < faults.action)

@@ -29,9 +29,7 @@ if TYPE_CHECKING:
     from ..domain.model import Mission, Point, Trip
     from ..domain.values import Read
 
-
-LARGEST = 1 << 20
-"""Bytes. A plan is written by people: anything larger is another file."""
+LARGEST = 1 << 20  # bytes: a plan is written by people, and anything larger is another file
 
 MOST = 100
 """Parts of one key: `tomllib` copies for each part all before it. A plan's longest key has two."""

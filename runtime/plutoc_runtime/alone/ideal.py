@@ -6,18 +6,18 @@ There is no tick: what was due is applied, at its own time, the next time a dron
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
-from dataclasses import astuple
-from math import dist, inf
+from math import inf
+from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
 from ..domain.airspace import permitted_way
 from ..domain.errors import Failure, FlightFailed
-from ..domain.motion import CLIMB_SPEED, spread_of, varied
+from ..domain.motion import CLIMB_SPEED, Spread
 from ..fleet.reach import docked, flight_seconds, grip_problem
-from ..fleet.telemetry import Charge, Leg, resting
+from ..fleet.telemetry import Charge, KnownState, Leg, place_on, resting
 from ..hooks.plain_data import item_of, point_of, value_data
-from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, Order, befell, draw, failed
+from .faults import CARRYING_HOME, OUTAGE, Drawn, Faults, befell, draw, failed
 from .world import World
 
 if TYPE_CHECKING:
@@ -26,55 +26,46 @@ if TYPE_CHECKING:
     from ..domain.model import Category, Item, Point
     from ..domain.trace import Clock
 
-Work = Generator[float, None, Any]
-"""What a drone does: until when it waits, again and again; in the end it returns the result."""
+_wakes, _when = attrgetter("wakes"), itemgetter(0)
+
+Work = Generator[float, None, Any]  # it yields until when it waits, and returns the result
 
 
-class IdealDrone:
+class IdealDrone(KnownState):
     """The state of one drone, initially in its dock."""
 
     def __init__(self, entry: DroneData, category: Category, clock: Clock, seed: int) -> None:
-        self.id, self.home, self.category, self._clock = entry.id, entry.home, category, clock
-        self.motion, self.chance = category.motion, spread_of(seed, entry.id)
-        self.down: FlightFailed | None = None
-        """The failure for which it takes no commands, if any."""
+        super().__init__(clock, entry.home, category.motion)
+        self.id, self.home, self.category = entry.id, entry.home, category
+        self.spread = Spread(seed, entry.id)
+        self.down: FlightFailed | None = None  # why it takes no commands, if it takes none
         self.reachable_at = 0.0  # where its link is lost: not before it has landed
         self.carries: Item | None = None
         self.settings: dict[str, float] = {}
         self.drawn = Drawn()
         self.work: Work
-        self.order, self.wakes = 0, inf
-        """The order that it carries out, by its `work`, and until when it waits."""
-        self.landed = self._changed = True
+        self.order, self.wakes = 0, inf  # what `work` carries out, and until when it waits
+        self.due = inf  # when the next thing happens by itself
+        self._what: Failure | None = None  # that thing; None is a touch-down
         self._began = self._flown = 0.0
-        self._charge, self._leg = Charge(1.0, clock.now, taper=self.motion.taper), resting(
-            entry.home, clock.now
-        )
+        self._charge = Charge(1.0, clock.now, taper=self.motion.taper)
         self.touch_down(clock.now)
 
-    @property
-    def location(self) -> Point:
-        """Where it is."""
-        return self._leg.at(self._clock.now)
+    def flown(self, now: float) -> float:
+        """Return how many metres it has flown at a time, up and down included."""
+        return sum((leg.length(now) for leg in self._legs), self._flown)
 
-    @property
-    def flown(self) -> float:
-        """How many metres it has flown, up and down included."""
-        return self._flown + self._leg.length(self._clock.now)
-
-    def news(self) -> dict[str, object] | None:
-        """Return its telemetry, if its motion is another than when it was told last."""
-        self.settle()  # it may have touched down by itself
-        if not self._changed:
-            return None
-        self._changed = False
-        leg, battery = astuple(self._leg)[:4], astuple(self._charge)[:3]
-        return {"leg": leg, "battery": battery, "landed": self.landed}
+    def news(self) -> dict[str, object]:
+        """Return its telemetry: exact until it flies or charges otherwise."""
+        self.changed, charge = False, self._charge
+        legs = [(leg.start, leg.end, leg.leaves, leg.arrives) for leg in self._legs]
+        battery = charge.level, charge.since, charge.rate
+        return {"legs": legs, "battery": battery, "landed": self.landed}
 
     def settle(self) -> None:
         """Apply everything that was due by now."""
-        while (due := self.next_due)[0] <= self._clock.now:
-            self._happen(*due)
+        while self.due <= self._clock.now:
+            self._happen(self.due, self._what)
 
     def failure(self) -> Failure | None:
         """Return the failure for which it takes no commands now, if any."""
@@ -90,49 +81,57 @@ class IdealDrone:
         """Begin a flight, with its faults."""
         self.check()
         self.drawn, self._began = drawn, self._clock.now
+        self._look_ahead()
 
     def lift_off(self) -> None:
         """Leave the ground: the battery drains from now on, and faults are due."""
         drains = -self.motion.drain / self.category.flight_time
         self._charge = self._charge.changing(self._clock.now + self.motion.take_off, drains)
         self.landed = False
+        self._look_ahead()
 
-    def turn(self, leg: Leg) -> None:
-        """Fly another leg from its start on."""
-        self._flown += self._leg.length(leg.leaves)
-        self._leg, self._changed = leg, True
+    def turn(self, legs: list[Leg], now: float) -> None:
+        """Fly other legs from now on."""
+        self._flown = self.flown(now)
+        self._legs, self.changed = legs, True
+        self._look_ahead()
 
     def halt(self) -> None:
         """Do nothing more, and hover where it is, if it still takes commands."""
         self.wakes = inf
         if self.failure() is None and not self.landed:
-            self.turn(resting(self.location, self._clock.now))
+            now = self._clock.now
+            self.spread.put_back(now)
+            self.turn([resting(self.location, now)], now)
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below; in its dock it is charged from its touch-down on."""
-        touched = min(now, self._leg.arrives) if self._leg.end[2] <= 0.0 else now
-        self.turn(resting((*self._leg.at(now)[:2], 0.0), now))
-        self.landed = True
-        charges = docked(self._leg.end, self.home)
+        last, place = self._legs[-1], (*place_on(self._legs, now)[:2], 0.0)
+        touched = min(now, last.arrives) if last.end[2] <= 0.0 else now
+        charges = docked(place, self.home)
         self._charge = self._charge.changing(touched, charges / self.category.charge_time)
+        self.landed = True
+        self.turn([resting(place, now)], now)
 
-    @property
-    def next_due(self) -> tuple[float, Failure | None]:
-        """The next thing that happens by itself, of simultaneous ones the worst; None: it touches down."""
-        if self.landed:
-            return inf, None
-        comes = self.drawn.moments(self._began)
-        if self.down is not None:  # it has lost its link, and lands
-            comes = [(self._leg.arrives, None)]
-        return min([*comes, (self._charge.empty_at, Failure.BATTERY)], key=lambda due: due[0])
+    def _look_ahead(self) -> None:
+        """Work out what happens next by itself, of simultaneous things the worst."""
+        self.due = inf
+        if not self.landed:
+            comes = self.drawn.moments(self._began)
+            if self.down is not None:  # it has lost its link, and lands
+                comes = [(self._legs[-1].arrives, None)]
+            empty = self._charge.empty_at, Failure.BATTERY
+            self.due, self._what = min([*comes, empty], key=_when)
 
     def _happen(self, when: float, what: Failure | None) -> None:
-        x, y, z = here = self._leg.at(when)
+        x, y, z = here = place_on(self._legs, when)
+        self.spread.put_back(when)
         if what is not None:
             self.down = befell(self.id, what, here)
         if what is Failure.LINK:
-            self.turn(Leg(here, (x, y, 0.0), when, when + z / CLIMB_SPEED, self.motion.smooth))
-            self.reachable_at = max(when + OUTAGE, self._leg.arrives)
+            down = Leg(here, (x, y, 0.0), when, when + z / CLIMB_SPEED, self.motion.smooth)
+            self.reachable_at = max(when + OUTAGE, down.arrives)
+            self.turn([down], when)
             return
         self.touch_down(when)
         if what is Failure.BATTERY:
@@ -149,26 +148,28 @@ class IdealDrones:
         self._world = World(seed, fleet.airspace, fleet.world)
         self._told: list[dict[str, Any]] = []
         categories = {category.name: category for category in app.categories}
-        drones = [IdealDrone(one, categories[one.category], clock, seed) for one in fleet.drones]
-        self.drones = {drone.id: drone for drone in drones}
+        self._all = [IdealDrone(one, categories[one.category], clock, seed) for one in fleet.drones]
+        self.drones = {drone.id: drone for drone in self._all}
 
     @property
     def due(self) -> float:
         """When something happens next; infinite: only an order can make it happen."""
-        return self._clock.now if self._told else min(one.wakes for one in self.drones.values())
+        return self._clock.now if self._told else min(map(_wakes, self._all))
 
     def advance(self) -> dict[str, Any]:
         """Let the next thing happen that is due, and return what there is to tell of it."""
         if not self._told:
-            drone = min(self.drones.values(), key=lambda drone: drone.wakes)
+            drone = min(self._all, key=_wakes)
             drone.settle()
             drone.wakes = self._go_on(drone.order, drone.work)
         return self._told.pop(0) if self._told else {}
 
     def news(self) -> dict[str, Any]:
         """Return the telemetry of the drones whose motion has changed since the last call."""
-        news = {drone.id: drone.news() for drone in self.drones.values()}
-        return {drone: motion for drone, motion in news.items() if motion}
+        for drone in self._all:
+            if drone.due <= self._clock.now:
+                drone.settle()  # it may have touched down by itself
+        return {drone.id: drone.news() for drone in self._all if drone.changed}
 
     def obey(self, order: Mapping[str, Any]) -> None:
         """Begin what is ordered."""
@@ -186,12 +187,14 @@ class IdealDrones:
     def _go_on(self, order: int, work: Work) -> float:
         """Go on with an order until it waits, and return until when; tell its end."""
         try:
-            return next(work)
+            while (until := next(work)) <= self._clock.now:
+                pass  # it need not wait
+            return until
         except StopIteration as end:
             self._told.append({"done": order, "value": end.value})
         except FlightFailed as error:
-            what, why = error.failure.name, str(error)
-            self._told.append({"failed": order, "failure": what, "reason": why})
+            told = {"failed": order, "failure": error.failure.name, "reason": str(error)}
+            self._told.append(told)
         return inf
 
     def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
@@ -202,18 +205,17 @@ class IdealDrones:
         for stop in stops:
             way += permitted_way(airspace, drone.id, way[-1], stop)
         seconds = flight_seconds(drone.category, airspace, start, stops, order["seconds"])
-        drone.begin(draw(*self._chance, Order(id=order["flight"], seconds=seconds)))
+        drone.begin(draw(*self._chance, order["flight"], seconds))
         yield from self._follow(drone, way)
         action, item = order["action"], item_of(order["item"])
         if action is None:
             return None
-        why = grip_problem(drone.id, drone.category, drone.carries, action, item)
-        if why is None:
-            chance, spread = drone.chance, drone.motion.action_spread
-            yield from self._pass(drone, BUILT_IN[action].seconds * varied(chance, spread))
-            why = f"{drone.id} could not do it" if drone.drawn.action else None
-        if why is not None:
+        if why := grip_problem(drone.id, drone.category, drone.carries, action, item):
             raise failed(f"{action} failed", why, drone.location)
+        factor = drone.spread.factor(drone.motion.action_spread)
+        yield from self._until(drone, self._clock.now + BUILT_IN[action].seconds * factor)
+        if drone.drawn.action:
+            raise failed(f"{action} failed", f"{drone.id} could not do it", drone.location)
         if action in (PICK, RELEASE):
             drone.carries = item if action == PICK else None
         now = self._clock.now
@@ -224,94 +226,75 @@ class IdealDrones:
         drone.check()
         if drone.drawn.action:
             raise failed("the action failed", f"{drone.id} could not do it", drone.location)
-        yield from self._pass(drone, inf)
+        yield from self._until(drone, inf)
 
     def _asked(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
         """Return the value that was written under a name, or else what is measured here."""
         yield from ()  # it answers at once
         drone.check()
-        name = order["name"]
         if order["do"] == "write":
-            drone.settings[name] = order["value"]
+            drone.settings[order["name"]] = order["value"]
             return None
-        measured = self._world.measure(name, drone.location, self._clock.now)
-        return drone.settings.get(name, measured)
+        measured = self._world.measure(order["name"], drone.location, self._clock.now)
+        return drone.settings.get(order["name"], measured)
 
     def _home(self, drone: IdealDrone, _: object) -> Work:
-        """Take off, if it stands, and fly to its dock."""
+        """Take off, if it stands, fly to its dock, and land."""
         drone.begin(Drawn())
-        yield from self._follow(drone, [(*drone.location[:2], self._airspace.cruise_height)])
-        here = drone.location
-        for point in permitted_way(self._airspace, drone.id, here, (*drone.home[:2], here[2])):
-            yield from self._leg(drone, point)
-        yield from self._land(drone)
+        start = self._above(drone)
+        way = permitted_way(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
+        yield from self._follow(drone, [start, *way], lands=True)
 
-    def _land(self, drone: IdealDrone, _: object = None) -> Work:
+    def _land(self, drone: IdealDrone, _: object) -> Work:
         """Land here; does nothing for a drone that stands on the ground."""
         drone.check()
         if not drone.landed:
-            x, y, z = drone.location
-            down = drone.motion.sink(z, drone.category.speed)
-            yield from self._move(drone, (x, y, 0.0), 0.0, down, drone.motion.landing)
-            drone.touch_down(self._clock.now)
+            yield from self._follow(drone, [drone.location], lands=True)
 
     def _recover(self, drone: IdealDrone, _: object) -> Work:
         """Bring a drone home after a failed flight, landed; False: it has crashed, and is lost."""
         if drone.failure() is Failure.LINK:
-            yield from self._wait(drone.reachable_at)
+            yield drone.reachable_at
         if drone.failure() is Failure.CRASH:
             return False
         if drone.failure() is Failure.LINK:
             drone.down = None  # the link is back
         try:
-            yield from self._fly_home(drone)
+            drone.begin(Drawn())
+            if not (drone.landed and docked(drone.location, drone.home)):
+                yield from self._home(drone, None)
         except FlightFailed:  # someone carries it into its dock, and restarts it
-            yield from self._wait(self._clock.now + CARRYING_HOME)
+            yield self._clock.now + CARRYING_HOME
             drone.down, drone.settings = None, {}
-            drone.turn(resting(drone.home, self._clock.now))
+            drone.turn([resting(drone.home, self._clock.now)], self._clock.now)
             drone.touch_down(self._clock.now)
         drone.carries = None
         return True
-
-    def _fly_home(self, drone: IdealDrone) -> Work:
-        drone.begin(Drawn())
-        if not (drone.landed and docked(drone.location, drone.home)):
-            start = self._above(drone)
-            way = permitted_way(self._airspace, drone.id, start, (*drone.home[:2], start[2]))
-            yield from self._follow(drone, [start, *way])
-            yield from self._land(drone)
 
     def _above(self, drone: IdealDrone) -> Point:
         x, y, z = drone.location
         return x, y, self._airspace.cruise_height if drone.landed else z
 
-    def _follow(self, drone: IdealDrone, way: Sequence[Point]) -> Work:
+    def _follow(self, drone: IdealDrone, way: Sequence[Point], *, lands: bool = False) -> Work:
         """Fly a route whose first point is above the drone's place on the ground, or where it hovers."""
-        if drone.landed:
-            drone.lift_off()
-            motion, up = drone.motion, drone.motion.climb(way[0][2], drone.category.speed)
-            yield from self._move(drone, way[0], motion.take_off, up, motion.settles)
-        for point in way[1:]:
-            yield from self._leg(drone, point)
-
-    def _leg(self, drone: IdealDrone, target: Point) -> Work:
-        seconds = drone.motion.leg(dist(drone.location, target), drone.category.speed)
-        yield from self._move(drone, target, 0.0, seconds, drone.motion.settles)
-
-    def _move(
-        self, drone: IdealDrone, target: Point, before: float, seconds: float, after: float
-    ) -> Work:
-        drone.check()  # a fault at take-off leaves it on the ground
-        factor = varied(drone.chance, drone.motion.spread)
-        leaves = self._clock.now + factor * before
-        arrives = leaves + factor * seconds
-        drone.turn(Leg(drone.location, target, leaves, arrives, drone.motion.smooth))
-        yield from self._pass(drone, factor * (before + seconds + after))
-
-    def _pass(self, drone: IdealDrone, seconds: float) -> Work:
-        yield from self._wait(min(self._clock.now + seconds, drone.next_due[0]))
         drone.check()
+        motion, rises, here, now = drone.motion, drone.landed, drone.location, self._clock.now
+        if rises:
+            drone.lift_off()
+            drone.check()  # a fault at take-off leaves it on the ground
+        drone.spread.put_back(now)
+        legs = list[Leg]()
+        for place, before, seconds, after in motion.stages(way, drone.category.speed, rises, lands):
+            factor = drone.spread.factor(motion.spread, begins=now)
+            leaves = now + factor * before
+            legs.append(Leg(here, place, leaves, leaves + factor * seconds, motion.smooth))
+            here, now = place, now + factor * (before + seconds + after)
+        drone.turn(legs, self._clock.now)
+        yield from self._until(drone, now)
+        if lands:
+            drone.touch_down(self._clock.now)
 
-    def _wait(self, until: float) -> Work:
-        if until > self._clock.now:
-            yield until
+    def _until(self, drone: IdealDrone, when: float) -> Work:
+        """Wait until a time; raise what keeps it from waiting so long."""
+        yield min(when, drone.due)
+        drone.check()

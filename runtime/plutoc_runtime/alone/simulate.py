@@ -10,20 +10,20 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from ..brain import Brain
 from ..domain.airspace import Airspace
 from ..domain.app import moving
 from ..domain.errors import BadInput
 from ..domain.fleet_data import DroneData, FleetData
-from ..domain.model import Drone, Mission, Result
+from ..domain.model import Mission
 from ..domain.motion import CRAZYFLIE
-from ..domain.status import DroneStatus, Status
+from ..domain.status import DroneStatus
 from ..domain.text import counted, duration, quoted
-from ..domain.trace import Event
-from ..fleet.telemetry import KnownState
-from ..flow.standing import drones_of, fleet_data, mission_data, results_of, take_over
+from ..domain.trace import Clock, Event
+from ..flow.standing import fleet_data
+from ..hooks.plain_data import mission_data
 from ..time.told import Stuck
 from .ideal import IdealDrones
 
@@ -35,25 +35,24 @@ Listener = Callable[[Event], object]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SimulationResult:
+class Outcome:
     """The outcome of a simulation."""
 
     duration: float
     """Seconds, until the last mission ended."""
-    missions: tuple[Mission[Any], ...]
-    drones: tuple[Drone, ...]
+    standing: Mapping[str, Any]
+    """Where missions and drones stood then, as the brain says."""
     flown: dict[str, float]
     """Metres, by the drones' ids."""
     events: tuple[Event, ...]
-    results: tuple[Result[Any, Any], ...] = ()
-    """Of every action that was done, in order."""
     given_up: str = ""
     """Why a simulation was ended that would have gone on for ever."""
 
     @property
     def crashed(self) -> int:
         """How many drones have crashed; in a simulation none is repaired."""
-        return sum(drone.status is DroneStatus.LOST for drone in self.drones)
+        stand = self.standing["drones"].values()
+        return sum(drone["status"] == DroneStatus.LOST.value for drone in stand)
 
     @property
     def log(self) -> list[str]:
@@ -63,11 +62,6 @@ class SimulationResult:
     def count(self, kind: str) -> int:
         """Return how many events of this kind there were."""
         return sum(event["event"] == kind for event in self.events)
-
-    @property
-    def completed(self) -> bool:
-        """Whether every mission was completed."""
-        return all(mission.status is Status.COMPLETED for mission in self.missions)
 
 
 def default_fleet(app: App) -> FleetData:
@@ -89,7 +83,8 @@ def simulate(
     faults: Faults,
     until: float | None,
     on_event: Listener | None,
-) -> SimulationResult:
+    new_brain: Callable[..., Brain] = Brain,
+) -> Outcome:
     """Fly the missions until the last one has ended or a time is reached.
 
     Without such a time it is given up if missions fly again and again without success.
@@ -103,19 +98,15 @@ def simulate(
         if until is None and (enough := bound.look(event)) is not None:
             raise enough
 
-    with closing(Alone(app, fleet, faults, seed, listen)) as flown:
+    flown = Alone(app, fleet, faults, seed, listen, new_brain)
+    with closing(flown.brain):
         flown.begin(missions)
-        ended, given_up = see_through(flown, flown.run, app.name, bound, until)
-        standing = flown.brain.standing()
-        stand = standing["drones"]
-        take_over(app, missions, standing["missions"])
-        return SimulationResult(
+        ended, given_up = see_through(flown.brain, flown, flown.run, app.name, bound, until)
+        return Outcome(
             duration=ended,
-            missions=tuple(missions),
-            drones=drones_of(app, fleet, stand, lambda drone: flown.known(stand[drone])),
-            flown={drone.id: drone.flown for drone in flown.drones.drones.values()},
+            standing=flown.brain.standing(),
+            flown={drone.id: drone.flown(flown.now) for drone in flown.drones.drones.values()},
             events=tuple(events),
-            results=results_of(missions, standing["results"]),
             given_up=given_up,
         )
 
@@ -124,17 +115,24 @@ class Alone:
     """A brain and ideal drones, in virtual time."""
 
     def __init__(
-        self, app: App, fleet: FleetData, faults: Faults, seed: int, listener: Listener
+        self,
+        app: App,
+        fleet: FleetData,
+        faults: Faults,
+        seed: int,
+        listener: Listener,
+        new_brain: Callable[..., Brain] = Brain,
     ) -> None:
         self.now = 0.0
         self._app, self._listener = app, listener
         self.drones = IdealDrones(app, fleet, faults, seed, self)
-        self.brain = Brain(app, fleet_data(fleet), space=fleet.airspace)
+        self.brain = new_brain(app, fleet_data(fleet), space=fleet.airspace)
 
     def begin(self, missions: Sequence[Mission[Any]]) -> None:
         """Begin missions at this instant."""
         self._tell({})
-        self.brain.begin([mission_data(self._app, one) for one in missions], self.now)
+        begun = [{"name": one.name, **mission_data(self._app, one)} for one in missions]
+        self.brain.begin(begun, self.now)
         self._listen()
 
     def run(self, until: float | None) -> bool:
@@ -159,16 +157,6 @@ class Alone:
             self._listen()
         return True
 
-    def known(self, stands: Mapping[str, Any]) -> KnownState:
-        """Return the state of a drone that stands so."""
-        known = KnownState(self, stands["at"], self._app.categories[0].motion)
-        known.take(stands)
-        return known
-
-    def close(self) -> None:
-        """End everything where it is."""
-        self.brain.close()
-
     def _tell(self, message: dict[str, Any]) -> None:
         self.brain.tell({**message, "telemetry": self.drones.news()}, self.now)
 
@@ -177,10 +165,8 @@ class Alone:
             self._listener(event)
 
 
-FLIGHTS = 1_000
-"""The most flights for each planned trip in one round of its mission."""
-IDLE = 366 * 86_400.0
-"""The longest time without a launch, in seconds."""
+FLIGHTS = 1_000  # the most flights for each planned trip in one round of its mission
+IDLE = 366 * 86_400.0  # the longest time without a launch, in seconds
 MORE = "to fly on, say how long with --until, such as --until 2h"
 
 
@@ -196,8 +182,7 @@ class Bound:
         self._flights = dict.fromkeys(self._most, 0)
         self._rounds = {one.name: getattr(one, "repeat", 0) for one in missions}
         """How many rounds are planned; a hook may ask for more."""
-        self.last = 0.0
-        """When the last flight was launched, or will be after a delay."""
+        self.last = 0.0  # when the last flight was launched, or will be after a delay
 
     def look(self, event: Mapping[str, Any]) -> Enough | None:
         """Count an event; return why the simulation would not end, if it would not."""
@@ -216,19 +201,9 @@ class Bound:
         return None
 
 
-class Simulated(Protocol):
-    """A brain with what flies its drones, in virtual time."""
-
-    brain: Brain
-
-    @property
-    def now(self) -> float:
-        """The time, in seconds since the start."""
-        ...
-
-
 def see_through(
-    flown: Simulated,
+    brain: Brain,
+    clock: Clock,
     run: Callable[[float | None], bool],
     name: str,
     bound: Bound,
@@ -245,45 +220,46 @@ def see_through(
                 days = f"nothing has set out for {IDLE / 86_400:.0f} days"
                 raise Enough(f"{days}, and missions are not at their end; {MORE}")
             last = bound.last + IDLE
-        return (flown.now if flown.brain.over is None else flown.brain.over), ""
+        return (clock.now if brain.over is None else brain.over), ""
     except Enough as enough:
-        return flown.now, str(enough)
+        return clock.now, str(enough)
     except Stuck:
-        if not (waiting := flown.brain.standing()["waiting"]):
+        if not (waiting := brain.standing()["waiting"]):
             raise
         raise BadInput(
-            f"{name}: the simulation stops at {duration(flown.now)}: missions wait for ever, "
+            f"{name}: the simulation stops at {duration(clock.now)}: missions wait for ever, "
             f"because the policy gives them none of the drones ({waiting})"
         ) from None
 
 
-def outcome_data(name: str, seed: int, outcome: SimulationResult) -> dict[str, object]:
+def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
     """Return the object that `simulate --json` prints."""
+    missions, drones = outcome.standing["missions"], outcome.standing["drones"]
     return {
         "app": name,
         "seed": seed,
         "duration_s": outcome.duration,
         "missions": [
             {
-                "name": mission.name,
-                "status": mission.status.value,
-                "reason": mission.reason,
-                "completed_trips": [trip.name for trip in mission.completed_trips],
-                "rounds": mission.round + 1,
-                "attempts": mission.attempts,
+                "name": mission,
+                "status": stands["status"],
+                "reason": stands["reason"],
+                "completed_trips": [trip["name"] for trip in stands["done"]],
+                "rounds": stands["round"] + 1,
+                "attempts": stands["attempts"],
             }
-            for mission in outcome.missions
+            for mission, stands in missions.items()
         ],
         "trips": trips_data(outcome),
         "drones": [
             {
-                "id": drone.id,
-                "trips": drone.trips,
-                "flown_m": outcome.flown[drone.id],
-                "battery_level": drone.battery_level,
-                "status": drone.status.value,
+                "id": drone,
+                "trips": stands["trips"],
+                "flown_m": outcome.flown[drone],
+                "battery_level": stands["battery"],
+                "status": stands["status"],
             }
-            for drone in outcome.drones
+            for drone, stands in drones.items()
         ],
         "log": outcome.log,
         **({"crashed_drones": outcome.crashed} if outcome.crashed else {}),
@@ -291,7 +267,7 @@ def outcome_data(name: str, seed: int, outcome: SimulationResult) -> dict[str, o
     }
 
 
-def trips_data(outcome: SimulationResult) -> dict[str, int]:
+def trips_data(outcome: Outcome) -> dict[str, int]:
     """Return how many flights there were, and how they ended."""
     return {
         "completed": outcome.count("trip.completed"),

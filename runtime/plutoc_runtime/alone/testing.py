@@ -30,8 +30,7 @@ R = TypeVar("R")
 M = TypeVar("M", bound=Mission[Any])
 T = TypeVar("T", bound=Trip)
 
-A_DAY = 86_400.0
-"""Seconds after which a hook that has not ended is taken for one that never will."""
+A_DAY = 86_400.0  # seconds after which a hook that has not ended is taken for one that never will
 
 
 class Clock:
@@ -99,7 +98,6 @@ class DroneState(NamedTuple):
     location: Point
     battery_level: float
     landed: bool = False
-    silence: float = 0.0
 
 
 class KitContext(Context):

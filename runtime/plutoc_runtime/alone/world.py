@@ -18,12 +18,10 @@ if TYPE_CHECKING:
 BACKGROUND: Mapping[str, float] = {"temperature": 21.0, "pm10": 20.0}
 """What is measured far from every source, in °C and µg/m³. Any other quantity is 0 there."""
 
-_NOISE = 0.001
-"""The sensors' error, as a share of what they measure."""
+_NOISE = 0.001  # the sensors' error, as a share of what they measure
 
 _KINDS = ("bloom", "pest", "disease")
-_GROUND_EACH = 4.0
-"""Square metres for each feature of a world that is made up."""
+_GROUND_EACH = 4.0  # square metres for each feature of a world that is made up
 _AT_MOST = 10_000
 """Features of such a world: more would take longer to make than the missions to fly."""
 
@@ -32,8 +30,7 @@ _WIDTH, _HEIGHT = 1.6, 1.2
 _DRIFT = 0.05
 """The standard deviation of a drone's horizontal position, in metres; its height is exact to a
 centimetre."""
-_BLURRED = 0.1
-"""The share of photos that are not sharp."""
+_BLURRED = 0.1  # the share of photos that are not sharp
 
 
 class World:

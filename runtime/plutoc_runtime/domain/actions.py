@@ -26,10 +26,8 @@ class Action:
 
     name: str
     parameters: tuple[Parameter, ...] = ()
-    repeat: str = "once"
-    """May it be repeated after a crash of the system: `safe`, `once` or `ask`."""
-    seconds: float = 5.0
-    """How long it is expected to take, for planning; it may take longer."""
+    repeat: str = "once"  # may it be repeated after a crash of the system: `safe`, `once` or `ask`
+    seconds: float = 5.0  # how long it is expected to take, for planning; it may take longer
     hook: Callable[..., Any] | None = None
     """The app's own code; None: the drone's navigation knows how."""
 

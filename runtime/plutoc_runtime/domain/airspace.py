@@ -23,8 +23,7 @@ Corner = tuple[float, float]
 Polygon = tuple[Corner, ...]
 Way = tuple["Point", ...]
 
-MARGIN = 0.1
-"""How far from the corner of a no-fly area a route turns, in metres."""
+MARGIN = 0.1  # how far from the corner of a no-fly area a route turns, in metres
 
 EPSILON = 1e-6
 """Metres. A thousandth of what a drone's position is known to, and far above rounding."""
@@ -72,6 +71,8 @@ class Airspace:
 
         It is straight wherever it can be. Around corners its height changes evenly along the way.
         """
+        if not self.areas:
+            return None if self.problem(start) or self.problem(end) else (end,)
         way = self._ways(min(start, end), max(start, end))  # one way for both directions
         if way is None:
             return None

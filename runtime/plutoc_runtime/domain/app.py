@@ -36,8 +36,7 @@ class App:
     fields: tuple[Field, ...]
     """The fields that exist besides the basic ones, missions' before trips'."""
     categories: tuple[Category, ...]
-    actions: Mapping[str, Action]
-    """All actions, the built-in ones before the app's own."""
+    actions: Mapping[str, Action]  # all actions, the built-in ones before the app's own
     evaluators: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
     """The app's evaluators, by name."""
     resumes: tuple[str, ...] = ()

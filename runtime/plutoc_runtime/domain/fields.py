@@ -40,8 +40,7 @@ class Field:
     name: str
     on: Entity
     type: FieldType
-    label: str
-    """Its label on a screen."""
+    label: str  # its label on a screen
     doc: str = ""
     """A sentence for pages. In a generated package it stands beside the attribute instead."""
     default: int | float | None = None

@@ -27,8 +27,7 @@ class Source:
     quantity: str
     at: Corner
     peak: float
-    radius: float
-    """Metres within which most of it stays: the standard deviation of a bell curve."""
+    radius: float  # metres within which most of it stays: the standard deviation of a bell curve
 
     def at_distance(self, x: float, y: float) -> float:
         """Return its contribution at a distance in metres."""
@@ -53,8 +52,7 @@ class DroneData:
     """A drone as the fleet file describes it."""
 
     id: str
-    category: str
-    """The name of one of the app's categories."""
+    category: str  # the name of one of the app's categories
     home: Point
 
 
@@ -67,5 +65,4 @@ class FleetData:
     after_trip: AfterTrip = AfterTrip.HOME
     max_airborne: int | None = None
     motion: Motion = STRAIGHT
-    world: WorldData | None = None
-    """None: a simulation makes up a world from its seed."""
+    world: WorldData | None = None  # None: a simulation makes up a world from its seed

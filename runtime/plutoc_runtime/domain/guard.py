@@ -65,5 +65,4 @@ def unless_by_a_person(error: BaseException) -> None:
         raise error
 
 
-_LONGEST = 60
-"""Characters of a class's name."""
+_LONGEST = 60  # characters of a class's name

@@ -91,10 +91,6 @@ class Telemetry(Protocol):
     def landed(self) -> bool:
         """Whether it stands on the ground or in its dock."""
 
-    @property
-    def silence(self) -> float:
-        """Seconds since its last message; infinite: it has sent none."""
-
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Drone:
@@ -260,8 +256,3 @@ class ResultStore:
         self.results.append(Result(mission, trip, round_, attempt, value))
         self.before.append(mission.last_result)
         return len(self.results) - 1
-
-    @property
-    def newest(self) -> object:
-        """The value of the latest result."""
-        return self.results[-1].value

@@ -7,27 +7,26 @@ high-level commander): its peak speed is 35/16 of its mean one. Seconds, metres,
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import sqrt
+from itertools import pairwise
+from math import dist, sqrt
 from random import Random
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from .model import Point
 
 CLIMB_SPEED = 0.3
 """Metres a second, straight up and straight down; on smooth legs that is about the mean."""
-PEAK = 2.19
-"""Peak speed over mean speed of a smooth leg."""
+PEAK = 2.19  # peak speed over mean speed of a smooth leg
 PUSH, MOST = 7.52, 4.0
 """Peak acceleration of a smooth leg over distance and squared time; its limit in m/s²."""
 SHORTEST = 1.0
 """Seconds of the shortest smooth leg: three metres in half a second have flipped a drone."""
 SINKS = 0.5
 """The share of its limit up to which a drone follows a landing closely enough to touch down."""
-SLACK = 0.15
-"""Metres of a real drone's position error: drones are kept apart by this much more."""
-_TAIL = 3.0
-"""Standard deviations within which all durations lie."""
+_TAIL = 3.0  # standard deviations within which all durations lie
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,26 +35,16 @@ class Motion:
 
     legs: str = "straight"
     """`smooth`: the category's speed is the peak of each leg, and each climb peaks at 0.6 m/s."""
-    limit: float = 100.0
-    """Metres per second that the position controller follows."""
-    take_off: float = 0.0
-    """Seconds from the command until it leaves the ground."""
-    settles: float = 0.0
-    """Seconds after each leg in the air until it hovers at rest."""
-    landing: float = 0.0
-    """Seconds from the touch-down until it counts as landed."""
-    pace: float = 1.0
-    """The factor of all durations of legs."""
-    spread: float = 0.0
-    """The standard deviation of what a leg takes, as a share of it."""
-    action_spread: float = 0.0
-    """The same of what an action takes."""
-    drain: float = 1.0
-    """The battery that a second in the air takes, times the category's flight time."""
-    taper: float = 0.0
-    """The last share of a battery, which charges ever more slowly."""
-    slack: float = 0.0
-    """Metres that a drone is off its way at most."""
+    limit: float = 100.0  # metres per second that the position controller follows
+    take_off: float = 0.0  # seconds from the command until it leaves the ground
+    settles: float = 0.0  # seconds after each leg in the air until it hovers at rest
+    landing: float = 0.0  # seconds from the touch-down until it counts as landed
+    pace: float = 1.0  # the factor of all durations of legs
+    spread: float = 0.0  # the standard deviation of what a leg takes, as a share of it
+    action_spread: float = 0.0  # the same of what an action takes
+    drain: float = 1.0  # the battery that a second in the air takes, times the flight time
+    taper: float = 0.0  # the last share of a battery, which charges ever more slowly
+    slack: float = 0.0  # metres of position error: real drones are kept apart by this much more
 
     @property
     def smooth(self) -> bool:
@@ -94,15 +83,50 @@ class Motion:
         """Return the seconds straight down, to the ground."""
         return self.climb(metres, min(speed, SINKS * self.limit))
 
+    def stages(
+        self, way: Sequence[Point], speed: float, rises: bool, lands: bool
+    ) -> Iterator[tuple[Point, float, float, float]]:
+        """Yield where each leg of a way ends, and the seconds before it, on it and after it.
 
-def spread_of(seed: int, drone: str) -> Random:
-    """Return what a drone's durations are drawn from: the same in every run of a seed."""
-    return Random(f"{seed}/{drone}/motion")
+        A drone that `rises` stands below the first point; one that `lands` comes down from the last.
+        """
+        if rises:
+            yield way[0], self.take_off, self.climb(way[0][2], speed), self.settles
+        for here, there in pairwise(way):
+            yield there, 0.0, self.leg(dist(here, there), speed), self.settles
+        if lands:
+            x, y, z = way[-1]
+            yield (x, y, 0.0), 0.0, self.sink(z, speed), self.landing
 
 
-def varied(chance: Random, spread: float) -> float:
-    """Return the factor by which one duration differs from the expected one."""
-    return 1.0 + spread * max(-_TAIL, min(_TAIL, chance.gauss(0.0, 1.0))) if spread else 1.0
+class Spread:
+    """What one drone's durations are drawn from: the same in every run of a seed."""
+
+    def __init__(self, seed: int, drone: str) -> None:
+        self._random = Random(f"{seed}/{drone}/motion")
+        self._ahead: list[tuple[float, float]] = []  # when what was drawn ahead begins, and that
+        self._put_back: list[float] = []
+
+    def draw(self) -> float:
+        """Return how many standard deviations the next duration differs from the expected one."""
+        if self._put_back:
+            return self._put_back.pop()
+        return max(-_TAIL, min(_TAIL, self._random.gauss(0.0, 1.0)))
+
+    def factor(self, spread: float, begins: float | None = None) -> float:
+        """Return by which factor the next duration differs from the expected one.
+
+        `begins`: when that which takes so long begins, if it is drawn ahead.
+        """
+        drawn = self.draw() if spread else 0.0
+        if spread and begins is not None:
+            self._ahead.append((begins, drawn))
+        return 1.0 + spread * drawn
+
+    def put_back(self, now: float) -> None:
+        """Draw again, in its order, what was drawn ahead for what has not begun by now."""
+        self._put_back += [drawn for begins, drawn in reversed(self._ahead) if begins > now]
+        self._ahead.clear()
 
 
 def smoothly(part: float) -> float:
@@ -138,8 +162,7 @@ def _progress(level: float, full: float, taper: float) -> float:
     return full - (full - _slows(full, taper)) * sqrt(max(0.0, 1 - level) / taper)
 
 
-STRAIGHT = Motion()
-"""Straight legs at the category's speed, that take nothing beside."""
+STRAIGHT = Motion()  # straight legs at the category's speed, that take nothing beside
 
 CRAZYFLIE = Motion(
     legs="smooth",
@@ -150,7 +173,7 @@ CRAZYFLIE = Motion(
     spread=0.01,
     action_spread=0.03,
     taper=0.2,
-    slack=SLACK,
+    slack=0.15,
 )
 """A Crazyflie by its firmware's limits; the durations were measured (docs/motion.md)."""
 

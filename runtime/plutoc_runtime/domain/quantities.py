@@ -57,8 +57,7 @@ UNITS: dict[str, tuple[Type, float, float]] = {
 }
 """Unit: what it measures, and the factor and offset that make it SI."""
 
-QUANTITIES = frozenset(kind for kind, _, _ in UNITS.values())
-"""The types that take a unit."""
+QUANTITIES = frozenset(kind for kind, _, _ in UNITS.values())  # the types that take a unit
 
 _QUANTITY = re.compile(r"\s*([+-]?\d+(?:\.\d+)?)\s*([A-Za-z%]+(?:/[A-Za-z]+)?)?\s*")
 

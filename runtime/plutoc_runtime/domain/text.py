@@ -123,8 +123,7 @@ def class_of(value: object) -> str:
 LONGEST_REASON, LONGEST_LOG = 2_000, 20_000
 """Characters of what a hook says of a failure, and of a line that it has logged."""
 
-LONGEST_VALUE = 10_000
-"""Characters of a value that is kept as text."""
+LONGEST_VALUE = 10_000  # characters of a value that is kept as text
 
 _PARTS = 10_000
 """Elements of it that are looked at: each may hold many others, and these the same ones."""
@@ -156,7 +155,6 @@ class _Everything(Repr):
         return super().repr_int(x, level) if digits < MOST_DIGITS else f"<int of {digits:,} digits>"
 
 
-MOST_DIGITS = 600
-"""A number with more is kept as text: not every reader of JSON takes it."""
+MOST_DIGITS = 600  # a number with more is kept as text: not every reader of JSON takes it
 
 _ADDRESS = re.compile(r" at 0x[0-9A-Fa-f]+")

@@ -7,15 +7,13 @@ from collections.abc import Callable, Mapping, Sequence
 from math import isfinite
 from typing import Protocol
 
-Event = Mapping[str, object]
-"""`t`, seconds; `event`, such as `trip.launched`; and its facts."""
+Event = Mapping[str, object]  # `t`, seconds; `event`, such as `trip.launched`; and its facts
 
 
 class Clock(Protocol):
     """The clock of the events: the kernel."""
 
-    now: float
-    """Seconds since the start."""
+    now: float  # seconds since the start
 
 
 class Trace:

@@ -213,8 +213,7 @@ FIELD: dict[FieldType, Read] = {
 }
 """How a field of a mission or a trip is read."""
 
-HOME_SIZE = 0.1
-"""The diameter of a drone on the ground, in metres."""
+HOME_SIZE = 0.1  # the diameter of a drone on the ground, in metres
 
 Cells = dict[tuple[int, int], list[tuple["Point", str]]]
 """Homes and their drones, by squares of the map with sides of that length."""

@@ -22,8 +22,7 @@ Column = int
 
 _NONE = -1
 
-_WITHOUT = 1e8
-"""What it costs a row to go without a column: more than all others together."""
+_WITHOUT = 1e8  # what it costs a row to go without a column: more than all others together
 
 
 def assign(rows: Sequence[Iterator[tuple[float, C]]]) -> list[tuple[float, C] | None]:
@@ -48,12 +47,10 @@ class _Pairs(Generic[C]):
 
     def __init__(self, rows: Sequence[Iterator[tuple[float, C]]]) -> None:
         self._more = [chain(row, [(_WITHOUT, None)]) for row in rows]
-        self._told = [array("l") for _ in rows]
-        """The columns that each row has told so far."""
+        self._told = [array("l") for _ in rows]  # the columns that each row has told so far
         self._costs = [array("d") for _ in rows]
         """Numbers side by side: millions of them are read again and again."""
-        self._taken = [0] * len(rows)
-        """How many of these, the first, are taken."""
+        self._taken = [0] * len(rows)  # how many of these, the first, are taken
         self._row_price = [0.0] * len(rows)
         self._column_of = [_NONE] * len(rows)
         self._row_of: list[Row] = []

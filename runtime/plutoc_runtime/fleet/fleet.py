@@ -46,8 +46,7 @@ class Fleet:
         """The tasks of drones that return, land or recover."""
         self._change: Future[None] | None = None
         """Set at the next change of any drone, if something waits for it."""
-        self.unready: dict[Drone, str] = {}
-        """Drones that are lost, or not ready to fly, and why."""
+        self.unready: dict[Drone, str] = {}  # drones that are lost, or not ready to fly, and why
         self.retired: set[Drone] = set()
         """Drones that are not allocated until they are brought back."""
         self.lost_before: dict[Drone, str] = {}
@@ -292,8 +291,6 @@ class Fleet:
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
 
-FLIGHTS_HOME = 3
-"""How often a drone flies home that lands beside its dock, where it is not charged."""
+FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
 
-LONGEST = 500
-"""Characters of the reason why a drone is lost."""
+LONGEST = 500  # characters of the reason why a drone is lost

@@ -8,7 +8,7 @@ from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from ..time.future import Future
-from .reach import Reach, a_metre, chain_of, why_not
+from .reach import Reach, chain_of, why_not
 
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Point, Trip
@@ -37,7 +37,17 @@ class Request(Future["Drone"]):
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
         level = drone.telemetry.battery_level
-        return level >= self._surely[drone.category] or level >= self.level(drone)
+        return level >= self._surely[drone.category] or (
+            level >= self.at_least(drone, drone.telemetry.location) and level >= self.level(drone)
+        )
+
+    def at_least(self, drone: Drone, here: Point) -> float:
+        """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
+        (x, y, _), (a, b, z), (c, d, _) = self.goal, here, drone.home
+        upright, a_metre = self._reach.at_least(drone.category, self.trip)
+        level = a_metre * (hypot(x - a, y - b) + hypot(x - c, y - d))
+        # not below 0 where it leads is not a number
+        return max(0.0, upright + level if z <= 0.0 else level)
 
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
@@ -66,41 +76,35 @@ class Needs:
     Most are known by a lower bound: the exact level, which takes a route search, is seldom needed.
     """
 
-    def __init__(self, reach: Reach, drone: Drone, arrived: Sequence[Request]) -> None:
+    def __init__(self, drone: Drone, arrived: Sequence[Request]) -> None:
         """`arrived`: the requests, to which later ones are appended."""
         self.place, self._drone, self._arrived, self._seen = drone.location, drone, arrived, 0
-        self._reach, self._a_metre = reach, a_metre(drone.category)
         self._heap: list[tuple[float, int, bool, Request]] = []
 
-    @property
-    def least(self) -> float:
-        """The least level that suffices for a request that waits; infinite: none does."""
-        heap = self._heap
+    def least(self, most: float = inf) -> float:
+        """Return the least level that suffices for a request that waits; infinite: none up to `most` does."""
+        heap, drone, place = self._heap, self._drone, self.place
         for request in self._arrived[self._seen :]:
             if not request.is_set:
-                heappush(heap, (self.at_least(request), request.rank[1], False, request))
+                bound = request.at_least(drone, place)
+                heappush(heap, (bound, request.rank[1], False, request))
         self._seen = len(self._arrived)
         while heap:
             level, number, is_exact, request = heap[0]
             if request.is_set:
                 heappop(heap)
+            elif level > most:
+                break
             elif is_exact:
                 return level
             else:
-                heapreplace(heap, (request.level(self._drone), number, True, request))
+                heapreplace(heap, (request.level(drone), number, True, request))
         return inf
-
-    def at_least(self, request: Request) -> float:
-        """Return a lower bound of the level that a request needs: the straight way there and home."""
-        (x, y, _), (a, b, z), (c, d, _) = request.goal, self.place, self._drone.home
-        upright = self._reach.upright(self._drone.category, request.trip) if z <= 0.0 else 0.0
-        level = upright + self._a_metre * (hypot(x - a, y - b) + hypot(x - c, y - d))
-        return max(0.0, level)  # where it leads may not be a number
 
     def up_to(self, level: float, most: int) -> list[Request]:
         """Return the requests that need no more than a level; of many, one more than `most`."""
         found = list[tuple[float, int, bool, Request]]()
-        while len(found) <= most and self.least <= level < inf:
+        while len(found) <= most and self.least(level) < inf:
             found.append(heappop(self._heap))
         for one in found:
             heappush(self._heap, one)

@@ -37,8 +37,7 @@ class Orders:
         """What was told of the drones, by their ids; always current."""
         self._answers: dict[int, Answer] = {}
         """What to call with the outcome of each order that is under way, by its id."""
-        self._flying: dict[str, int] = {}
-        """The latest order to fly of each drone."""
+        self._flying: dict[str, int] = {}  # the latest order to fly of each drone
         self._count = 0
 
     def take(self) -> list[Order]:

@@ -48,7 +48,7 @@ class Queue:
         self._arrivals = 0
         self._ready: list[Drone] = []
         """While it is served: the free drones that may be chosen, in the fleet's order."""
-        self._low: dict[Drone, tuple[float, float, Needs]] = {}
+        self._low: dict[Drone, tuple[float, float]] = {}
         """The other free drones: too low for every request so far, until when, and what level they need."""
         self._one_is_lost = False
         """Whether a drone has been lost since the requests were last checked."""
@@ -141,7 +141,7 @@ class Queue:
             if self._ready and self.room:
                 self._put_aside_the_low()
             if low:
-                untils = [until for until, *_ in low.values()]
+                untils = [until for until, _ in low.values()]
                 self._look_again_when_charged(min(untils))
                 if max(untils) == inf:
                     self.served()
@@ -246,21 +246,19 @@ class Queue:
     def _needs_of(self, drone: Drone) -> Needs:
         needs = self._needs.get(drone)
         if needs is None or needs.place != drone.location:
-            needs = self._needs[drone] = Needs(self._reach, drone, self._arrived)
+            needs = self._needs[drone] = Needs(drone, self._arrived)
         return needs
 
     def _put_back_the_charged(self) -> None:
         """Make drones ready again that have charged, or that suffice for a new request."""
-        fresh = [request for request in self._fresh if not request.is_set]
-        for drone, (until, wanted, needs) in list(self._low.items()):
-            least = wanted
-            for request in fresh:
-                if needs.at_least(request) < least:
-                    least = min(least, request.level(drone))
-            if until <= self._kernel.now or (least < wanted and drone.battery_level >= least):
+        now = self._kernel.now
+        for drone, (until, wanted) in list(self._low.items()):
+            needs = self._needs.get(drone) or self._needs_of(drone)  # it stands where it stood
+            least = needs.least(wanted) if until > now else inf
+            if until <= now or (least < wanted and drone.battery_level >= least):
                 del self._low[drone]
             elif least < wanted:
-                self._low[drone] = min(until, self._charged(drone, least)), least, needs
+                self._low[drone] = min(until, self._charged(drone, least)), least
 
     def _put_aside_the_low(self) -> None:
         """Put drones aside that are too low for every request; a docked one until it has charged.
@@ -268,9 +266,9 @@ class Queue:
         A drone that suffices and was not chosen (by a policy, or as no more may fly) stays ready.
         """
         for drone in self._ready:
-            needs = self._needs_of(drone)
-            if drone.battery_level < (least := needs.least):
-                self._low[drone] = self._charged(drone, least), least, needs
+            least = self._needs_of(drone).least()
+            if drone.battery_level < least:
+                self._low[drone] = self._charged(drone, least), least
 
     def _charged(self, drone: Drone, level: float) -> float:
         """Return when a drone has this level where it stands; infinite: it never will."""

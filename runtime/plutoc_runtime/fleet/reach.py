@@ -21,12 +21,10 @@ if TYPE_CHECKING:
     from ..domain.fleet_data import FleetData
     from ..domain.model import Category, Item, Mission, Point, Trip
 
-Stop = tuple["Point", float]
-"""A point to fly to, and the seconds that the drone is busy there."""
+Stop = tuple["Point", float]  # a point to fly to, and the seconds that the drone is busy there
 Stops = Sequence[Stop]
 
-DOCK_REACH = 0.2
-"""How near its home a drone must land to be charged there, in metres."""
+DOCK_REACH = 0.2  # how near its home a drone must land to be charged there, in metres
 
 
 def docked(landed_at: Point, home: Point) -> bool:
@@ -88,8 +86,7 @@ class Miss(NamedTuple):
     """What a drone lacks, and by how much."""
 
     lacks: Lacks
-    by: float
-    """How much is lacking: of two alike the smaller is nearer."""
+    by: float  # how much is lacking: of two alike the smaller is nearer
     reason: str
 
 
@@ -238,7 +235,7 @@ class Reach:
             for action in app.actions
         }
         self._unknown = dict.fromkeys(app.categories, inf)
-        self._upright: dict[tuple[Category, str, float], float] = {}
+        self._least: dict[tuple[Category, str, float], tuple[float, float]] = {}
 
     def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
         """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
@@ -248,16 +245,19 @@ class Reach:
         share = needed(category, self.airspace, here, stops, home)
         return inf if share is None else share + category.reserve
 
-    def upright(self, category: Category, trip: Trip) -> float:
-        """Return what a trip needs beside the way, from the ground: a lower bound."""
+    def at_least(self, category: Category, trip: Trip) -> tuple[float, float]:
+        """Return what a trip takes at least of a level from the ground beside its way, and for each metre of that."""
         key = category, trip.action, trip.target[2]
-        if key not in self._upright:
-            motion, height = category.motion, min(trip.target[2], self.airspace.cruise_height)
-            seconds = motion.rises(height, category.speed) + motion.lands(height, category.speed)
+        if key not in self._least:
+            motion, speed, full = category.motion, category.speed, category.flight_time
+            height = min(trip.target[2], self.airspace.cruise_height)
+            seconds = motion.rises(height, speed) + motion.lands(height, speed)
             seconds += self.app.actions[trip.action].seconds
-            share = seconds * motion.drain / category.flight_time
-            self._upright[key] = category.reserve + share * _LESS
-        return self._upright[key]
+            # a metre of a short leg takes no less than one of a long leg
+            shares = (seconds, motion.flies(_FAR, speed) / _FAR)
+            least = [share * motion.drain / full * _LESS for share in shares]
+            self._least[key] = category.reserve + least[0], least[1]
+        return self._least[key]
 
     def levels(self, trip: Trip) -> Mapping[Category, float]:
         """Return for each category a battery level that surely suffices for the trip.
@@ -281,12 +281,5 @@ class Reach:
         return seconds * motion.drain / category.flight_time + category.reserve
 
 
-def a_metre(category: Category) -> float:
-    """Return the share that a metre of a long straight leg takes: on a short one it is no less."""
-    far = 1e6
-    seconds = category.motion.flies(far, category.speed)
-    return seconds * category.motion.drain / category.flight_time / far * _LESS
-
-
-_LESS = 1 - 1e-9
-"""Sums of floats are not exact, and a bound must be one."""
+_FAR = 1e6  # metres of a long leg
+_LESS = 1 - 1e-9  # sums of floats are not exact, and a bound must be one

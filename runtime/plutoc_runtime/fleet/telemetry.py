@@ -8,6 +8,7 @@ from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.motion import charged, smoothly
+from ..hooks.plain_data import point_of
 
 if TYPE_CHECKING:
     from ..domain.model import Point
@@ -49,6 +50,14 @@ def resting(place: Point, now: float) -> Leg:
     return Leg(place, place, now, now)
 
 
+def place_on(legs: Sequence[Leg], now: float) -> Point:
+    """Return the place at a time on legs that are flown one after the other."""
+    for leg in legs:
+        if now < leg.arrives:
+            return leg.at(now)
+    return legs[-1].end
+
+
 @dataclass(frozen=True, slots=True)
 class Charge:
     """A battery: its level at a time, from 0 to 1, its change per second, and where a charge slows."""
@@ -80,21 +89,19 @@ class Charge:
 class KnownState:
     """The state of one drone, as it was told last: the drone's `Telemetry`."""
 
-    __slots__ = ("_charge", "_clock", "_leg", "_motion", "landed")
-
-    silence = 0.0
+    __slots__ = ("_charge", "_clock", "_legs", "landed", "motion")
 
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
-        self._clock, self._motion = clock, motion
-        self._leg, self._charge = resting(home, 0.0), Charge(0.0, 0.0)
+        self._clock, self.motion = clock, motion
+        self._legs, self._charge = [resting(home, 0.0)], Charge(0.0, 0.0)
         self.landed = True
         """Whether it stands on the ground."""
 
     @property
     def location(self) -> Point:
         """Where it is."""
-        leg, now = self._leg, self._clock.now
-        return leg.end if now >= leg.arrives else leg.at(now)
+        last, now = self._legs[-1], self._clock.now
+        return last.end if now >= last.arrives else place_on(self._legs, now)
 
     @property
     def battery_level(self) -> float:
@@ -104,20 +111,19 @@ class KnownState:
 
     def take(self, told: Mapping[str, Any]) -> None:
         """Take over a message about it; what the message does not say stays as it was."""
-        now = self._clock.now
-        match told:
-            case {"leg": [start, end, leaves, arrives]}:
-                self._leg = Leg(_point(start), _point(end), leaves, arrives, self._motion.smooth)
-            case {"at": place}:
-                self._leg = resting(_point(place), now)
-        match told:
-            case {"battery": [level, since, rate]}:
-                self._charge = Charge(level, since, rate, self._motion.taper)
-            case {"battery": level}:
+        now, legs = self._clock.now, told.get("legs")
+        if legs is None and "leg" in told:
+            legs = [told["leg"]]
+        if legs is not None:
+            smooth = self.motion.smooth
+            self._legs = [
+                Leg(point_of(a), point_of(b), leaves, at, smooth) for a, b, leaves, at in legs
+            ]
+        elif "at" in told:
+            self._legs = [resting(point_of(told["at"]), now)]
+        match told.get("battery"):
+            case [level, since, rate]:
+                self._charge = Charge(level, since, rate, self.motion.taper)
+            case float(level) | int(level):
                 self._charge = Charge(level, now)
         self.landed = told.get("landed", self.landed)
-
-
-def _point(told: Sequence[float]) -> Point:
-    x, y, z = told
-    return x, y, z

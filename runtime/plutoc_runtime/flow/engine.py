@@ -13,9 +13,9 @@ from ..domain.model import Mission
 from ..domain.status import FAILED, UNEXECUTED, Status
 from ..time.future import Future
 from ..time.kernel import Task, mission_key
-from .location import as_crash, blame, blamed
 from .mission import Core, MissionState
 from .run import Run
+from .standing import as_crash, blame, blamed
 
 
 class Engine:
@@ -23,10 +23,8 @@ class Engine:
 
     def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
         self.core, self.states = core, states
-        self.living = 0
-        """How many missions are on their way through their graphs."""
-        self.done: Future[None] = Future()
-        """Set when the last mission has ended, or was suspended."""
+        self.living = 0  # how many missions are on their way through their graphs
+        self.done: Future[None] = Future()  # set when the last mission has ended, or was suspended
 
     def start(self, missions: Sequence[Mission[Any]]) -> None:
         """Start the missions, all at the same instant."""

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
     from .mission import Core
     from .run import Run
 
-
-_CONTENT = Verdict()
-"""The verdict of an evaluator that asks for nothing."""
+_CONTENT = Verdict()  # the verdict of an evaluator that asks for nothing
 
 
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:

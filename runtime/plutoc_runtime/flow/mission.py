@@ -50,8 +50,7 @@ class Core:
             self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))
 
 
-Delay = tuple[str, str, int, int]
-"""A delay: block, trip, round, attempt."""
+Delay = tuple[str, str, int, int]  # a delay: block, trip, round, attempt
 
 
 @dataclass(slots=True, eq=False)
@@ -62,35 +61,24 @@ class MissionState:
     mission: Mission[Any]
     doomed: Callable[[MissionState], object]
     """Called when it must end, even if its graph would continue."""
-    task: Task[Status] | None = None
-    """The coroutine that runs its flow."""
-    at: str | None = None
-    """The last block reached at which it can resume after an interruption."""
+    task: Task[Status] | None = None  # the coroutine that runs its flow
+    at: str | None = None  # the last block reached at which it can resume after an interruption
     goes_on: bool = False
     """It resumes behind a launch: the allocator and the launcher let it pass, up to its flight."""
-    interrupted: bool = False
-    """A flight of it was interrupted and does not count."""
-    allocated: Drone | None = None
-    """The drone that was allocated and is not launched yet."""
-    flight: Flight | None = None
-    """The latest flight."""
+    interrupted: bool = False  # a flight of it was interrupted and does not count
+    allocated: Drone | None = None  # the drone that was allocated and is not launched yet
+    flight: Flight | None = None  # the latest flight
     carrier: Drone | None = None
     """The drone that carries the mission's item, and stays with the mission."""
-    carries: Item | None = None
-    """The item aboard `carrier`, from `pick_item` to `release_item`."""
-    last_action_end: float | None = None
-    """When its previous action in this round was done."""
-    calls: int = 0
-    """How often its hooks were called since its last launch."""
+    carries: Item | None = None  # the item aboard `carrier`, from `pick_item` to `release_item`
+    last_action_end: float | None = None  # when its previous action in this round was done
+    calls: int = 0  # how often its hooks were called since its last launch
     delay: tuple[Delay, float, float] | None = None
     """The delay that it waits for, when that is over, and when its round begins."""
-    waited: set[Delay] | None = None
-    """Every delay that is over."""
-    first_start: float | None = None
-    """When its first trip passed a clock."""
+    waited: set[Delay] | None = None  # every delay that is over
+    first_start: float | None = None  # when its first trip passed a clock
     ended: bool = False
-    doom: str | None = None
-    """Why it must end at once: a failure that no retry can repair."""
+    doom: str | None = None  # why it must end at once: a failure that no retry can repair
 
     @property
     def suspended(self) -> bool:

@@ -134,5 +134,4 @@ def _shown(value: object) -> str:
     return value.value if type(value) is Status else bounded(shown(value), _LONGEST)
 
 
-_LONGEST = 200
-"""Characters shown of a value that is not a status."""
+_LONGEST = 200  # characters shown of a value that is not a status

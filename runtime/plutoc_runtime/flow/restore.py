@@ -6,9 +6,9 @@ Each mission stands as its record says, and the flights with it, with what is re
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.fields import Entity
 from ..domain.status import RUNNING, STANDBY, UNEXECUTED, Status
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..domain.trace import Event
     from ..hooks.plain_data import Data
     from .engine import Engine
-    from .mission import MissionState
+    from .mission import Delay, MissionState
 
 Record = Mapping[str, Any]
 
@@ -54,8 +54,27 @@ class Recording:
     def hear(self, event: Event) -> None:
         """Keep an event, with what is added to it."""
         self._said += 1
-        add = _ADDED.get(str(event["event"]))
-        self._events.append(event if add is None else {**event, **add(self, event)})
+        added = self._added(event)
+        self._events.append({**event, **added} if added else event)
+
+    def _added(self, event: Event) -> Data:
+        """Return what is added to an event that has just happened."""
+        match event["event"]:
+            case "mission.created":
+                return {"plan": mission_data(self._app, self._mission(event))}
+            case "trip.completed":
+                return {"result": value_data(self._results.results[-1].value)}
+            case "trip.reset":
+                return {"fields": fields_of(self._app, Entity.TRIP, self._mission(event).current)}
+            case "mission.extended":
+                names, trips = cast("list[str]", event["add"]), self._mission(event).trips
+                return {
+                    "trips": [trip_data(self._app, trip) for trip in trips if trip.name in names]
+                }
+        return {}
+
+    def _mission(self, event: Event) -> Mission[Any]:
+        return self._states[str(event["mission"])].mission
 
     async def on_record(self) -> None:
         """Wait until everything up to now is durable."""
@@ -69,31 +88,6 @@ class Recording:
         self._durable = max(self._durable, message["durable"])
         while self._waiting and self._waiting[0][0] <= self._durable:
             self._waiting.popleft()[1].set(None)
-
-    def _mission(self, event: Event) -> Mission[Any]:
-        return self._states[str(event["mission"])].mission
-
-    def _plan(self, event: Event) -> Data:
-        return {"plan": mission_data(self._app, self._mission(event))}
-
-    def _result(self, _: Event) -> Data:
-        return {"result": value_data(self._results.newest)}
-
-    def _fields(self, event: Event) -> Data:
-        return {"fields": fields_of(self._app, Entity.TRIP, self._mission(event).current)}
-
-    def _trips(self, event: Event) -> Data:
-        names, trips = event["add"], self._mission(event).trips
-        assert isinstance(names, list)
-        return {"trips": [trip_data(self._app, trip) for trip in trips if trip.name in names]}
-
-
-_ADDED: dict[str, Callable[[Recording, Event], Data]] = {
-    "mission.created": Recording._plan,
-    "trip.completed": Recording._result,
-    "trip.reset": Recording._fields,
-    "mission.extended": Recording._trips,
-}
 
 
 class Restorer:
@@ -144,14 +138,14 @@ class Restorer:
         state.at, state.interrupted = record.get("at"), bool(record.get("interrupted"))
         state.first_start = record.get("first_start")
         state.last_action_end = record.get("last_action_end")
-        waited = {_place(place) for place in record.get("waited", ())}
+        waited = {cast("Delay", tuple(place)) for place in record.get("waited", ())}
         if known is not None:  # it was paused: this brain knows better where it was
             state.at = known.at if known.at in core.app.resumes else state.at
             waited |= known.waited or set()
         state.waited = waited or None
         if record.get("delay") is not None:
             place, over, begins = record["delay"]
-            state.delay = _place(place), over, begins
+            state.delay = cast("Delay", tuple(place)), over, begins
         if record.get("carrier") is not None:
             state.carrier = self._drones[record["carrier"]]
             state.carries = item_of(record.get("carries"))
@@ -220,8 +214,3 @@ class Restorer:
         else:
             failed = "failure" in report
             state.reported(flight, failure_of(report) if failed else value_of(report.get("value")))
-
-
-def _place(place: Iterable[Any]) -> tuple[str, str, int, int]:
-    block, trip, round_, attempt = place
-    return block, trip, round_, attempt

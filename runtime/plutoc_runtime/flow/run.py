@@ -27,12 +27,10 @@ class Run(Generic[M]):
     def __init__(self, mission: M, state: MissionState, key: Key, depth: int = 0) -> None:
         self.mission, self.state, self.key, self._depth = mission, state, key, depth
         self.core = state.core
-        self.task: Task[Status] | None = None
-        """The coroutine of this branch."""
+        self.task: Task[Status] | None = None  # the coroutine of this branch
         self.at: str | None = None
         """The block at which an interrupted mission resumes; None: it begins."""
-        self.status = UNEXECUTED
-        """Its status when it begins, or resumes."""
+        self.status = UNEXECUTED  # its status when it begins, or resumes
 
     def meets(self, block: str) -> None:
         """Note a block that waits or allocates: here the mission can resume after an interruption.
@@ -46,8 +44,7 @@ class Run(Generic[M]):
     @property
     def trip(self) -> Any:
         """The mission's trip in flight, or the next one; of the app's own class."""
-        trips = self.mission.trips
-        return trips[0] if trips else self.mission.current
+        return self.mission.current
 
     def abort(self, reason: str) -> None:
         """Fail the trip in flight."""

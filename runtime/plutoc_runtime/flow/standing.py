@@ -1,4 +1,8 @@
-"""Missions and drones as plain data: what begins, where each stands, and for what it waits."""
+"""Missions and drones as plain data: what begins, where each stands, and for what it waits.
+
+And in which block a mission waits, or an error arose: `flow.py` quotes a block's declaration above
+each call of it.
+"""
 
 from __future__ import annotations
 
@@ -12,26 +16,20 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
-from ..domain.model import Drone, Result
 from ..domain.status import DroneStatus, Status, TripStatus
-from ..hooks import plain_data
-from ..hooks.plain_data import (
-    Data,
-    fields_of,
-    item_data,
-    known_fields,
-    trip_data,
-    trip_of,
-    value_of,
-)
-from .location import waiting_at
+from ..domain.text import said
+from ..hooks.plain_data import fields_of, item_data, known_fields, trip_data, trip_of
 
 if TYPE_CHECKING:
+    from types import CodeType, FrameType
+
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
-    from ..domain.model import Mission, Telemetry, Trip
+    from ..domain.model import Drone, Mission, Trip
     from ..fleet.fleet import Fleet
     from ..fleet.needs import Request
+    from ..hooks.plain_data import Data
+    from ..trips.flight import Flight
     from .mission import MissionState
 
 
@@ -59,21 +57,21 @@ def standing_of(app: App, state: MissionState) -> Data:
         "waited": sorted(map(list, state.waited or ())),
         "first_start": state.first_start,
         "last_action_end": state.last_action_end,
-        "flight": (
-            None
-            if flight is None
-            else {
-                "trip": flight.trip.name,
-                "drone": flight.drone,
-                "since": flight.launched_at,
-                "retry": flight.retry,
-                "outcome": flight.result().value if flight.is_set else None,
-            }
-        ),
+        "flight": flight and _flight(flight),
         "carrier": None if state.carrier is None else state.carrier.id,
         "carries": item_data(state.carries),
         "interrupted": state.interrupted,
         "ended": state.ended,
+    }
+
+
+def _flight(flight: Flight) -> Data:
+    return {
+        "trip": flight.trip.name,
+        "drone": flight.drone,
+        "since": flight.launched_at,
+        "retry": flight.retry,
+        "outcome": flight.result().value if flight.is_set else None,
     }
 
 
@@ -91,13 +89,9 @@ def _is_sound(app: App, trip: Trip) -> bool:
 
 
 def _trip(app: App, trip: Trip) -> Data:
-    data = trip_data(app, trip)
-    facts = (
-        ("reason", trip.reason or None),
-        ("start_time", trip.start_time),
-        ("end_time", trip.end_time),
-    )
-    return data | {name: value for name, value in facts if value is not None}
+    flown = {"start_time": trip.start_time, "end_time": trip.end_time}
+    facts = {"reason": trip.reason or None, **flown}
+    return trip_data(app, trip) | {name: one for name, one in facts.items() if one is not None}
 
 
 def whereabouts_of(state: MissionState, flow: Callable[..., Any]) -> Data:
@@ -157,10 +151,9 @@ def hindrances(fleet: Fleet, request: Request) -> dict[str, Any]:
 def _never(request: Request, drone: Drone, known: Any) -> str | None:
     """Return why a drone can never fly it, as far as known."""
     category, trip = drone.category, request.trip
-    if drone in known or not category.can(trip.action):
-        return request.never(drone)
     heavy = trip.item is not None and trip.item.mass > category.payload
-    return request.never(drone) if heavy else None
+    asked = drone in known or heavy or not category.can(trip.action)
+    return request.never(drone) if asked else None
 
 
 def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[str, Trip]:
@@ -183,15 +176,8 @@ def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[s
     return trips
 
 
-_LISTS = {
-    "gone": TripStatus.SKIPPED,
-    "done": TripStatus.COMPLETED,
-    "todo": TripStatus.WAITING,
-}
+_LISTS = {"gone": TripStatus.SKIPPED, "done": TripStatus.COMPLETED, "todo": TripStatus.WAITING}
 """The lists of a record, and the usual status of the trips in them."""
-
-
-# For those who simulate: missions and drones as objects
 
 
 def fleet_data(fleet: FleetData) -> Data:
@@ -205,49 +191,68 @@ def fleet_data(fleet: FleetData) -> Data:
     }
 
 
-def mission_data(app: App, mission: Mission[Any]) -> Data:
-    """Return a mission to begin."""
-    return {"name": mission.name, **plain_data.mission_data(app, mission)}
+# Where in the graph
 
 
-def take_over(
-    app: App, missions: Sequence[Mission[Any]], standing: Mapping[str, Mapping[str, Any]]
-) -> None:
-    """Bring missions up to date with where they stand in their brain."""
-    for mission in missions:
-        update(app, mission, standing[mission.name])
+def blame(error: BaseException, flow: Callable[..., Any]) -> None:
+    """Add to an error that escapes from a flow in which block it arose: `in block watch = TripMonitor`."""
+    block = blamed(error, flow)
+    if block:
+        error.add_note(f"in block {block}")
 
 
-def results_of(
-    missions: Sequence[Mission[Any]], stored: Sequence[Sequence[Any]]
-) -> tuple[Result[Any, Any], ...]:
-    """Return the results of these missions, which are up to date."""
-    named = {one.name: one for one in missions}
-    trips = {
-        (one.name, trip.name): trip
-        for one in missions
-        for trip in (*one.trips, *one.completed_trips)
-    }
-    return tuple(
-        Result(named[mission], trips.get((mission, trip)), round_, attempt, value_of(value))
-        for mission, trip, round_, attempt, value in stored
-    )
+def as_crash(error: BaseException) -> Exception:
+    """Return an error that ends the app as a bug: a block's `SystemExit` would pass for a normal end."""
+    if isinstance(error, Exception):
+        return error
+    return RuntimeError(f"it raised {said(error)}").with_traceback(error.__traceback__)
 
 
-def drones_of(
-    app: App, fleet: FleetData, stand: Mapping[str, Any], telemetry: Callable[[str], Telemetry]
-) -> tuple[Drone, ...]:
-    """Return the drones of a fleet as they stand."""
-    categories = {category.name: category for category in app.categories}
-    return tuple(
-        Drone(
-            id=one.id,
-            category=categories[one.category],
-            home=one.home,
-            telemetry=telemetry(one.id),
-            status=DroneStatus(stand[one.id]["status"]),
-            trips=stand[one.id]["trips"],
-            index=index,
-        )
-        for index, one in enumerate(fleet.drones)
-    )
+def blamed(error: BaseException, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block in which an error arose; empty if it was in none.
+
+    Of a fork and its gate it is what stands in their place: `launch -> [a, b] -> first = GateFIFO`.
+    """
+    from traceback import walk_tb  # only where something has gone wrong
+
+    code, found = getattr(flow, "__code__", None), ""
+    for frame, line in walk_tb(error.__traceback__):
+        if code is not None and frame.f_code.co_filename == code.co_filename:
+            found = declaration_above(frame, line) or found
+    return found
+
+
+def declaration_above(frame: FrameType, line: int) -> str:
+    """Return the nearest comment above a line of a function that is not within an arm before it."""
+    import linecache
+
+    margin = None
+    for number in range(line, frame.f_code.co_firstlineno, -1):
+        text = linecache.getline(frame.f_code.co_filename, number, frame.f_globals)
+        indent = len(text) - len(text.lstrip())
+        if not text.strip() or (margin is not None and indent > margin):
+            continue
+        margin = indent
+        if text.lstrip().startswith("# "):
+            return text.strip().removeprefix("# ")
+    return ""
+
+
+_KNOWN: dict[tuple[CodeType, int], str] = {}  # a cache of comments, by the line below them
+
+
+def waiting_at(coroutine: object, flow: Callable[..., Any]) -> str:
+    """Return the declaration of the block at which a mission's coroutine waits, or nothing.
+
+    It is found by the suspended frames, so that observing a flight costs it nothing.
+    """
+    file, found = flow.__code__.co_filename, ""
+    while coroutine is not None:
+        frame: FrameType | None = getattr(coroutine, "cr_frame", None)
+        if frame is not None and frame.f_code.co_filename == file:
+            place = frame.f_code, frame.f_lineno
+            if place not in _KNOWN:
+                _KNOWN[place] = declaration_above(frame, frame.f_lineno)
+            found = _KNOWN[place] or found
+        coroutine = getattr(coroutine, "cr_await", None)
+    return found

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.model import Mission, Point, Trip
 
-Data = dict[str, Any]
-"""Plain data, as JSON can hold it."""
+Data = dict[str, Any]  # plain data, as JSON can hold it
 
 
 def fields_of(app: App, entity: Entity, of: object) -> Data:
@@ -67,8 +66,7 @@ def _plain(value: object) -> object:
     return str.__str__(cast("str", value)) if issubclass(kind, str) else shown(value)
 
 
-_MOST_BITS = int(MOST_DIGITS / log10(2))
-"""Bits of a number; a longer one is kept as text."""
+_MOST_BITS = int(MOST_DIGITS / log10(2))  # bits of a number; a longer one is kept as text
 
 
 def _place(point: Sequence[float]) -> list[object]:

@@ -89,8 +89,7 @@ def _wrong_facts(of: object, facts: Mapping[str, tuple[type, ...]]) -> str | Non
     return None
 
 
-_MOST = 1 << 31
-"""The bound of counters, which are stored in 31 bits."""
+_MOST = 1 << 31  # the bound of counters, which are stored in 31 bits
 
 
 def _wrong_action(app: App, trip: Trip) -> str | None:

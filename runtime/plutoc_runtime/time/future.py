@@ -16,7 +16,6 @@ class Waiter(Protocol):
 
     def wake(self, _: object = None) -> None:
         """Resume: the future is set."""
-        ...
 
 
 class Future(Generic[T]):

@@ -23,33 +23,27 @@ class HookRunner(Protocol):
 
     def now(self) -> float:
         """Return the seconds since the app's start, also between two calls of the brain."""
-        ...
 
     def start(self, number: int, hook: Callable[..., object], call: Callable[[], object]) -> bool:
         """Call a hook; return whether it has ended. If not, the brain is told `{"hook": number}` later."""
-        ...
 
     def result(self, number: int) -> object:
         """Return what a hook that has ended returned, or raise what it raised; asked once.
 
         A coroutine is run here, in the brain's own time.
         """
-        ...
 
     def cancel(self, number: int) -> None:
         """Cancel a hook: its result is not wanted any more."""
-        ...
 
     def offer(self, watch: Callable[[Watcher], object]) -> Awaitable[object] | None:
         """Return what a hook can await; `watch` has it called when the hook shall go on.
 
         None: its hooks are coroutines that run here.
         """
-        ...
 
     def stirred(self) -> None:
         """Called when a hook has changed, between two calls of the brain, what is due or ordered."""
-        ...
 
 
 class ToldTime(Kernel):
@@ -63,8 +57,7 @@ class ToldTime(Kernel):
         """Whether the brain is being called: without a runner, nothing happens between two calls."""
         self.hooks: dict[int, Future[None]] = {}
         """The hooks that take their time, by their numbers; each is set when it has ended."""
-        self.calls = 0
-        """The number of the hook that was called last."""
+        self.calls = 0  # the number of the hook that was called last
 
     def call(
         self,

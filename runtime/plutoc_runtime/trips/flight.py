@@ -39,8 +39,7 @@ class Flight(Future[Status]):
         self.error = self.waiter = self._value = self._watchers = None
         self.mission, self.trip, self.flier, self.action = mission, trip, flier, action
         self.launched_at = launched_at
-        self.retry = retry
-        """The mission's previous flight was of the same trip, and failed."""
+        self.retry = retry  # the mission's previous flight was of the same trip, and failed
         self.own_action: Task[None] | None = None
         """The task of an action of the app's own, once it has begun."""
         self.called_off: str | None = None
@@ -90,7 +89,6 @@ class Branch(Protocol):
 
     def abort(self, reason: str) -> None:
         """Fail the trip in flight."""
-        ...
 
 
 class Limit:
@@ -98,8 +96,7 @@ class Limit:
 
     __slots__ = ("flight", "overdue", "since", "span")
 
-    flight: Flight
-    """The flight that it is set for."""
+    flight: Flight  # the flight that it is set for
 
     def __init__(self, since: float, span: float, overdue: Callable[[Trip, float], str]) -> None:
         self.since, self.span, self.overdue = since, span, overdue

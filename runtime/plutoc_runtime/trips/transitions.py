@@ -4,25 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ..domain.status import (
-    COMPLETED,
-    FAILED,
-    RUNNING,
-    STANDBY,
-    UNEXECUTED,
-    Status,
-    TripStatus,
-)
+from ..domain.status import COMPLETED, FAILED, RUNNING, STANDBY, UNEXECUTED, TripStatus
 from ..domain.text import bounded, shown
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, ResultStore, Trip
+    from ..domain.status import Status
     from ..domain.trace import Trace
     from ..time.kernel import Kernel
 
-
-LONGEST = 3_000
-"""Characters of a reason; longer than any that a hook may give."""
+LONGEST = 3_000  # characters of a reason; longer than any that a hook may give
 
 
 class Transitions:
@@ -82,15 +73,8 @@ class Transitions:
     def _note_trip(
         self, event: str, mission: Mission[Any], trip: Trip, drone: Drone | None, **facts: object
     ) -> None:
-        self._note(
-            event,
-            mission,
-            trip=trip.name,
-            drone=drone.id if drone else None,
-            round=mission.round,
-            attempt=trip.attempt,
-            **facts,
-        )
+        flown = {"trip": trip.name, "drone": drone.id if drone else None}
+        self._note(event, mission, **flown, round=mission.round, attempt=trip.attempt, **facts)
 
     def put_back(self, mission: Mission[Any]) -> None:
         """Reset the failed trip for a retry; one that has not flown since keeps its attempt."""

@@ -9,6 +9,7 @@ import pytest
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
 from tests.gateway.traffic.skies import Sky
 
@@ -49,6 +50,24 @@ def test_below_a_low_ceiling_one_waits_on_the_ground_until_the_other_has_passed(
     assert not first.is_set
     assert sky.until(second, 30)
     assert sky.nearest >= APART - 1e-6
+
+
+def test_of_two_jobs_of_one_instant_the_first_that_was_given_goes_first() -> None:
+    """As those of a brain in another process do, which come one by one."""
+    sky = Sky([(1, 5), (5, 1)], airspace=LOW)
+    second, first = gives(sky, "cf2", (5, 9, 1.2)), gives(sky, "cf1", (9, 5, 1.2))
+    sky.advance(10)
+    assert (at(sky, "cf1"), at(sky, "cf2")[2] > 0) == ((1, 5, 0), True)
+    assert all(sky.until(job, 40) for job in (second, first))
+
+
+def test_one_that_hovers_a_little_too_high_is_passed_over() -> None:
+    """No real drone hovers exactly where it was told to; there is room for one way over it."""
+    sky = Sky([(5, 5), (1, 5)], airspace=Airspace(ceiling=2.0), slack=CRAZYFLIE.slack)
+    sky.put("cf1", (5, 5, 1.24))
+    sky.link = sky.another().link(sky.epoch)
+    assert sky.until(gives(sky, "cf2", (9, 5, 1.2)), 40)
+    assert sky.nearest >= APART + CRAZYFLIE.slack - 1e-6
 
 
 def test_of_two_with_the_same_target_the_second_comes_when_the_first_has_gone() -> None:

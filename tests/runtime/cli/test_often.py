@@ -17,7 +17,7 @@ import pytest
 
 from pluto_fleet.cli import runs
 from pluto_fleet.cli.runs import percentile, run_of
-from pluto_fleet.shared.alone.simulate import SimulationResult
+from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.trials.invariants import Items
 from tests.runtime.cli.conftest import Command

@@ -16,10 +16,10 @@ PAGE = (Path(__file__).parents[3] / "docs" / "files.md").read_text(encoding="utf
 
 def test_the_examples_are_a_plan_that_loads(tmp_path: Path) -> None:
     """The missions file, and the fleet file with its world, a carrier added."""
-    missions, fleet, options, world = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+    missions, fleet, options, motion, world = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
     carrier = '[[drone]]\nid = "cf3"\ncategory = "carrier"\nhome = [1.5, 0.5]\n'
     (tmp_path / "m.toml").write_text(missions, encoding="utf-8")
-    (tmp_path / "f.toml").write_text(fleet + carrier + options + world, encoding="utf-8")
+    (tmp_path / "f.toml").write_text(fleet + carrier + options + motion + world, encoding="utf-8")
     team = load_fleet(tmp_path / "f.toml", APP)
     flown = load_missions(tmp_path / "m.toml", APP, team.airspace)
     assert len(flown[0].trips) == 4

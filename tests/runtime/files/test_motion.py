@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import fields, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -47,7 +48,7 @@ def read(text: str) -> Motion:
         ('taper = "0 %"', "taper", 0.0),
     ],
 )
-def test_each_key_changes_its_part_of_the_motion(line: str, key: str, value: float) -> None:
+def test_each_key_changes_its_part_of_the_motion(line: str, key: str, value: Any) -> None:
     """A Crazyflie's, or that of drones that fly straight."""
     assert read(f"{DRONE}[motion]\n{line}") == replace(CRAZYFLIE, **{key: value})
     straight = f'{DRONE}[motion]\nlegs = "straight"\n{line}'
@@ -100,7 +101,7 @@ changes = st.fixed_dictionaries(
 
 
 @given(st.sampled_from([CRAZYFLIE, STRAIGHT]), changes)
-def test_what_is_written_is_read_again(usual: Motion, changed: dict[str, float]) -> None:
+def test_what_is_written_is_read_again(usual: Motion, changed: dict[str, Any]) -> None:
     """And no more of it than differs from the default."""
     motion = replace(usual, **changed)
     written = fleet_text(replace(default_fleet(APP), motion=motion))

@@ -6,7 +6,7 @@ from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from pluto_fleet.gateway.executor import Executor
-from pluto_fleet.shared.alone.faults import Faults, Order, draw
+from pluto_fleet.shared.alone.faults import Drawn, Faults, draw
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
@@ -18,6 +18,9 @@ from pluto_fleet.simulation.drones import SimulatedNavigation
 
 T = TypeVar("T")
 
+Flight = tuple[str, float]
+"""Its id, and the seconds that it is expected to take."""
+
 SCOUT = Category(name="scout", speed=0.5, flight_time=420, charge_time=1200)
 HOME = (1.0, 1.0, 0.0)
 CLIMB = 4.0  # seconds to the cruise height of 1.2 m
@@ -27,11 +30,12 @@ PLAIN = Airspace()
 class Team(SimulatedNavigation):
     """The same, with what a gateway adds: flights begin, and drones are brought home."""
 
-    async def takeoff(self, drone: str, height: float, order: Order | None = None) -> None:
+    async def takeoff(self, drone: str, height: float, order: Flight | None = None) -> None:
         """Take off for a flight, or for none."""
         body, now = self.bodies[drone], self._kernel.now
         body.check(now)
-        body.begin(draw(self._faults, self._seed, order), now)
+        drawn = draw(self._faults, self._seed, *order) if order else Drawn()
+        body.begin(drawn, now)
         await super().takeoff(drone, height)
 
     async def recover(self, drone: str) -> bool:
@@ -93,6 +97,6 @@ def failure(kernel: VirtualTime, coroutine: Coroutine[Any, Any, object]) -> Flig
     raise AssertionError("the flight went well")
 
 
-def order(name: str = "North field/A/0/1", seconds: float = 15.0) -> Order:
-    """Return the order of a flight; to (4, 5) and a photo take 15 s from home."""
-    return Order(id=name, seconds=seconds)
+def order(name: str = "North field/A/0/1", seconds: float = 15.0) -> Flight:
+    """Return the id and the seconds of a flight; to (4, 5) and a photo take 15 s from home."""
+    return name, seconds

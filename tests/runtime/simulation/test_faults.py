@@ -53,7 +53,7 @@ def place_at(seconds: float) -> Point:
 def test_a_crash_comes_at_its_moment(seed: int) -> None:
     """The drone lies below where it was then, keeps its charge, and is lost."""
     kernel, navigation = at_home(Faults(crash=1), seed=seed)
-    moment = draw(Faults(crash=1), seed, order()).crash
+    moment = draw(Faults(crash=1), seed, *order()).crash
     assert moment is not None
     error = failure(kernel, flight(navigation))
     x, y, _ = place_at(moment)
@@ -75,9 +75,9 @@ def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
 ) -> None:
     """A command is on its way for a while: what is drawn comes so long after the drone has left."""
     kernel, navigation = at_home(Faults(link=1), seed=seed)
-    drawn = draw(Faults(link=1), seed, order()).link
+    drawn = draw(Faults(link=1), seed, *order()).link
     assert drawn is not None
-    navigation.bodies["cf1"].begin(draw(Faults(link=1), seed, order()), kernel.now)
+    navigation.bodies["cf1"].begin(draw(Faults(link=1), seed, *order()), kernel.now)
     fly(kernel, kernel.sleep(late))
 
     async def flight() -> None:
@@ -199,7 +199,7 @@ def test_a_drawn_empty_battery_is_empty() -> None:
 def test_a_battery_may_run_out_during_the_failsafe_landing() -> None:
     """Then waiting for the link is not enough: a person must fetch the drone."""
     kernel = VirtualTime()
-    drawn = draw(Faults(link=1), 2, order()).link
+    drawn = draw(Faults(link=1), 2, *order()).link
     assert drawn is not None
     navigation = team(kernel, Faults(link=1), seed=2, battery_level=(drawn + 0.5) / 420)
     assert failure(kernel, flight(navigation)).failure is Failure.LINK
@@ -242,7 +242,7 @@ def test_a_failed_action_of_the_apps_own_fails_at_once() -> None:
 def test_what_goes_wrong_ends_with_the_landing() -> None:
     """The next flight, without an order, goes well; so does the rest of one that is on its way."""
     kernel, navigation = at_home(Faults(crash=1, action=1))
-    drawn = draw(Faults(crash=1, action=1), 1, order(seconds=9999))
+    drawn = draw(Faults(crash=1, action=1), 1, *order(seconds=9999))
     assert drawn.crash is not None
     assert drawn.crash > 100
 
@@ -269,7 +269,7 @@ def test_a_new_order_in_the_air_draws_anew() -> None:
     assert begun == CLIMB + 50
     failure(kernel, navigation.hold("cf1"))
     assert kernel.now == pytest.approx(
-        begun + (draw(Faults(crash=1), 1, order("x/y/0/2", seconds=8)).crash or 0)
+        begun + (draw(Faults(crash=1), 1, *order("x/y/0/2", seconds=8)).crash or 0)
     )
 
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.flying import fly_straight
 from tests.release.environments import ROOT, compile_app, succeed
 
 
@@ -47,6 +48,7 @@ def _install(names: Sequence[str], folder: Path) -> None:
     wanted = []
     for name in names:
         shutil.copytree(ROOT / "examples" / name, folder / name)
+        fly_straight(folder / name / "fleet.toml")
         package = compile_app(folder / name / "app.pluto", folder / name / "package")
         wanted.append(f"{package}[station]")
     venv.create(folder / "venv", with_pip=False)

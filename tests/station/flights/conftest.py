@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
-from tests.flying import EXAMPLES, compiled
+from tests.flying import EXAMPLES, compiled, fly_straight
 from tests.station.browser.installed import App
 from tests.station.browser.serving import Station
 
@@ -23,12 +24,14 @@ def program_of(name: str, folder: Path) -> App:
     path = f"PYTHONPATH='{package / 'src'}'"
     program.write_text(f"#!/bin/sh\n{path} exec '{sys.executable}' -m {name} \"$@\"\n")
     program.chmod(0o755)
-    example = EXAMPLES / name
+    files = folder / "files" / name
+    shutil.copytree(EXAMPLES / name, files)
+    fly_straight(files / "fleet.toml")
     return App(
         name=name,
         program=program,
-        fleet=example / "fleet.toml",
-        missions=example / "missions.toml",
+        fleet=files / "fleet.toml",
+        missions=files / "missions.toml",
     )
 
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from .legs import between
 
 if TYPE_CHECKING:
-    from ...shared.domain.model import Point, Telemetry
+    from ...jobs.telemetry import Telemetry
+    from ...shared.domain.model import Point
 
 DRIFT = 0.3
 """Metres that a hovering drone may drift before it is noticed."""
@@ -25,7 +26,10 @@ Box = tuple[float, float, float, float, float, float]
 class Reservation:
     """The space reserved for one drone. The part behind it is free, by its telemetry."""
 
-    __slots__ = ("at", "box", "drone", "fails", "moves", "points", "tail", "telemetry", "until")
+    __slots__ = (
+        *("_known", "_shape", "at", "box", "drone", "fails"),
+        *("moves", "points", "shape_box", "tail", "telemetry", "until"),
+    )
 
     def __init__(self, drone: str, telemetry: Telemetry) -> None:
         self.drone, self.telemetry = drone, telemetry
@@ -39,6 +43,12 @@ class Reservation:
         self.until = 0.0
         """Until when that may be so."""
         self.box: Box = (0.0,) * 6
+        """The box around all that it may take up until it is told something else."""
+        self.shape_box = self.box
+        """The box around the shape that was asked for last."""
+        self._shape: tuple[Point, ...] = ()
+        self._known: tuple[float, int, tuple[Point, ...]] = -1.0, 0, ()
+        """For when, from which point and for which route the shape was asked for last."""
 
     def moves_along(self, points: tuple[Point, ...], tail: tuple[Point, ...]) -> None:
         """Reserve a route that it is about to fly, with its possible overshoot."""
@@ -59,14 +69,13 @@ class Reservation:
         self.moves, self.fails = False, True
         self._widen()
 
-    @property
-    def touches_down(self) -> bool:
-        """Whether it is landing, and nearly on the ground."""
+    def touches_down(self, now: float) -> bool:
+        """Return whether it is landing, and nearly on the ground."""
         return (
             self.moves
             and self.points[-1][2] <= 0.0
             and self.at >= len(self.points) - 2
-            and self.telemetry.location[2] < NEARLY
+            and self.shape(now)[0][2] < NEARLY
         )
 
     def _widen(self) -> None:
@@ -77,6 +86,13 @@ class Reservation:
 
     def shape(self, now: float) -> tuple[Point, ...]:
         """Return the reserved line, as its corners."""
+        then, at, points = self._known
+        if then != now or at != self.at or points is not self.points:
+            self._shape, self._known = self._seen(now), (now, self.at, self.points)
+            self.shape_box = box_of(self._shape)
+        return self._shape
+
+    def _seen(self, now: float) -> tuple[Point, ...]:
         here = self.telemetry.location
         if self.moves:
             return (here, *self.points[self.at + 1 :], *self.tail)
@@ -108,6 +124,18 @@ def box_of(points: Sequence[Point]) -> Box:
         elif pz > most_z:
             most_z = pz
     return x, y, z, most_x, most_y, most_z
+
+
+def are_near(a: Box, b: Box, limit: float) -> bool:
+    """Return whether two boxes come nearer to each other than a distance, along every axis."""
+    return (
+        a[0] < b[3] + limit
+        and b[0] < a[3] + limit
+        and a[1] < b[4] + limit
+        and b[1] < a[4] + limit
+        and a[2] < b[5] + limit
+        and b[2] < a[5] + limit
+    )
 
 
 def nearest(a: tuple[Point, ...], b: tuple[Point, ...]) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import Failure, FlightFailed
 from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
-from .reservations import Reservation, box_of, meets, nearest, part_way
+from .reservations import Reservation, are_near, meets, nearest, part_way
 from .wait_queue import Obstacle, Wait
 from .ways import Ground, Section, sections
 
@@ -27,6 +27,8 @@ ELDER = 20.0
 """Seconds after which later requests may not take what a drone waits for."""
 OVERSHOOT, STOPPING = 0.6, 2.0
 """How far a real drone overshoots when it stops, in metres, and for how long."""
+SWAY = 0.05
+"""By how much two real drones may be nearer to each other than the places where they were told to be."""
 _EXACT = 1e-9
 
 Ways = Callable[[Section], Iterable[Section]]
@@ -54,6 +56,8 @@ class Traffic:
         self.limit = self.step - _EXACT
         self.is_real = slack > 0
         """Whether drones are real: simulated ones stop at once."""
+        self.level = self.step + (SWAY if self.is_real else 0.0)
+        """The height between two ways of which one leads over the other."""
         self._overshoot = OVERSHOOT if self.is_real else 0.0
         self._most = len(drones) if max_airborne is None else max_airborne
         self.is_limited = self._most < len(drones)
@@ -110,7 +114,7 @@ class Traffic:
     def rests(self, drone: str) -> None:
         """Called when a drone is at the end of its section."""
         if self._telemetry[drone].landed:
-            self._claims.pop(drone, None)
+            self._drop(drone)
         else:
             claim = self._claim(drone)
             claim.rests(claim.tail, self._kernel.now + STOPPING)
@@ -121,7 +125,7 @@ class Traffic:
         claim = self._claims.get(drone)
         telemetry = self._telemetry[drone]
         if telemetry.landed:
-            self._claims.pop(drone, None)
+            self._drop(drone)
         elif fails:
             self._claim(drone).sinks()
             self._stop_before(drone)
@@ -202,9 +206,10 @@ class Traffic:
         """Return a free section. Most are still blocked by the same drone as before."""
         if not self._has_room(wait.section):
             return None
+        now = self._kernel.now
         for index, way in enumerate(wait.ways):
             obstacle, elder = wait.obstacles[index], wait.elders[index]
-            if obstacle is not None and self._stays(obstacle, way):
+            if obstacle is not None and (obstacle.is_sure(now) or self._stays(obstacle, way)):
                 continue
             if index and elder is not None and self._waiting.get(elder.section.drone) is elder:
                 continue  # the first one's obstacle must be known
@@ -217,20 +222,16 @@ class Traffic:
         return None
 
     def _stays(self, obstacle: Obstacle, way: Section) -> bool:
-        """Return whether an obstacle is still on a route."""
-        claim, now = obstacle.claim, self._kernel.now
-        if self._claims.get(claim.drone) is not claim:
+        """Return whether an obstacle that may have left a route is still there."""
+        claim = obstacle.claim
+        if self._claims.get(claim.drone) is not claim or not self._is_in_the_way(claim, way):
             return False
-        if obstacle.is_sure(now):
-            return True
-        if not self._is_in_the_way(claim, _whole(way), way.stands):
-            return False
-        obstacle.seen(_whole(way), self.limit, now)
+        obstacle.seen(way.whole, self.limit, self._kernel.now)
         return True
 
     def _obstacle(self, claim: Reservation, way: Section) -> Obstacle:
         obstacle = Obstacle(claim, self._drones[claim.drone].category, self.is_real)
-        obstacle.seen(_whole(way), self.limit, self._kernel.now)
+        obstacle.seen(way.whole, self.limit, self._kernel.now)
         return obstacle
 
     def _should_land(self, wait: Wait) -> bool:
@@ -245,7 +246,7 @@ class Traffic:
     # Reservations
 
     def _ways(self, section: Section, ways: Ways | None) -> Iterable[Section]:
-        return sections(section, self.step, self._airspace) if ways is None else ways(section)
+        return sections(section, self.level, self._airspace) if ways is None else ways(section)
 
     def _give(self, section: Section) -> Section:
         claim = self._claim(section.drone)
@@ -258,6 +259,12 @@ class Traffic:
             claim = self._claims[drone] = Reservation(drone, self._telemetry[drone])
         return claim
 
+    def _drop(self, drone: str) -> None:
+        """Release all that a drone has reserved."""
+        claim = self._claims.pop(drone, None)
+        if claim is not None:
+            claim.points = ()  # so that no other takes it for an obstacle
+
     def _has_room(self, section: Section) -> bool:
         """Return whether a drone may take off, by the limit of drones in the air."""
         claims = self._claims
@@ -265,7 +272,7 @@ class Traffic:
             return True
         for claim in [*claims.values()]:  # some may have come down by themselves
             if not claim.moves and self._is_over(claim):
-                del claims[claim.drone]
+                self._drop(claim.drone)
         return len(claims) < self._most
 
     def _is_over(self, claim: Reservation) -> bool:
@@ -280,8 +287,8 @@ class Traffic:
         claims, drone = self._claims, section.drone
         if not claims or (len(claims) == 1 and drone in claims):
             return None
-        way, limit = _whole(section), self.limit
-        x, y, z, most_x, most_y, most_z = box_of(way)
+        limit = self.limit
+        x, y, z, most_x, most_y, most_z = section.box
         x, y, z = x - limit, y - limit, z - limit
         most_x, most_y, most_z = most_x + limit, most_y + limit, most_z + limit
         for claim in claims.values():
@@ -294,7 +301,7 @@ class Traffic:
                 and box[2] < most_z
                 and box[5] > z
                 and claim.drone != drone
-                and self._is_in_the_way(claim, way, section.stands)
+                and self._is_in_the_way(claim, section)
             ):
                 return claim
         return None
@@ -302,19 +309,21 @@ class Traffic:
     def touches_down(self, drone: str) -> bool:
         """Return whether a real drone is about to be on the ground: it reports to fly for seconds more."""
         claim = self._claims.get(drone)
-        return self.is_real and claim is not None and claim.touches_down
+        return self.is_real and claim is not None and claim.touches_down(self._kernel.now)
 
-    def _is_in_the_way(self, claim: Reservation, way: tuple[Point, ...], stands: bool) -> bool:
-        shape, limit = claim.shape(self._kernel.now), self.limit
-        if self.is_real and claim.touches_down:
-            limit = self.apart - _EXACT
+    def _is_in_the_way(self, claim: Reservation, section: Section) -> bool:
+        way, shape, limit = section.whole, claim.shape(self._kernel.now), self.limit
+        if not are_near(section.box, claim.shape_box, limit):
+            return False
+        if self.is_real and claim.touches_down(self._kernel.now):
+            limit = self.apart - SWAY  # docks may stand just so far apart
         if not meets(way, shape, limit):
             return False
         if claim.moves:
             return True
         if self._is_over(claim):
             return False
-        if stands:
+        if section.stands:
             return True
         # A drone that is too near to a hovering one already may fly away from it, but no nearer.
         now = nearest(way[:1], shape[:1])
@@ -323,9 +332,10 @@ class Traffic:
     def _elder(self, section: Section, since: float) -> Wait | None:
         """Return a drone that has waited for long for space that a section takes.
 
-        A landing is never blocked by that, nor a drone that makes room for the elder one.
+        A landing is never blocked by that, nor the way to one's dock, nor a drone that makes room for
+        the elder one.
         """
-        if section.lands:
+        if section.lands or section.tail:
             return None
         for wait in self._waiting.values():
             wanted = wait.section
@@ -333,6 +343,7 @@ class Traffic:
                 wait.since < since
                 and self._kernel.now - wait.since >= ELDER
                 and wanted.drone != section.drone
+                and are_near(section.box, wanted.box, self.limit)
                 and meets(section.points, wanted.points, self.limit)
                 and (
                     section.stands
@@ -342,11 +353,6 @@ class Traffic:
             ):
                 return wait
         return None
-
-
-def _whole(section: Section) -> tuple[Point, ...]:
-    """Return a section with its continuation."""
-    return (*section.points, *section.tail) if section.tail else section.points
 
 
 def _ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:

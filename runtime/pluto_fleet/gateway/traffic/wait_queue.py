@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from ...shared.domain.motion import CLIMB_SPEED
+from ...shared.domain.motion import CLIMB_SPEED, smoothly
 from ...shared.time.future import Future
-from .reservations import Reservation, meets, part_way
+from .reservations import NEARLY, Reservation, meets, part_way
 from .ways import Section
 
 if TYPE_CHECKING:
@@ -22,18 +22,20 @@ _HALVINGS = 4
 _HOVERS = 5.0
 """Seconds after which a hovering obstacle is checked again: it may have come down."""
 _EXACT = 1e-6
+_ALMOST = 0.9
+"""The share of the expected time of a leg that it takes at least: no drone flies exactly as expected."""
+_STEPS = 1000
+_SMOOTHLY = [smoothly(step / _STEPS) for step in range(_STEPS + 1)]
+"""The share of a smooth leg that is flown after each step of its time."""
 
 
 class Obstacle:
     """A drone on another's route. While its command is unchanged, it is there until it can have left."""
 
-    __slots__ = ("_cruise", "_points", "_until", "_upright", "claim")
+    __slots__ = ("_category", "_is_real", "_points", "_until", "claim")
 
     def __init__(self, claim: Reservation, category: Category, is_real: bool) -> None:
-        self.claim = claim
-        self._cruise = category.speed
-        self._upright = max(self._cruise, CLIMB_SPEED) if is_real else CLIMB_SPEED
-        """Its maximum vertical speed; for simulated drones the exact one."""
+        self.claim, self._category, self._is_real = claim, category, is_real
         self._points: tuple[Point, ...] = ()
         self._until = -inf
 
@@ -54,14 +56,12 @@ class Obstacle:
 
     def _seconds(self, way: tuple[Point, ...], limit: float, shape: tuple[Point, ...]) -> float:
         """Return the least seconds until the rest of its route is clear of another route."""
-        legs = [(a, b, self._cruise) for a, b in pairwise(shape)]
-        if self.claim.at == 0 and self._points[0][2] <= 0.0:
-            legs[0] = (*legs[0][:2], self._upright)
-        if shape[-1][2] <= 0.0:
-            legs[-1] = (*legs[-1][:2], self._upright)
-        while len(legs) > 1 and not meets(way, legs[-1][:2], limit):
-            legs.pop()
-        a, b, speed = legs[-1]
+        last = len(shape) - 2
+        while last and not meets(way, shape[last : last + 2], limit):
+            last -= 1
+        if last:  # when it is on its last leg, it is looked at again
+            return sum(self._takes(shape, leg, 1.0) for leg in range(last))
+        a, b = shape[:2]
         least, most = 0.0, 1.0
         for _ in range(_HALVINGS):
             part = (least + most) / 2
@@ -69,8 +69,32 @@ class Obstacle:
                 least = part
             else:
                 most = part
-        legs[-1] = a, part_way(a, b, least), speed
-        return sum(dist(a, b) / speed for a, b, speed in legs)
+        if self._is_real and b[2] <= 0.0 < a[2]:  # others come nearer once it touches down
+            least = min(least, max(0.0, 1.0 - NEARLY / a[2]))
+        return self._takes(shape, 0, least)
+
+    def _takes(self, shape: tuple[Point, ...], leg: int, part: float) -> float:
+        """Return the least seconds in which it flies a part of a leg that lies before it, from where it is."""
+        motion, (start, end) = self._category.motion, shape[leg : leg + 2]
+        rises = leg == 0 == self.claim.at and self._points[0][2] <= 0.0
+        flies = motion.climb if rises else motion.sink if end[2] <= 0.0 else motion.leg
+        speed = self._category.speed
+        if (
+            self._is_real and not motion.smooth
+        ):  # real drones may go up and down as fast as they fly
+            flies = motion.leg if speed > CLIMB_SPEED else flies
+        if leg or not motion.smooth:
+            gone, metres = 0.0, dist(start, end)
+        else:  # it flies slowly where that leg begins and ends
+            left, behind = dist(start, end), dist(self._points[self.claim.at], start)
+            metres = left + behind
+            gone = behind / metres if metres else 1.0
+        seconds = flies(metres, speed) * min(_ALMOST, 1.0 - 3.0 * motion.spread)
+        if not motion.smooth:
+            return seconds * part
+        begins = bisect_left(_SMOOTHLY, gone) / _STEPS
+        ends = (bisect_right(_SMOOTHLY, gone + part * (1.0 - gone)) - 1) / _STEPS
+        return seconds * max(0.0, ends - begins)
 
 
 @dataclass(slots=True, eq=False)

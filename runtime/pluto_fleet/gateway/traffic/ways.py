@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from itertools import islice, pairwise
+from dataclasses import dataclass, field, replace
+from itertools import chain, islice, pairwise
 from math import dist, hypot
 from typing import TYPE_CHECKING
 
 from ...jobs.landing_sites import free_spots, is_free
 from ...shared.fleet.reach import docked
 from .legs import leg_problem
+from .reservations import box_of
 from .way_back import way_back
 
 if TYPE_CHECKING:
     from ...jobs.controls import FleetDrone
+    from ...jobs.telemetry import Telemetry
     from ...shared.domain.airspace import Airspace
-    from ...shared.domain.model import Point, Telemetry
+    from ...shared.domain.model import Point
+    from .reservations import Box
 
 
 FURTHEST, SHARE = 1.5, 0.05
@@ -40,6 +43,16 @@ class Section:
     """Where it goes next by default: to its dock."""
     aside: bool = False
     """It only makes room for others."""
+    whole: tuple[Point, ...] = field(init=False, compare=False, repr=False)
+    """It with its tail."""
+    box: Box = field(init=False, compare=False, repr=False)
+    """The box around all that."""
+
+    def __post_init__(self) -> None:
+        # Frozen, yet both are asked for again and again.
+        whole = (*self.points, *self.tail) if self.tail else self.points
+        object.__setattr__(self, "whole", whole)
+        object.__setattr__(self, "box", box_of(whole))
 
     def bent(self, offset: float) -> Section:
         """Return the section with the middle of its only leg raised, which costs next to nothing."""
@@ -214,7 +227,7 @@ class Ground:
         return next(self.ways_down(drone), straight)
 
     def ways_down(self, drone: str) -> Iterator[Section]:
-        """Yield ways to where a drone that hovers can land: straight below first, if it may."""
+        """Yield ways to where a drone that hovers can land: straight below first, its dock last, if it may."""
         here, airspace, step = self._telemetry[drone].location, self._airspace, self._step
         below, (x, y, z) = self.below(drone, here), here
         if below is not None:
@@ -222,7 +235,9 @@ class Ground:
         back = () if airspace.problem(here) is None else (way_back(airspace, here),)
         if back:
             ((x, y, z),) = back
-        for spot in islice(free_spots(airspace, (x, y, z), self._taken(drone), step), _SPOTS):
+        dock = self.below(drone, self._drones[drone].home)
+        spots = islice(free_spots(airspace, (x, y, z), self._taken(drone), step), _SPOTS)
+        for spot in chain(spots, () if dock is None else (dock,)):
             if spot[:2] == here[:2]:
                 continue
             if z > LOWEST and leg_problem(airspace, (x, y, z), spot) is None:

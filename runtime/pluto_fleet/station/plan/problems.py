@@ -151,7 +151,7 @@ def _bare(given: Mapping[str, object]) -> dict[str, object]:
 
 def _document(app: App, missions: Sequence[Shape]) -> Document:
     data: dict[str, object] = {"mission": [as_in_a_file(mission) for mission in missions]}
-    return Document("", data, {}, on_a_screen(app))
+    return Document("", data, words=on_a_screen(app))
 
 
 def _problem(missions: Sequence[Shape], place: TomlPath, text: str, alone: str) -> PlanProblem:

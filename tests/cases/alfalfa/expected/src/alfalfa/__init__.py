@@ -33,24 +33,16 @@ __all__ = [
 
 if not TYPE_CHECKING:
     _HOMES = {
-        "ActionFailed": "._runtime.domain.errors",
-        "Category": "._runtime.domain.model",
-        "Context": "._runtime.hooks.context",
-        "Drone": "._runtime.domain.model",
-        "Item": "._runtime.domain.model",
-        "LiveDrone": "._runtime.hooks.context",
-        "Mission": ".model",
-        "Photo": "._runtime.domain.model",
-        "Point": "._runtime.domain.model",
-        "Result": ".model",
-        "Results": ".model",
-        "Status": "._runtime.domain.status",
-        "Trip": ".model",
-        "Verdict": "._runtime.hooks.context",
+        "._runtime.domain.errors": ["ActionFailed"],
+        "._runtime.domain.model": ["Category", "Drone", "Item", "Photo", "Point"],
+        "._runtime.hooks.context": ["Context", "LiveDrone", "Verdict"],
+        ".model": ["Mission", "Result", "Results", "Trip"],
+        "._runtime.domain.status": ["Status"],
     }
 
     def __getattr__(name: str) -> object:
         """Import a type when it is first asked for: importing the package alone costs nothing."""
-        if name not in _HOMES:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        return getattr(import_module(_HOMES[name], __name__), name)
+        for home, names in _HOMES.items():
+            if name in names:
+                return getattr(import_module(home, __name__), name)
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,0 +1,186 @@
+"""What is fitted to journals of drones whose motion is known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from pluto_fleet.calibration.commands import Command, Flights, read_flights
+from pluto_fleet.calibration.estimates import Row, chi_square, fitted, student
+from pluto_fleet.calibration.fit import calibrated
+from pluto_fleet.calibration.found import Calibration
+from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, Motion
+from pluto_fleet.shared.time.kernel import Kernel
+from pluto_fleet.simulation.radio import ANSWER, Radio
+from tests.calibrating.campaign import campaign
+from tests.calibrating.flights import flown, surveyed
+from tests.runtime import apps
+
+SLOW = replace(CRAZYFLIE, pace=1.1, settles=0.6, take_off=0.8, landing=1.2, drain=1.25)
+EXACT = SLOW.exact
+
+
+def test_journals_of_a_known_motion_are_fitted_within_their_uncertainty(tmp_path: Path) -> None:
+    """The first of a hundred cases; `python -m tests.calibrating` fits them all."""
+    tally = campaign(range(12), tmp_path)
+    assert tally.whole >= 0.95 * tally.cases, tally.lines()
+    assert tally.noted == []
+    assert min(tally.told[name] for name in ("pace", "settles", "take_off", "spread")) == 12
+
+
+@pytest.mark.long
+def test_a_hundred_cases_are(tmp_path: Path) -> None:
+    tally = campaign(range(100), tmp_path)
+    assert tally.whole >= 95, tally.lines()
+    assert len(tally.noted) <= 2, tally.lines()
+
+
+def test_the_intervals_are_no_wider_than_they_need_be(tmp_path: Path) -> None:
+    """One that always holds says nothing."""
+    what = surveyed_and_fitted(tmp_path, replace(SLOW, spread=0.02), trips=90)
+    wide = {name: found.high - found.low for name, found in what.found.items()}
+    assert wide["pace"] < 0.02
+    assert max(wide[name] for name in ("settles", "take_off", "landing")) < 0.5
+    assert wide["spread"] < 0.01
+
+
+def surveyed_and_fitted(
+    folder: Path, motion: Motion, *, trips: int = 30, **more: object
+) -> Calibration:
+    path = surveyed(folder / "J", motion, said=CRAZYFLIE, trips=trips, **more)  # type: ignore[arg-type]
+    return calibrated([read_flights(path)], CRAZYFLIE)
+
+
+def test_what_does_not_vary_is_found_exactly(tmp_path: Path) -> None:
+    what = surveyed_and_fitted(tmp_path, EXACT)
+    for name in ("pace", "settles", "take_off", "landing", "drain"):
+        assert what.found[name].value == pytest.approx(getattr(EXACT, name), abs=1e-3)
+    assert what.found["spread"].value < 1e-3
+    assert what.found["charge"].value == pytest.approx(1, abs=1e-3)
+    assert (what.untold, what.notes, what.far_off) == ({}, [], 0)
+
+
+def test_some_commands_that_take_far_too_long_change_little(tmp_path: Path) -> None:
+    """A radio that must say things again and again, for one."""
+    chance = Random(1)
+
+    def retries(kernel: Kernel, controls: object) -> Radio:
+        def delay(what: str) -> float:
+            return chance.uniform(3, 20) if what == ANSWER and chance.random() < 0.08 else 0.0
+
+        return Radio(kernel, controls, delay)  # type: ignore[arg-type]
+
+    truth = replace(SLOW, spread=0.02, action_spread=0.03)
+    what = surveyed_and_fitted(tmp_path, truth, trips=60, around=retries)
+    assert what.far_off > 10
+    for name in ("pace", "settles", "take_off", "landing", "spread", "action_spread"):
+        found = what.found[name]
+        assert found.low <= getattr(truth, name) <= found.high, name
+
+
+def test_legs_that_are_all_alike_do_not_tell_pace_from_settling(tmp_path: Path) -> None:
+    app = apps.changed(apps.app(apps.flow(), categories=[SCOUT]), resumes=("allocate",))
+    fleet = replace(apps.fleet((1.0, 1.0, 0.0)), motion=CRAZYFLIE)
+    there = [apps.trip(str(at), 4.0, 1.0) for at in range(20)]
+    path = flown(tmp_path / "J", app, fleet, apps.mission("m", *there), motion=EXACT)
+    what = calibrated([read_flights(path)], CRAZYFLIE)
+    assert what.untold["settles"].startswith("all legs are about as long")
+    leg = EXACT.flies(3.0, SCOUT.speed)
+    assert replace(CRAZYFLIE, pace=what.found["pace"].value).flies(3.0, SCOUT.speed) == (
+        pytest.approx(leg, abs=1e-3)
+    )
+
+
+SCOUT = Category(name="scout", speed=0.5)
+
+
+def test_what_there_is_too_little_of_is_not_told(tmp_path: Path) -> None:
+    what = surveyed_and_fitted(tmp_path, SLOW, trips=1, drones=1)
+    assert what.found == {}
+    assert what.untold["pace"] == "it takes 5 legs at least, and there are 2"
+    assert what.untold["take_off"] == "it takes 3 take-offs at least, and there is 1"
+    assert what.untold["drain"] == "it takes 6 whole flights at least, and there is 1"
+    assert what.untold["action_spread"] == "it takes 6 built-in actions at least, and there is 1"
+
+
+def test_a_category_that_moves_otherwise_is_noted(tmp_path: Path) -> None:
+    """`[motion]` is for the whole fleet."""
+    slow, fast = (
+        flights.runs[0]
+        for flights in (
+            read_flights(surveyed(tmp_path / name, motion, said=CRAZYFLIE, trips=30, seed=seed))
+            for name, motion, seed in (
+                ("slow", replace(SLOW, spread=0.02), 1),
+                ("fast", replace(SLOW, spread=0.02, pace=1.0), 2),
+            )
+        )
+    )
+    heavy = [replace(one, category="heavy", drone=f"{one.drone}b") for one in slow]
+    what = calibrated([of([*heavy, *fast])], CRAZYFLIE)
+    first, second, *drones = what.notes
+    assert first.startswith('category "heavy" takes ')
+    assert "longer than the whole fleet" in first
+    assert second.startswith('category "scout" takes ')
+    assert "shorter than the whole fleet" in second
+    assert all(one.startswith("drone ") for one in drones)
+
+
+def of(commands: Sequence[Command]) -> Flights:
+    return Flights(path=Path("J"), fleet=None, runs=[commands])
+
+
+def test_short_legs_that_take_longer_than_a_settling_explains_are_noted(tmp_path: Path) -> None:
+    """As drones do that overshoot after a hard acceleration."""
+    truth = replace(EXACT, spread=0.01)
+    path = surveyed(tmp_path / "J", truth, said=CRAZYFLIE, trips=60, within=4.0)
+    commands = [
+        replace(one, ended_at=one.ended_at + 0.6 * (one.what == "leg" and one.metres < 1.5))
+        for one in read_flights(path).commands
+    ]
+    what = calibrated([of(commands)], CRAZYFLIE)
+    assert any(
+        one.startswith("legs of less than ") and " s longer than " in one for one in what.notes
+    )
+
+
+def test_what_was_broken_off_or_failed_is_counted_and_not_fitted(tmp_path: Path) -> None:
+    commands = list(
+        read_flights(surveyed(tmp_path / "J", EXACT, said=CRAZYFLIE, trips=30)).commands
+    )
+    legs = [one for one in commands if one.what == "leg"]
+    halved = [replace(one, ended_at=one.began + one.seconds / 2) for one in legs[:8]]
+    bad = [replace(one, ended="broken off") for one in halved[:5]]
+    bad += [replace(one, ended="failed") for one in halved[5:]]
+    what = calibrated([of([*commands, *bad])], CRAZYFLIE)
+    assert (what.broken_off, what.failed, what.far_off) == (5, 3, 0)
+    assert what.found["pace"].value == pytest.approx(EXACT.pace, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("probability", "spare", "quantile"),
+    [(0.975, 5, 2.571), (0.975, 30, 2.042), (0.995, 5, 4.032), (0.997, 10, 3.5)],
+)
+def test_students_quantiles(probability: float, spare: int, quantile: float) -> None:
+    """As tables have them."""
+    assert student(probability, spare) == pytest.approx(quantile, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("probability", "spare", "quantile"),
+    [(0.025, 10, 3.247), (0.975, 10, 20.483), (0.025, 50, 32.357), (0.995, 50, 79.490)],
+)
+def test_chi_square_quantiles(probability: float, spare: int, quantile: float) -> None:
+    """As tables have them."""
+    assert chi_square(probability, spare) == pytest.approx(quantile, rel=0.01)
+
+
+def test_measurements_that_do_not_determine_the_parameters_are_not_fitted() -> None:
+    alike = [Row((2.0, 1.0), 5.0 + at / 100) for at in range(20)]
+    assert fitted(alike, relative=True, finest=1e-4, near=0.0) is None
+    assert fitted(alike[:2], relative=True, finest=1e-4, near=0.0) is None
+    assert fitted([], relative=True, finest=1e-4, near=0.0) is None

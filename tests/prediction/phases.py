@@ -1,0 +1,169 @@
+"""How much longer each phase of a flight takes than its trajectory: what `CRAZYFLIE` in `domain/motion.py` says.
+
+    python -m tests.prediction.phases
+    python -m tests.prediction.phases --drones 8 --times 4
+
+Simulated Crazyflies fly side by side in this process, through cflib and by the team's own commands;
+their record says how long each trajectory was planned to take.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+import time
+from argparse import ArgumentParser
+from collections.abc import Callable, Coroutine, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from statistics import mean, stdev
+from tempfile import mkdtemp
+from typing import Any
+
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.equipment import camera, fitted, port_of
+from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.server import Server
+from pluto_fleet.drones import commands
+from pluto_fleet.drones.protocol import DroneSetup
+from pluto_fleet.drones.vehicle import Cargo, TeamDrone, Vehicle
+from pluto_fleet.shared.domain.actions import BUILT_IN, PICK, RELEASE
+from pluto_fleet.shared.domain.model import Category, Item
+from tests.apart import apart
+
+SPEEDS = (0.3, 0.5, 1.0)
+HEIGHTS = (0.5, 1.0, 1.6)
+LENGTHS = (0.3, 1.0, 3.0)
+PAUSES = (0.0, 2.0, 4.0)
+"""Seconds between a landing and the next take-off: three seconds after it the drone has disarmed."""
+ENDURING = 1e6
+"""Seconds that a battery lasts that is no matter here."""
+_ITEM = Item(name="pills", mass=0.008)
+_TICK = 0.011
+"""Seconds between two looks of a simulated drone at the time."""
+
+
+@dataclass(slots=True)
+class Craft:
+    """One drone with what flies it, and what each phase took besides its trajectory."""
+
+    vehicle: Vehicle
+    log: MemoryLog
+    home: tuple[float, float, float]
+    beside: dict[str, list[float]] = field(default_factory=dict)
+
+    async def took(
+        self, phase: str, command: Coroutine[Any, Any, object], what: str, planned: float = 0.0
+    ) -> None:
+        """Await a command; note how much longer it took than it was planned to."""
+        began = time.monotonic()
+        await command
+        seconds = time.monotonic() - began
+        for record in self.log.commands:
+            mine = record.drone == self.vehicle.id and record.time >= began - _TICK
+            if mine and record.what == what:
+                planned = record.values["duration"]
+                before = max(0.0, record.time - began)
+                self._note(f"{phase}: before", before)
+                seconds -= before
+        self._note(f"{phase}: after", seconds - planned)
+
+    def _note(self, phase: str, seconds: float) -> None:
+        self.beside.setdefault(phase, []).append(seconds)
+
+    async def fly(self) -> None:
+        """Fly all phases once."""
+        x, y, _ = self.home
+        for speed in SPEEDS:
+            self.vehicle.speed, self.vehicle.climb = speed, min(0.6, speed)
+            for height, pause in zip(HEIGHTS, PAUSES, strict=True):
+                await asyncio.sleep(pause)
+                up = commands.takeoff(self.vehicle, height)
+                await self.took(f"take-off, {pause:g} s after a landing", up, "takeoff")
+                for length in LENGTHS:
+                    for place in ((x + length, y, height), (x, y, height)):
+                        leg = commands.go_to(self.vehicle, place)
+                        await self.took(f"{length:g} m at {speed:g} m/s", leg, "go_to")
+                await self._act()
+                await self.took("landing", commands.land(self.vehicle), "land")
+
+    async def _act(self) -> None:
+        for action in BUILT_IN:
+            item = _ITEM if action in (PICK, RELEASE) else None
+            given = {"quantity": "temperature"} if action == "measure" else {}
+            done = commands.act(self.vehicle, action, given, item)
+            await self.took(action, done, "", BUILT_IN[action].seconds)
+
+
+async def measured(drones: int, times: int) -> dict[str, list[float]]:
+    """Return the seconds of each phase besides what was planned."""
+    log, folder = MemoryLog(), Path(mkdtemp(prefix="phases-"))
+    homes = [(1.0, 4.0 * place, 0.0) for place in range(drones)]
+    builds = [
+        Build(id=f"cf{place}", home=home, seed=place, flight=ENDURING)
+        for place, home in enumerate(homes)
+    ]
+    server = Server(builds, log)
+    await server.start()
+    streamer = await camera()
+    options = fitted({}, f"127.0.0.1:{port_of(streamer)}")
+    crafts = [
+        Craft(_vehicle(build, server.uris[build.id], options, folder / build.id), log, build.home)
+        for build in builds
+    ]
+    try:
+        await asyncio.gather(*(one.vehicle.navigation.connect() for one in crafts))
+        for one in crafts:
+            one.vehicle.linked = True
+        await asyncio.gather(*(_times(times, one.fly) for one in crafts))
+    finally:
+        await asyncio.gather(*(one.vehicle.navigation.close() for one in crafts))
+        await server.close()
+        streamer.close()
+    phases = dict.fromkeys(phase for one in crafts for phase in one.beside)
+    return {phase: [s for one in crafts for s in one.beside.get(phase, ())] for phase in phases}
+
+
+def _vehicle(build: Build, uri: str, options: dict[str, object], folder: Path) -> Vehicle:
+    folder.mkdir(parents=True)
+    setup = DroneSetup(
+        id=build.id, uri=uri, home=build.home, speed=1.0, options=options, folder=folder
+    )
+    drone = TeamDrone(
+        id=build.id,
+        category=Category(name="measured", flight_time=ENDURING),
+        home=build.home,
+        navigation=Crazyflie(setup),
+    )
+    return Vehicle(drone, Cargo(folder, print), print, time.monotonic)
+
+
+async def _times(times: int, fly: Callable[[], Coroutine[Any, Any, None]]) -> None:
+    for _ in range(times):
+        await fly()
+
+
+def table(phases: dict[str, list[float]]) -> Iterator[str]:
+    """Yield a table in Markdown."""
+    yield "| seconds besides the trajectory | n | mean | s.d. | least | most |"
+    yield "| --- | ---: | ---: | ---: | ---: | ---: |"
+    for phase, seconds in sorted(phases.items()):
+        figures = mean(seconds), stdev(seconds), min(seconds), max(seconds)
+        yield f"| {phase} | {len(seconds)} | {' | '.join(f'{one:.3f}' for one in figures)} |"
+
+
+def main() -> int:
+    """Measure, and print."""
+    parser = ArgumentParser(prog="python -m tests.prediction.phases", description=__doc__)
+    parser.add_argument("--drones", type=int, default=8, metavar="N", help="side by side (8)")
+    parser.add_argument("--times", type=int, default=4, metavar="N", help="all phases N times (4)")
+    options = parser.parse_args()
+    for line in table(asyncio.run(measured(options.drones, options.times))):
+        print(line)
+    return 0
+
+
+if __name__ == "__main__":
+    with apart():
+        sys.exit(main())
