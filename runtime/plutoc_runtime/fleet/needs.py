@@ -8,7 +8,7 @@ from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from ..time.future import Future
-from .reach import Reach, chain_of, why_not
+from .reach import Reach, chain_of, miss_of
 
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Point, Trip
@@ -27,10 +27,8 @@ class Request(Future["Drone"]):
         self.error = self.waiter = self._value = self._watchers = None
         self.trip, self.policy, self.rank = trips[0], policy, rank
         """The rank: its priority, and minus the number of its arrival; the highest is served first."""
-        self.goal = self.trip.source or self.trip.target
-        """Where its drone flies to first."""
-        self.why = ""
-        """Why its drone was chosen."""
+        self.goal = self.trip.source or self.trip.target  # where its drone flies to first
+        self.why = ""  # why its drone was chosen
         self._reach, self._trips = reach, trips
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
@@ -54,7 +52,8 @@ class Request(Future["Drone"]):
         if self._level(category, home, home) <= 1.0:
             return None
         reach = self._reach
-        return why_not(reach.app, reach.airspace, category, home, chain_of(self._trips))
+        miss = miss_of(reach.app, reach.airspace, category, home, chain_of(self._trips))
+        return miss and miss.reason
 
     def level(self, drone: Drone) -> float:
         """Return the battery level that a drone needs from where it stands; infinite: it never suffices."""

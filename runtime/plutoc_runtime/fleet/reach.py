@@ -100,14 +100,6 @@ def chain_of(trips: Sequence[Trip]) -> Sequence[Trip]:
     return trips[:1]
 
 
-def why_not(
-    app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
-) -> str | None:
-    """Return why a drone of this category and home can never fly the chain; None: it can."""
-    miss = miss_of(app, airspace, category, home, chain)
-    return miss.reason if miss else None
-
-
 def miss_of(
     app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
 ) -> Miss | None:
