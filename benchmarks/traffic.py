@@ -6,8 +6,9 @@ Pairs of trips that cross fly in virtual time, two drones at once or ten, with r
 and every tenth of a second it is seen where all are. The same trips fly once more with `apart = 0`:
 throughput is trips an hour of simulated time. `--descents N` lets ten drones come down N times, all at
 once, and says how much later than the slowest alone the last of them is down; with `--real SPEED`, as real drones
-fly, from rest to rest and with that peak speed. Ends with 1 if any two were
-nearer than `apart`, or the last was more than two seconds late.
+fly, from rest to rest and with that peak speed. `--narrow N` lets 4, 8, 14 and 20 drones fly N times through corridors,
+doors and gaps, and says how long their flights wait for each other. Ends with 1 if any two were
+nearer than `apart`, the last was more than two seconds late, or a flight waited longer than it may.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from dataclasses import dataclass
 from math import dist, inf
 from pathlib import Path
 from random import Random
+from statistics import fmean
 
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
@@ -28,6 +30,8 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.kernel import FLEET
+from tests.gateway.traffic.narrow import PLACES, longest_wait
+from tests.gateway.traffic.narrow import flown as flown_in
 from tests.gateway.traffic.real_skies import PRECISE
 from tests.gateway.traffic.real_skies import late as late_for_real
 from tests.gateway.traffic.skies import Sky
@@ -173,6 +177,25 @@ def lateness(
     return sky.kernel.now - alone, sky.nearest
 
 
+def waits(runs: int, drones: int, is_real: bool) -> bool:
+    """Fly in narrow places, and print how long flights wait; return whether none waits longer than it may."""
+    waited, spare, nearest = list[float](), inf, inf
+    for kind in PLACES:
+        for seed in range(runs):
+            flights, sky = flown_in(kind, seed, drones, is_real)
+            waited += (one.waited for one in flights)
+            spare = min(spare, *(longest_wait(one, flights) - one.waited for one in flights))
+            nearest = min(nearest, sky.nearest)
+    waited.sort()
+    print(
+        f"{drones:2} {'as real ones' if is_real else 'simulated'}: {len(waited)} flights wait ",
+        end="",
+    )
+    print(f"{fmean(waited):.0f} s, one of 20 {waited[-len(waited) // 20]:.0f} s, ", end="")
+    print(f"at most {waited[-1]:.0f} s; {spare:.0f} s less than they may; nearest {nearest:.3f} m")
+    return spare >= 0 and nearest >= APART - 1e-6
+
+
 def main() -> int:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
@@ -180,6 +203,7 @@ def main() -> int:
     parser.add_argument("--tens", type=int, default=1000, help="how many times ten drones")
     parser.add_argument("--side", type=float, default=10.0, help="of the map, in metres")
     parser.add_argument("--descents", type=int, default=0, help="how many times ten come down")
+    parser.add_argument("--narrow", type=int, default=0, help="how many times in narrow places")
     parser.add_argument(
         "--real", type=float, metavar="SPEED", help="real drones, this fast at most"
     )
@@ -198,6 +222,9 @@ def main() -> int:
             print(f"{options.descents} times ten drones come down ({how.value}): ", end="")
             print(f"at most {late:.2f} s later than the slowest alone, nearest {near:.3f} m")
             good &= late <= 2 and near >= APART - 1e-6
+    for drones in (4, 8, 14, 20) if options.narrow else ():
+        for is_real in (False, True):
+            good &= waits(options.narrow, drones, is_real)
     return 0 if good else 1
 
 

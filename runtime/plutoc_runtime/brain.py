@@ -167,7 +167,7 @@ class Brain:
 
     def advance(self, now: float) -> None:
         """Let everything happen that is due, up to the first orders: take those, and call it again."""
-        self._kernel.call(now, self._orders.pending, _nothing)
+        self._kernel.call(now, self._orders.pending, lambda _: None)
 
     @property
     def due(self) -> float | None:
@@ -263,7 +263,3 @@ def _drones(
         )
         for index, one in enumerate(fleet["drones"])
     )
-
-
-def _nothing(_: object) -> None:
-    """Only what is due happens."""

@@ -172,7 +172,7 @@ def test_what_is_beyond_the_map_is_refused_before_take_off() -> None:
     told = sky.told()
     assert (told["failed"], told["failure"]) == (flight, "REFUSED")
     assert "is outside the map" in told["reason"]
-    assert sky.drone.flown == 0.0
+    assert sky.drone.flown(sky.now) == 0.0
 
 
 def test_a_battery_drains_in_the_air_and_charges_at_home() -> None:
@@ -286,7 +286,7 @@ def test_a_flight_that_is_broken_off_as_it_is_ordered_leaves_no_ground() -> None
     sky.fly(stops=[(5.0, 0.5, 1.2)])
     sky.order("break_off")
     assert sky.told(10.0) == {}
-    assert (sky.drone.landed, sky.drone.flown) == (True, 0.0)
+    assert (sky.drone.landed, sky.drone.flown(sky.now)) == (True, 0.0)
 
 
 async def turn_on(drone: Drone, trip: Trip, context: Context) -> tuple[float, float]:

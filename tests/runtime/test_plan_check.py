@@ -11,12 +11,18 @@ from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.files.plan_check import endless, problems
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category, Item, Point
-from pluto_fleet.shared.fleet.reach import Miss, chain_of, miss_of, why_not
+from pluto_fleet.shared.fleet.reach import Miss, chain_of, miss_of
 from tests.runtime.files.an_app import APP, FieldMission, FieldTrip
 
 SCOUT, CARRIER = APP.categories
 HOME = (1.0, 1.0, 0.0)
 WALL = ((8.0, -1.0), (9.0, -1.0), (9.0, 30.0), (8.0, 30.0))
+
+
+def why_not(*asked: Any) -> str | None:
+    """Return the reason alone why a drone cannot fly a chain."""
+    miss = miss_of(*asked)
+    return miss and miss.reason
 
 
 def trip(action: str, x: float = 2.0, grams: float | None = None, name: str = "1") -> FieldTrip:

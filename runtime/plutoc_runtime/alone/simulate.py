@@ -38,15 +38,11 @@ Listener = Callable[[Event], object]
 class Outcome:
     """The outcome of a simulation."""
 
-    duration: float
-    """Seconds, until the last mission ended."""
-    standing: Mapping[str, Any]
-    """Where missions and drones stood then, as the brain says."""
-    flown: dict[str, float]
-    """Metres, by the drones' ids."""
+    duration: float  # seconds, until the last mission ended
+    standing: Mapping[str, Any]  # where missions and drones stood then, as the brain says
+    flown: dict[str, float]  # metres, by the drones' ids
     events: tuple[Event, ...]
-    given_up: str = ""
-    """Why a simulation was ended that would have gone on for ever."""
+    given_up: str = ""  # why a simulation was ended that would have gone on for ever
 
     @property
     def crashed(self) -> int:

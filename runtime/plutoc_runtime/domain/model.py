@@ -185,8 +185,7 @@ class Trip:
 
 T = TypeVar("T", bound=Trip)
 
-NO_RESULT = -1
-"""The number of a result that there is not."""
+NO_RESULT = -1  # the number of a result that there is not
 
 
 @dataclass(slots=True, kw_only=True, eq=False)

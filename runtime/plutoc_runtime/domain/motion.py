@@ -15,8 +15,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from .model import Point
-
 CLIMB_SPEED = 0.3
 """Metres a second, straight up and straight down; on smooth legs that is about the mean."""
 PEAK = 2.19  # peak speed over mean speed of a smooth leg
@@ -26,6 +24,8 @@ SHORTEST = 1.0
 """Seconds of the shortest smooth leg: three metres in half a second have flipped a drone."""
 SINKS = 0.5
 """The share of its limit up to which a drone follows a landing closely enough to touch down."""
+Stage = tuple[tuple[float, float, float], float, float, float]
+"""Where a leg ends, and the seconds before it, on it and after it."""
 _TAIL = 3.0  # standard deviations within which all durations lie
 
 
@@ -84,9 +84,9 @@ class Motion:
         return self.climb(metres, min(speed, SINKS * self.limit))
 
     def stages(
-        self, way: Sequence[Point], speed: float, rises: bool, lands: bool
-    ) -> Iterator[tuple[Point, float, float, float]]:
-        """Yield where each leg of a way ends, and the seconds before it, on it and after it.
+        self, way: Sequence[tuple[float, float, float]], speed: float, rises: bool, lands: bool
+    ) -> Iterator[Stage]:
+        """Yield the legs of a way.
 
         A drone that `rises` stands below the first point; one that `lands` comes down from the last.
         """

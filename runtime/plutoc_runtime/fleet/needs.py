@@ -8,7 +8,7 @@ from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from ..time.future import Future
-from .reach import Reach, chain_of, why_not
+from .reach import Reach, chain_of, miss_of
 
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Point, Trip
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Request(Future["Drone"]):
     """A mission's request for a drone; as a future it is set to the drone that it gets."""
 
-    __slots__ = ("_levels", "_reach", "_surely", "_trips", "goal", "policy", "rank", "trip", "why")
+    __slots__ = ("_levels", "_reach", "_trips", "goal", "policy", "rank", "trip", "why")
 
     def __init__(
         self, reach: Reach, trips: Sequence[Trip], policy: Policy, rank: tuple[int, int]
@@ -27,19 +27,16 @@ class Request(Future["Drone"]):
         self.error = self.waiter = self._value = self._watchers = None
         self.trip, self.policy, self.rank = trips[0], policy, rank
         """The rank: its priority, and minus the number of its arrival; the highest is served first."""
-        self.goal = self.trip.source or self.trip.target
-        """Where its drone flies to first."""
-        self.why = ""
-        """Why its drone was chosen."""
-        self._reach, self._trips, self._surely = reach, trips, reach.levels(trips[0])
+        self.goal = self.trip.source or self.trip.target  # where its drone flies to first
+        self.why = ""  # why its drone was chosen
+        self._reach, self._trips = reach, trips
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
         level = drone.telemetry.battery_level
-        return level >= self._surely[drone.category] or (
-            level >= self.at_least(drone, drone.telemetry.location) and level >= self.level(drone)
-        )
+        here = drone.telemetry.location
+        return level >= self.at_least(drone, here) and level >= self.level(drone)
 
     def at_least(self, drone: Drone, here: Point) -> float:
         """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
@@ -52,10 +49,11 @@ class Request(Future["Drone"]):
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
         category, home = drone.category, drone.home
-        if self._surely[category] <= 1.0 or self._level(category, home, home) <= 1.0:
+        if self._level(category, home, home) <= 1.0:
             return None
         reach = self._reach
-        return why_not(reach.app, reach.airspace, category, home, chain_of(self._trips))
+        miss = miss_of(reach.app, reach.airspace, category, home, chain_of(self._trips))
+        return miss and miss.reason
 
     def level(self, drone: Drone) -> float:
         """Return the battery level that a drone needs from where it stands; infinite: it never suffices."""

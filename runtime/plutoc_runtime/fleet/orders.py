@@ -52,12 +52,8 @@ class Orders:
         failed = "failed" in message
         order = message["failed"] if failed else message["done"]
         answer = self._answers.pop(order, None) if type(order) is int else None
-        if answer is None:
-            return
-        if failed:
-            answer(failure_of(message))
-        else:
-            answer(value_of(message["value"]) if "value" in message else None)
+        if answer is not None:
+            answer(failure_of(message) if failed else value_of(message.get("value")))
 
     # Flights
 

@@ -12,8 +12,7 @@ if TYPE_CHECKING:
 Able = Callable[["Drone"], bool]
 """Returns whether a drone can fly the trip now. It may search a route: call it for few drones."""
 
-Choice = tuple["Drone", str]
-"""The drone that gets a trip, and why it was chosen."""
+Choice = tuple["Drone", str]  # the drone that gets a trip, and why it was chosen
 
 OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
 """Chooses one of the free drones, in the fleet's order, for a trip, or None."""

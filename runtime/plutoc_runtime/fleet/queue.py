@@ -38,10 +38,8 @@ class Queue:
     ) -> None:
         self._kernel, self._reach = kernel, reach
         self._drones, self._max_airborne = drones, max_airborne
-        self._waiting: list[Request] = []
-        """Sorted by rank, the last is served first."""
-        self._fresh: list[Request] = []
-        """The requests that have not been looked at yet."""
+        self._waiting: list[Request] = []  # sorted by rank, the last is served first
+        self._fresh: list[Request] = []  # the requests that have not been looked at yet
         self._arrived: list[Request] = []
         """Those that wait, and some that have waited, in no order; see `Needs`."""
         self._needs: dict[Drone, Needs] = {}

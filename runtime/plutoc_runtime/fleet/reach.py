@@ -6,9 +6,9 @@ its battery evenly, moving or not.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from enum import IntEnum
-from math import dist, hypot, inf
+from math import dist, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
@@ -98,14 +98,6 @@ def chain_of(trips: Sequence[Trip]) -> Sequence[Trip]:
                 return trips[: place_ + 1]
         return trips
     return trips[:1]
-
-
-def why_not(
-    app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
-) -> str | None:
-    """Return why a drone of this category and home can never fly the chain; None: it can."""
-    miss = miss_of(app, airspace, category, home, chain)
-    return miss.reason if miss else None
 
 
 def miss_of(
@@ -223,18 +215,10 @@ def idle_actions(app: App, fleet: FleetData) -> list[str]:
 
 
 class Reach:
-    """The battery for a trip, and cheap bounds of it: most free drones are above or below.
-
-    So the exact answer, which takes a route search, is seldom needed.
-    """
+    """The battery for a trip, and a cheap lower bound of it: the exact one takes a route search."""
 
     def __init__(self, app: App, airspace: Airspace) -> None:
         self.app, self.airspace = app, airspace
-        self._levels = {
-            action: {category: self._level(category, action) for category in app.categories}
-            for action in app.actions
-        }
-        self._unknown = dict.fromkeys(app.categories, inf)
         self._least: dict[tuple[Category, str, float], tuple[float, float]] = {}
 
     def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
@@ -258,27 +242,6 @@ class Reach:
             least = [share * motion.drain / full * _LESS for share in shares]
             self._least[key] = category.reserve + least[0], least[1]
         return self._least[key]
-
-    def levels(self, trip: Trip) -> Mapping[Category, float]:
-        """Return for each category a battery level that surely suffices for the trip.
-
-        Infinite where only the exact check can tell: an item, or a place that is not on the map.
-        """
-        problem, source = self.airspace.problem, trip.source
-        if trip.item is not None or problem(trip.target) or (source and problem(source)):
-            return self._unknown
-        return self._levels[trip.action]
-
-    def _level(self, category: Category, action: str) -> float:
-        space = self.airspace
-        if space.no_fly or not category.can(action):
-            return inf
-        motion, speed = category.motion, category.speed
-        # to the source, to the target, and home
-        seconds = 3 * motion.flies(hypot(*space.size, space.ceiling), speed)
-        seconds += motion.rises(space.cruise_height, speed) + motion.lands(space.ceiling, speed)
-        seconds += self.app.actions[action].seconds
-        return seconds * motion.drain / category.flight_time + category.reserve
 
 
 _FAR = 1e6  # metres of a long leg

@@ -94,8 +94,7 @@ class KnownState:
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
         self._clock, self.motion = clock, motion
         self._legs, self._charge = [resting(home, 0.0)], Charge(0.0, 0.0)
-        self.landed = True
-        """Whether it stands on the ground."""
+        self.landed = True  # whether it stands on the ground
 
     @property
     def location(self) -> Point:

@@ -11,7 +11,7 @@ from ..domain.errors import ANY_ERROR, HookFault
 from ..domain.guard import unless_by_a_person
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from ..domain.text import class_of, said, shown, text_of
-from ..fleet.reach import why_not
+from ..fleet.reach import miss_of
 from ..hooks.calls import hook_name
 from ..hooks.context import Verdict
 from ..hooks.soundness import unsound, unsound_mission
@@ -111,8 +111,8 @@ def _problem(core: Core, mission: Mission[Any], trip: Trip) -> str | None:
         return f"trip {trip.name} has been used already: make a new Trip each time"
     if trip.action in (PICK, RELEASE):
         return "items are planned by the user: pick and release cannot be added"
-    reasons = [
-        why_not(core.app, core.airspace, drone.category, drone.home, (trip,))
+    misses = [
+        miss_of(core.app, core.airspace, drone.category, drone.home, (trip,))
         for drone in core.fleet.drones
     ]
-    return None if None in reasons else "; ".join(dict.fromkeys(r for r in reasons if r))
+    return None if None in misses else "; ".join(dict.fromkeys(m.reason for m in misses if m))

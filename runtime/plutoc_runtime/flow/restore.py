@@ -124,12 +124,8 @@ class Restorer:
     def restored(self, name: str, record: Record) -> MissionState:
         """Return a mission's state as its record has it."""
         core, known = self._core, self._states.get(name)
-        if known is None:
-            mission: Mission[Any] = core.app.mission(
-                name=name, trips=[], index=record.get("index", len(self._states))
-            )
-        else:
-            mission = known.mission
+        index = record.get("index", len(self._states))
+        mission = known.mission if known else core.app.mission(name=name, trips=[], index=index)
         self._trips[name] = trips = update(core.app, mission, record)
         for trip in trips.values():
             trip.now = core.kernel.time

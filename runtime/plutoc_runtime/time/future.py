@@ -7,8 +7,7 @@ from typing import Any, Generic, Protocol, TypeVar, cast
 
 T = TypeVar("T")
 
-Watcher = Callable[[Any], object]
-"""Called with the future when it is set."""
+Watcher = Callable[[Any], object]  # called with the future when it is set
 
 
 class Waiter(Protocol):

@@ -30,8 +30,7 @@ A number and not a tuple: events are compared all the time.
 _BRANCH, _DEPTH = 10, 4
 """Bits for a branch's number, and how deep forks may nest before branches share a key."""
 
-FLEET: Key = 1 << 96
-"""The key of events that belong to the fleet and not to a mission."""
+FLEET: Key = 1 << 96  # the key of events that belong to the fleet and not to a mission
 
 
 def mission_key(index: int) -> Key:
@@ -177,8 +176,7 @@ class Kernel:
     """The future events, and the coroutines that wait for them."""
 
     def __init__(self) -> None:
-        self.now = 0.0
-        """The current instant, in seconds since the start."""
+        self.now = 0.0  # the current instant, in seconds since the start
         self.tasks: dict[Task[Any], None] = {}
         """The coroutines that have not ended, in the order in which they were started."""
         self.crashed: BaseException | None = None

@@ -19,31 +19,16 @@ class Stuck(RuntimeError):
 
 
 class HookRunner(Protocol):
-    """Runs the app's hooks, which may take their time."""
+    """Runs the app's hooks, which may take their time: docs/seam.md says what is asked of it."""
 
-    def now(self) -> float:
-        """Return the seconds since the app's start, also between two calls of the brain."""
-
-    def start(self, number: int, hook: Callable[..., object], call: Callable[[], object]) -> bool:
-        """Call a hook; return whether it has ended. If not, the brain is told `{"hook": number}` later."""
-
-    def result(self, number: int) -> object:
-        """Return what a hook that has ended returned, or raise what it raised; asked once.
-
-        A coroutine is run here, in the brain's own time.
-        """
-
-    def cancel(self, number: int) -> None:
-        """Cancel a hook: its result is not wanted any more."""
-
-    def offer(self, watch: Callable[[Watcher], object]) -> Awaitable[object] | None:
-        """Return what a hook can await; `watch` has it called when the hook shall go on.
-
-        None: its hooks are coroutines that run here.
-        """
-
-    def stirred(self) -> None:
-        """Called when a hook has changed, between two calls of the brain, what is due or ordered."""
+    def now(self) -> float: ...
+    def start(
+        self, number: int, hook: Callable[..., object], call: Callable[[], object]
+    ) -> bool: ...
+    def result(self, number: int) -> object: ...
+    def cancel(self, number: int) -> None: ...
+    def offer(self, watch: Callable[[Watcher], object]) -> Awaitable[object] | None: ...
+    def stirred(self) -> None: ...
 
 
 class ToldTime(Kernel):

@@ -176,7 +176,7 @@ def _flies(pupil: Pupil) -> None:
     before, after = delayed.replace(line, ""), missions.read_text(encoding="utf-8")
     assert before in after
     missions.write_text(after.replace(before, delayed), encoding="utf-8")
-    pupil.runs("3 of 3 missions completed in 5 min 59 s.", 0.45)
+    pupil.runs("3 of 3 missions completed in 6 min 0 s.", 0.45)
     pupil.shows("run")
     pupil.press("Compile")
     _writes_it(pupil)
@@ -220,9 +220,9 @@ def _declares(pupil: Pupil) -> None:
     pupil.saved(declared)
     block(page, "limit").locator(".face").click()
     value = page.locator('.field[data-field="limit"] input')
-    value.fill("2 min")
+    value.fill("3 min")
     value.press("Enter")
-    pupil.saved("limit: 2 min")
+    pupil.saved("limit: 3 min")
     pupil.shows("timer")
 
 
@@ -259,15 +259,15 @@ def hooks_of(pupil: Pupil) -> str:
 
 def _sees_it_at_work(pupil: Pupil) -> None:
     page = pupil.page
-    pupil.runs("3 of 3 missions completed in 5 min 59 s.", 0.9)
+    pupil.runs("3 of 3 missions completed in 6 min 0 s.", 0.9)
     value = page.locator('.field[data-field="limit"] input')
     value.fill("20 s")
     value.press("Enter")
     pupil.saved("limit: 20 s")
-    pupil.runs("0 of 3 missions completed in 1 min 22 s.", 0.5)
+    pupil.runs("0 of 3 missions completed in 1 min 23 s.", 0.5)
     pupil.shows("called-back")
     page.keyboard.press("Control+z")
-    pupil.saved("limit: 2 min")
+    pupil.saved("limit: 3 min")
     pupil.press("Compile")
     expect(page.locator(".meaning li").first).to_be_visible()
     pupil.shows("compile")

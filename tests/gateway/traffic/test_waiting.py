@@ -117,15 +117,20 @@ def test_no_drone_lands_on_another() -> None:
     assert at(sky, "cf2") == pytest.approx((1.3, 1, 0))
 
 
-def test_who_has_waited_long_keeps_younger_ones_from_what_it_wants() -> None:
-    """Else those who come and go could keep it for ever."""
+def waits_for_one_that_hovers() -> tuple[Sky, Task[object]]:
+    """Return three drones: cf1 stands and waits for cf2, which hovers half-way; cf3 stands beside."""
     sky = Sky([(5, 0.5), (1, 5), (9, 7)], airspace=LOW)
     sky.puts((5, 1, 1.2), (5, 5, 1.2), (9, 7, 1.2))
     for drone in ("cf1", "cf3"):
         assert sky.until(sky.kernel.spawn(sky.link.land(drone), FLEET, "down"), 20)
-    elder = gives(sky, "cf1", (5, 9, 1.2))  # cf2 hovers there
-    sky.advance(25)
-    younger = gives(sky, "cf3", (1, 7, 1.2))  # its way is free, but for what cf1 wants
+    return sky, gives(sky, "cf1", (5, 9, 1.2))
+
+
+def test_none_ends_where_one_that_came_before_wants_to_fly() -> None:
+    """Else those who come and go could keep it for ever; where they stay for long, two are enough."""
+    sky, elder = waits_for_one_that_hovers()
+    sky.advance(1)
+    younger = gives(sky, "cf3", (5, 7, 1.2))
     sky.advance(5)
     assert at(sky, "cf3") == (9, 7, 0)
     home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
@@ -134,6 +139,40 @@ def test_who_has_waited_long_keeps_younger_ones_from_what_it_wants() -> None:
     assert sky.until(younger, 60)
     assert home.is_set
     assert sky.nearest >= APART - 1e-6
+
+
+def test_who_only_crosses_flies_while_the_other_has_to_wait_anyway() -> None:
+    """However long that has waited: for one that hovers in its way."""
+    sky, elder = waits_for_one_that_hovers()
+    sky.advance(25)
+    younger = gives(sky, "cf3", (1, 7, 1.2))
+    assert sky.until(younger, 21)
+    assert not elder.is_set
+    home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
+    assert sky.until(elder, 60)
+    assert home.is_set
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_who_has_waited_long_flies_before_younger_ones_once_its_way_becomes_free() -> None:
+    """Else those that cross could keep it for ever."""
+    sky, elder = waits_for_one_that_hovers()
+    sky.advance(25)
+    sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
+    sky.advance(0.2)
+    younger = gives(sky, "cf3", (1, 7, 1.2))
+    assert sky.until(elder, 60)
+    assert not younger.is_set
+    assert sky.until(younger, 60)
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_where_the_ground_is_full_of_docks_a_drone_lands_in_its_own() -> None:
+    """Real drones land further apart than docks may be."""
+    sky = Sky([(0.1, 0.1), (0.6, 0.1)], airspace=Airspace(size=(0.7, 0.2)), slack=0.15)
+    assert sky.until(gives(sky, "cf1", (0.35, 0.1, 1.2)), 20)
+    assert sky.until(sky.kernel.spawn(sky.link.land("cf1"), FLEET, "down"), 20)
+    assert at(sky, "cf1") == (0.1, 0.1, 0)
 
 
 def test_no_more_are_in_the_air_than_may_be() -> None:

@@ -78,6 +78,7 @@ def test_what_is_wrong_with_it_is_told(
     ("words", "is_taken"),
     [
         (["simulate", "M", "--runs", "2"], True),
+        (["size", "M"], True),
         (["check", "M"], True),
         (["fly", "M", "--sim"], True),
         (["fly", "M", "--crtp-sim", "2"], True),

@@ -24,7 +24,7 @@ WAIT_BEFORE_LANDING = 10.0
 AT_LAST = 30.0
 """Seconds after which it lands even if its way will soon be free."""
 ELDER = 20.0
-"""Seconds after which later requests may not take what a drone waits for."""
+"""Seconds after which later requests may not even cross where a drone wants to fly."""
 OVERSHOOT, STOPPING = 0.6, 2.0
 """How far a real drone overshoots when it stops, in metres, and for how long."""
 SWAY = 0.05
@@ -239,9 +239,13 @@ class Traffic:
         waited = self._kernel.now - wait.since
         if wait.section.stands or waited < WAIT_BEFORE_LANDING:
             return False
-        first = wait.obstacles[0]
-        blocker = None if first is None else self._claims.get(first.claim.drone)
+        blocker = self._first_blocker(wait)
         return blocker is None or not blocker.moves or waited >= AT_LAST
+
+    def _first_blocker(self, wait: Wait) -> Reservation | None:
+        """Return what was in the way of a drone's own section, not of an alternative, at the last check."""
+        first = wait.obstacles[0]
+        return None if first is None else self._claims.get(first.claim.drone)
 
     # Reservations
 
@@ -330,29 +334,37 @@ class Traffic:
         return now >= limit or meets(way, shape, now - 1e-6)
 
     def _elder(self, section: Section, since: float) -> Wait | None:
-        """Return a drone that has waited for long for space that a section takes.
+        """Return a drone that has waited longer, and would wait longer still for this section.
 
-        A landing is never blocked by that, nor the way to one's dock, nor a drone that makes room for
-        the elder one.
+        None may end where an older one wants to fly, nor cross there once it is its turn. A landing is never
+        blocked by that, nor the way to one's dock, nor a drone that makes room for the older one.
         """
         if section.lands or section.tail:
             return None
+        points, limit = section.points, self.limit
         for wait in self._waiting.values():
-            wanted = wait.section
+            wanted = wait.section.points
             if (
                 wait.since < since
-                and self._kernel.now - wait.since >= ELDER
-                and wanted.drone != section.drone
-                and are_near(section.box, wanted.box, self.limit)
-                and meets(section.points, wanted.points, self.limit)
+                and wait.section.drone != section.drone
+                and are_near(section.box, wait.section.box, limit)
+                and meets(points, wanted, limit)
                 and (
-                    section.stands
-                    or not meets(section.points[:1], wanted.points, self.limit)
-                    or meets(section.points[-1:], wanted.points, self.limit)
+                    meets(points[-1:], wanted, limit)
+                    or (self._is_its_turn(wait) and not self._makes_room(section, wanted))
                 )
             ):
                 return wait
         return None
+
+    def _makes_room(self, section: Section, wanted: tuple[Point, ...]) -> bool:
+        """Whether a drone that is about to leave hovers where another wants to fly."""
+        return not section.stands and meets(section.points[:1], wanted, self.limit)
+
+    def _is_its_turn(self, wait: Wait) -> bool:
+        """Whether a drone has waited for long, and does not wait for one that hovers in its way."""
+        blocker = self._first_blocker(wait)
+        return self._kernel.now - wait.since >= ELDER and (blocker is None or blocker.moves)
 
 
 def _ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
