@@ -6,8 +6,6 @@ speaks the newest first number and the one before.
 
 from __future__ import annotations
 
-from importlib.metadata import PackageNotFoundError, version
-
 from . import __version__
 from .shared.domain.errors import BadInput
 
@@ -52,6 +50,8 @@ def written(seam: Seam) -> str:
 
 def versions(app: str, seam: Seam) -> str:
     """Return the versions of an app, its seam and this library in one line."""
+    from importlib.metadata import PackageNotFoundError, version  # slow to import
+
     try:
         number = version(app.rstrip("_"))
     except PackageNotFoundError:

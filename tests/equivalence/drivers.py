@@ -10,7 +10,7 @@ from selectors import DefaultSelector, SelectorKey
 from typing import TYPE_CHECKING, Any, TypeVarTuple
 
 from pluto_fleet.flight.outcome import SimulationResult
-from pluto_fleet.flight.simulate import Simulation
+from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.errors import BadInput

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.outcome import SimulationResult
-from pluto_fleet.flight.simulate import Simulation
+from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults

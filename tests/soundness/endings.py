@@ -18,7 +18,8 @@ from typing import Any
 from pluto_fleet.app import App, described
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.flight.simulate import Simulation, simulate
+from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults

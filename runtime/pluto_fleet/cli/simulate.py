@@ -99,6 +99,8 @@ def _fly(
 
 
 def _watcher(options: Options, missions: int, progress: Progress) -> Listener:
+    if not progress.is_told:
+        return _forget
     ended = 0
 
     def watch(event: Event) -> None:

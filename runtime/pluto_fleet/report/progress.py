@@ -35,6 +35,11 @@ class Progress:
         self._next = clock() + (_AFTER if shown else LINE_EVERY)
         self._drawn = 0
 
+    @property
+    def is_told(self) -> bool:
+        """Whether an update is worth its while."""
+        return self._shown or self._say is not None
+
     def update(self, share: float, text: str) -> None:
         """Show this share, from 0 to 1."""
         if not (self._shown or self._say) or (now := self._clock()) < self._next:

@@ -67,7 +67,7 @@ class SimulatedNavigation:
         record: Callable[[WorldAction], object] | None = None,
     ) -> None:
         self._kernel, self._world, self._airspace = kernel, world, airspace
-        self._faults, self._seed, self._fails = faults, seed, faults != Faults()
+        self._faults, self._seed = faults, seed
         self.record = record
         """Called right before each action of a drone on the world."""
         self.bodies = {drone.id: Body(drone, kernel.time, seed) for drone in drones}
@@ -128,7 +128,7 @@ class SimulatedNavigation:
         body, now = self.bodies[drone], self._kernel.now
         body.check(now)
         drawn = Drawn()
-        if job is not None and self._fails:
+        if job is not None:
             drawn = draw(self._faults, self._seed, job.id, seconds)
         body.begin(drawn, now)
 

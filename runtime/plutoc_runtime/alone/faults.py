@@ -34,6 +34,7 @@ class Faults:
     battery: float = 0.0
 
 
+_NONE = Faults()
 FAULTS = tuple(fault.name for fault in fields(Faults))  # the faults of `--fail`
 
 
@@ -57,6 +58,8 @@ def draw(faults: Faults, seed: int, flight: str, seconds: float) -> Drawn:
 
     They happen within the expected seconds until its action is done.
     """
+    if faults == _NONE:
+        return Drawn()
     chance, moments = Random(f"{seed}/{flight}"), dict[str, float]()
     for name in (what.value for what in _BEFALL):
         # Both numbers are drawn in any case, so one probability does not change the other's outcome.

@@ -137,7 +137,8 @@ class Alone:
         while brain.over is None:
             for order in brain.orders():
                 drones.obey(order)
-            when = min(drones.due, inf if brain.due is None else brain.due)
+            due, soon = brain.due, drones.due
+            when = soon if due is None else min(soon, due)
             if when == inf:
                 raise Stuck("nothing will ever happen again")
             if until is not None and when > until:
@@ -145,10 +146,11 @@ class Alone:
                 self._tell({})
                 return False
             self.now = when
-            if drones.due <= when:
+            if soon <= when:
                 self._tell(drones.advance())
             else:
-                self._tell({})
+                if news := drones.news():
+                    brain.tell({"telemetry": news}, when)
                 brain.advance(when)
             self._listen()
         return True

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.app import described
-from pluto_fleet.flight.simulate import Simulation
+from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.station.rows import blocks_of

@@ -1,0 +1,117 @@
+"""A brain, and simulated drones that a gateway keeps apart, on any kernel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ..gateway.gateway import Gateway
+from ..shared.alone.simulate import Outcome
+from ..shared.alone.world import World
+from ..shared.domain.app import moving
+from ..shared.flow.standing import fleet_data
+from ..simulation.body import simulated
+from ..simulation.drones import SimulatedNavigation
+from .driver import Driver, begun
+from .orders import Dispatcher
+from .outcome import SimulationResult, result_of
+
+if TYPE_CHECKING:
+    from ..app import App
+    from ..files.fleet import FleetFile
+    from ..jobs.controls import Controls
+    from ..process.hook_runner import RealHooks
+    from ..shared.alone.faults import Faults
+    from ..shared.domain.model import Mission
+    from ..shared.domain.trace import Event
+    from ..shared.time.future import Future
+    from ..shared.time.kernel import Kernel
+
+Listener = Callable[["Event"], object]
+Around = Callable[["Kernel", "Controls"], "Controls"]
+
+
+class Simulation:
+    """A brain, and simulated drones with a gateway, on any kernel."""
+
+    def __init__(
+        self,
+        app: App,
+        fleet: FleetFile,
+        kernel: Kernel,
+        seed: int,
+        faults: Faults,
+        listener: Listener,
+        around: Around | None = None,
+        hooks: RealHooks | None = None,
+    ) -> None:
+        """`hooks` runs hooks in real time; without it they are called at once."""
+        app = moving(app, fleet.motion)
+        self._app, self._fleet, self._kernel = app, fleet, kernel
+        self._drones = simulated(app, fleet)
+        world = World(seed, fleet.airspace, fleet.world)
+        self._navigation = SimulatedNavigation(
+            kernel, self._drones, world, faults, seed, fleet.airspace
+        )
+        gateway = Gateway(
+            kernel,
+            self._navigation if around is None else around(kernel, self._navigation),
+            self._drones,
+            fleet.airspace,
+            apart=fleet.apart,
+            slack=fleet.motion.slack,
+            max_airborne=fleet.max_airborne,
+        )
+        bodies = self._navigation.bodies
+        self._changed = dict.fromkeys(bodies)
+        """The drones whose motion has changed since the brain was told."""
+        for drone, body in bodies.items():
+            body.on_change = partial(self._changed.__setitem__, drone, None)
+        keys = {drone: body.key for drone, body in bodies.items()}
+        self.brain = app.new_brain(fleet_data(fleet), space=fleet.airspace, hooks=hooks)
+        dispatcher = Dispatcher(kernel, gateway.link(1), keys)
+        self._driver = driver = Driver(
+            kernel, self.brain, obey=dispatcher.obey, motions=self._motions, hear=listener
+        )
+        dispatcher.tell = driver.tell
+        if hooks is not None:
+            hooks.ended = lambda number: driver.tell({"hook": number})
+            hooks.stir = driver.pump
+
+    def start(self, missions: Iterable[Mission[Any]]) -> Future[float]:
+        """Begin missions at this instant; return what is set when all has ended."""
+        self._driver.call(partial(self.brain.begin, begun(self._app, missions)))
+        return self._driver.done
+
+    def close(self) -> None:
+        """End everything where it is."""
+        self.brain.close()
+        self._kernel.close()
+
+    def _motions(self) -> Mapping[str, object]:
+        if not self._changed:
+            return _NOTHING
+        bodies = self._navigation.bodies
+        motions = {drone: bodies[drone].motion for drone in self._changed}
+        self._changed.clear()
+        return motions
+
+    def outcome(
+        self, missions: Sequence[Mission[Any]], events: Sequence[Event], ended: float, given_up: str
+    ) -> SimulationResult:
+        """Return the outcome of the missions, which are brought up to date."""
+        bodies, standing = self._navigation.bodies, self.brain.standing()
+        for drone, stands in standing["drones"].items():
+            stands["battery"] = bodies[drone].battery_level  # the brain was told of it earlier
+        outcome = Outcome(
+            duration=ended,
+            standing=standing,
+            flown={one.id: self._navigation.flown(one.id) for one in self._drones},
+            events=tuple(events),
+            given_up=given_up,
+        )
+        return result_of(self._app, missions, self._fleet, outcome, bodies.__getitem__)
+
+
+_NOTHING: Mapping[str, object] = {}
