@@ -80,7 +80,7 @@ def by_chance(number: int) -> Plan:
     drawn = moving(drawn, file.motion)
     if unflyable(missions, drawn, file, file.airspace):
         return by_chance(number + 1_000_000)
-    crash, link = chance.choice((0.0, 0.0, 0.0005, 0.005)), chance.choice((0.0, 0.002, 0.02))
+    crash, link = chance.choice((0.0, 0.0, 0.0003, 0.002)), chance.choice((0.0, 0.001, 0.004))
     question = Question(app=drawn, missions=missions, faults=Faults(crash=crash, link=link))
     whole = Plan(question=question, fleet=file)
     time = _time(chance, whole)
