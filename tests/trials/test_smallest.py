@@ -175,8 +175,11 @@ def test_what_does_not_show_again_is_told_as_that(capfd: Said) -> None:
     assert "See it again" not in rest
 
 
-def test_actions_that_no_drone_can_do_are_told(capfd: Said, tmp_path: Path) -> None:
-    """They are not tried, and they must not be taken for sound."""
+def test_actions_that_no_drone_can_do_are_told(
+    capfd: Said, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """They are not tried, and they must not be taken for sound, however much strikes."""
+    monkeypatch.setattr(trials, "everywhere", lambda app, case: [case])
     fleet = tmp_path / "fleet.toml"
     fleet.write_text('[[drone]]\nid = "w"\ncategory = "watcher"\nhome = [1, 1]\n')
     app = random_app(Random("0/app"))
