@@ -39,6 +39,12 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return wheel
 
 
+@pytest.fixture(scope="module")
+def types(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What mypy knows of Python and of pytest, which all packages use."""
+    return tmp_path_factory.mktemp("types")
+
+
 @pytest.mark.parametrize(
     "example",
     [
@@ -49,7 +55,7 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ids=lambda path: path.name,
 )
 def test_an_example_stands_alone_and_flies_with_the_library(
-    example: Path, library: Path, tmp_path: Path
+    example: Path, library: Path, types: Path, tmp_path: Path
 ) -> None:
     package = compile_app(example / "app.pluto", tmp_path / example.name)
     programs = fresh(tmp_path / "venv")
@@ -65,7 +71,7 @@ def test_an_example_stands_alone_and_flies_with_the_library(
     own_tests_pass(programs, package)
     for words in NEEDING:
         missing(run(programs / example.name, *words, cwd=example), words[0])
-    is_clean(package)
+    is_clean(package, types)
 
     succeed(programs / "pip", "install", "--quiet", library)
     together = simulated(programs / example.name, example)
@@ -199,10 +205,11 @@ def missing(done: Finished, command: str) -> None:
     assert "pip install" in line
 
 
-def is_clean(package: Path) -> None:
+def is_clean(package: Path, types: Path) -> None:
     """No checker has anything to say, and none was told to be silent."""
     python = sys.executable
-    succeed(python, "-m", "mypy", "--strict", "src", "tests", cwd=package)
+    known = ("--cache-dir", types)
+    succeed(python, "-m", "mypy", "--strict", *known, "src", "tests", cwd=package)
     succeed(python, "-m", "ruff", "check", "--isolated", ".", cwd=package)
     ignores = ("type: ignore", "noqa")
     assert not [
