@@ -13,16 +13,13 @@ from tests.equivalence.flows import packaged
 from tests.equivalence.fly import alone, difference, record
 from tests.equivalence.worlds import random_world
 
-WORLDS = 3
-"""For each graph."""
 
-
-def flown(name: str) -> int:
+def flown(name: str, worlds: int) -> int:
     """Fly a random graph in some worlds by all three, and return how many events there were."""
     text, checked, rng, _ = drawn(name)
     package = packaged(OURS.planner(checked))
     events = 0
-    for _ in range(WORLDS):
+    for _ in range(worlds):
         world = random_world(Random(rng.random()), package.graph)
         world = replace(world, homes=world.homes[:1])
         with_traffic = record(package, world, patient=False)
@@ -40,10 +37,10 @@ def flown(name: str) -> int:
 
 def test_one_drone_leaves_the_same_events_under_every_driver() -> None:
     """Byte for byte, also where things go wrong."""
-    assert sum(flown(f"same/{number}") for number in range(25)) > 800
+    assert sum(flown(f"same/{number}", 3) for number in range(25)) > 800
 
 
 @pytest.mark.long
 def test_one_drone_leaves_the_same_events_in_many_graphs() -> None:
-    """More of the same."""
-    assert sum(flown(f"same/long/{number}") for number in range(1_000)) > 50_000
+    """More of the same, each in one world."""
+    assert sum(flown(f"same/long/{number}", 1) for number in range(1_000)) > 20_000
