@@ -45,6 +45,11 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
     return run_async(pyfuncitem, asyncio.run)
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with what takes long in one piece: at the end, all workers but one would wait for it."""
+    items.sort(key=lambda item: item.get_closest_marker("first") is None)
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     """`pytest --update` writes what comes out as what must come out."""
     parser.addoption(

@@ -16,7 +16,7 @@ from plutoc.registry import STD
 from plutoc_blocks import BLOCKS
 
 # all tests of the runtime once more; the packages' own tests run on a copy, too
-pytestmark = pytest.mark.long
+pytestmark = [pytest.mark.long, pytest.mark.first]
 
 ROOT = Path(__file__).parent.parent
 

@@ -12,11 +12,12 @@ ROOT = Path(__file__).parent.parent
 TOOLS = Path(sys.executable).parent
 
 
+pytestmark = pytest.mark.first
+
+
 @pytest.mark.parametrize(
     "command",
     [
-        ("mypy",),
-        ("mypy", "tests", "benchmarks"),
         ("ruff", "check", "."),
         ("ruff", "check", "--isolated", "runtime"),  # as in a package that carries it
         ("black", "--check", "--quiet", "."),
@@ -25,7 +26,17 @@ TOOLS = Path(sys.executable).parent
     ids=" ".join,
 )
 def test_a_tool_has_nothing_to_say(command: tuple[str, ...]) -> None:
-    tool, *arguments = command
+    has_nothing_to_say(*command)
+
+
+def test_mypy_has_nothing_to_say() -> None:
+    """One after the other, wherever tests run: the second knows what the first has found out."""
+    has_nothing_to_say("mypy")
+    has_nothing_to_say("mypy", "tests", "benchmarks")
+
+
+def has_nothing_to_say(tool: str, *arguments: str) -> None:
+    """Run a tool of these tests' environment on the house."""
     done = subprocess.run(
         [TOOLS / tool, *arguments], cwd=ROOT, capture_output=True, text=True, check=False
     )
