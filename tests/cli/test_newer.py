@@ -1,4 +1,4 @@
-"""An older plutoc over a package that a newer one made: whole commands, as they are typed."""
+"""An older plutoc over a package that a newer one made."""
 
 from __future__ import annotations
 
@@ -56,39 +56,41 @@ def typed(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.mark.parametrize("more", [[], ["--check"], ["--diff"], ["--add-stubs"], ["-O0"]])
-def test_it_is_refused_with_3_in_one_sentence(newer: Path, here: Path, more: list[str]) -> None:
+def test_it_is_refused_with_3_in_one_sentence(
+    plutoc: Call, newer: Path, here: Path, more: list[str]
+) -> None:
     """Both versions are named, and both ways out of it; nothing is written."""
     before = tree(here)
-    done = typed("compile", newer, *more)
-    assert (done.returncode, done.stdout) == (3, "")
-    assert done.stderr.startswith(f"error[P4010]: {SENTENCE}\n")
-    assert "1 error\n" in done.stderr
+    said = plutoc("compile", newer, *more)
+    assert (said.code, said.out) == (3, "")
+    assert said.err.startswith(f"error[P4010]: {SENTENCE}\n")
+    assert "1 error\n" in said.err
     assert tree(here) == before
 
 
 def test_a_program_is_told_the_same(newer: Path) -> None:
-    """On standard output, with the same exit code."""
+    """On standard output, with the same exit code, by a process of its own."""
     done = typed("compile", newer, "--check", "--format", "json")
     assert (done.returncode, done.stderr) == (3, "")
     (found,) = map(json.loads, done.stdout.splitlines())
     assert (found["code"], found["message"]) == ("P4010", SENTENCE)
 
 
-def test_what_the_older_one_would_say_of_the_hooks_comes_later(newer: Path) -> None:
+def test_what_the_older_one_would_say_of_the_hooks_comes_later(plutoc: Call, newer: Path) -> None:
     """A newer one may ask for other hooks: to change these would be wrong."""
     HOOKS.write_text("")
-    done = typed("compile", newer)
-    assert done.returncode == 3
-    assert "P3003" not in done.stderr
+    said = plutoc("compile", newer)
+    assert said.code == 3
+    assert "P3003" not in said.err
 
 
-def test_one_goes_back_on_purpose(newer: Path) -> None:
+def test_one_goes_back_on_purpose(plutoc: Call, newer: Path) -> None:
     """Then the package is what this version makes, and hooks.py is as it was."""
     mine = HOOKS.read_text() + "# mine\n"
     HOOKS.write_text(mine)
-    assert typed("compile", newer, "--force").returncode == 0
+    assert plutoc("compile", newer, "--force").code == 0
     assert OURS in LOCK.read_text()
     assert HOOKS.read_text() == mine
-    assert typed("compile", newer, "--check").returncode == 0
-    assert typed("compile", newer, "-o", "fresh").returncode == 0
+    assert plutoc("compile", newer, "--check").code == 0
+    assert plutoc("compile", newer, "-o", "fresh").code == 0
     assert LOCK.read_text() == Path("fresh/pluto.lock").read_text()
