@@ -106,7 +106,7 @@ def test_simulations_are_measured() -> None:
         "10 trips, 20 drones",
     ]
     assert list(told["net_s"]) == sizes
-    assert {"drones, apart = 0", "trips, bare loop"} <= told["exponents"].keys()
+    assert {"2 to 3 drones, apart = 0", "5 to 10 trips, bare loop"} <= told["exponents"].keys()
 
 
 def test_the_house_is_measured() -> None:

@@ -20,7 +20,7 @@ Trip = tuple[int, Place]
 SIDE, PER_MISSION, CRUISE = 40.0, 5, 1.2
 """The map in metres, trips to a mission, and the height of all flights."""
 SPEED, FLIGHT_TIME, CHARGE_TIME, RESERVE = 1.0, 420.0, 1200.0, 0.2
-ACTS = BUILT_IN["measure"].seconds
+ACTS = BUILT_IN["take_photo"].seconds
 UP = CRAZYFLIE.rises(CRUISE, SPEED)
 DOWN = CRAZYFLIE.lands(CRUISE, SPEED)
 
