@@ -7,7 +7,7 @@ mappings, except for the app, the space and the hooks. Seconds since the app's s
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .domain.app import SEAM, about, moving
@@ -25,13 +25,7 @@ from .flow.control import Control
 from .flow.engine import Engine
 from .flow.mission import Core
 from .flow.restore import Recording, Restorer
-from .flow.standing import (
-    drone_standing,
-    hindrances,
-    mission_of,
-    standing_of,
-    whereabouts_of,
-)
+from .flow.standing import drone_standing, mission_of, standing_of, whereabouts_of
 from .hooks.plain_data import value_data
 from .time.kernel import FLEET
 from .time.told import ONLY_WHAT_IS_READY, HookRunner, ToldTime
@@ -198,9 +192,10 @@ class Brain:
         }
 
     def drones(self) -> Mapping[str, Any]:
-        """Return where every drone stands."""
+        """Return where every drone stands; one that is `aside` is too low for every trip that waits."""
         fleet = self._core.fleet
-        return {one.id: drone_standing(one, fleet) for one in fleet.drones}
+        low = {*fleet.queue.too_low()}
+        return {one.id: drone_standing(one, fleet, one in low) for one in fleet.drones}
 
     @property
     def living(self) -> int:
@@ -221,21 +216,6 @@ class Brain:
         """
         living = {name: one for name, one in self._states.items() if not one.ended}
         return {name: whereabouts_of(one, self._app.flow) for name, one in living.items()}
-
-    def waiting(self, missions: Collection[str]) -> Mapping[str, Any]:
-        """Return what keeps drones from flying these missions, of those that wait for one.
-
-        `missions` by name, and as `low` the drones whose batteries are too low for every trip that waits.
-        """
-        fleet = self._core.fleet
-        requests = {id(one.trip): one for one in fleet.queue.waiters()}
-        asked = {name: self._states[name].mission for name in missions if name in self._states}
-        found = {
-            name: hindrances(fleet, requests[id(one.trips[0])])
-            for name, one in asked.items()
-            if one.trips and id(one.trips[0]) in requests
-        }
-        return {"missions": found, "low": [one.id for one in fleet.queue.too_low()]}
 
     def close(self) -> None:
         """End everything where it is; nothing may be called after that."""

@@ -51,7 +51,7 @@ def living_row(
     resumes: Sequence[str],
     priority: object,
     now: float,
-    fleet: Callable[[str, str], str],
+    fleet: Callable[[str, Sequence[Record]], str],
 ) -> Row:
     """Return the row of a mission that is `where` its brain says.
 
@@ -60,7 +60,7 @@ def living_row(
     """
     status, todo, at = Status(record["status"]), record["todo"], blocks_of(where["block"])
     until = where["until"] if (where["until"] or 0.0) > now else None
-    why = partial(fleet, name, todo[0]["name"] if todo else "")
+    why = partial(fleet, name, todo)
     return {
         **recorded_row(name, record, lives=True),
         # once its trips are done, a block has yet to decide

@@ -9,7 +9,6 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import closing, suppress
 from enum import Enum
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -99,7 +98,7 @@ class FlightSession:
         self.task: asyncio.Task[None] | None = None
         self._ended, self._seen = ended, seen
         self._idle = IdleDrones(flight.fleet.drones, flight.journal)
-        self._waiting = WaitReasons(time.monotonic)
+        self._waiting = WaitReasons(flight.app, flight.fleet, time.monotonic)
         self._left_at = 0.0
         self._read_at: int | None = None
         """The journal's modification time when it was last read."""
@@ -235,7 +234,7 @@ class FlightSession:
             now, app, brain = self.now, self.flight.app, life.brain
             priority = next((one.default for one in app.fields if one.name == PRIORITY), None)
             self._waiting.look(brain)
-            why, where = partial(self._waiting.why, brain), brain.whereabouts()
+            why, where = self._waiting.why, brain.whereabouts()
             for name, record in in_order(life.records):
                 found = where.get(name)
                 if found is not None and found["lives"] and aside(record) is None:
@@ -259,7 +258,7 @@ class FlightSession:
         where = life.brain.whereabouts()
         work = {one["drone"]: name for name, one in where.items() if one["drone"] is not None}
         for id, drone in life.brain.drones().items():
-            low = self._waiting.why_low(id, drone)
+            low = self._waiting.why_low(drone)
             why, status = low or drone["unready"], "LOW" if low else ""
             silence = life.link.telemetry(id).silence
             yield rows.drone_row(id, drone, silence, work.get(id), why, status)

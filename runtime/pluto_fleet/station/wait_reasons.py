@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from math import ceil, floor
 from typing import TYPE_CHECKING, Any
 
+from ..shared.domain.app import moving
 from ..shared.domain.status import DroneStatus
 from ..shared.domain.text import percent
+from ..shared.fleet.reach import Reach, chain_of, miss_of
+from ..shared.hooks.plain_data import trip_of
 
 if TYPE_CHECKING:
+    from ..journal.fold import Record
     from ..shared.brain import Brain
+    from ..shared.domain.app import App
+    from ..shared.domain.fleet_data import DroneData, FleetData
+    from ..shared.domain.model import Trip
 
 LOOK_EVERY = 3.0
 """Seconds after which a reason is updated."""
 MISSIONS_A_LOOK = 10
 """The most missions whose reasons are updated in one sample: there may be hundreds."""
 
+_FREE, _LOST = DroneStatus.FREE.value, DroneStatus.LOST.value
 _DOES = {
     "LOST": "lost",
     "BUSY": "flying",
@@ -25,63 +34,95 @@ _DOES = {
     "RECOVERING": "recovering",
     "OFFLINE": "not asked yet",
 }
+_IN_THE_AIR = ("BUSY", "RETURNING", "RECOVERING")
 
 
 class WaitReasons:
     """The reasons of waiting missions, cached between updates."""
 
-    def __init__(self, clock: Callable[[], float]) -> None:
-        self._clock = clock
-        self._looked = -LOOK_EVERY
-        self._low: list[str] = []
+    def __init__(self, app: App, fleet: FleetData, clock: Callable[[], float]) -> None:
+        self._app, self._fleet, self._clock = moving(app, fleet.motion), fleet, clock
+        self._reach = Reach(self._app, fleet.airspace)
+        self._kinds = {category.name: category for category in self._app.categories}
+        self._drones: Mapping[str, Any] = {}
+        """Where each stood when the sample began."""
         self._known: dict[tuple[str, str], tuple[float, str]] = {}
         """By mission and trip: when it was asked, and the reason."""
         self._left = MISSIONS_A_LOOK
 
     def look(self, brain: Brain) -> None:
         """Begin a sample of all missions and drones."""
-        now, self._left = self._clock(), MISSIONS_A_LOOK
-        if now - self._looked >= LOOK_EVERY:
-            self._looked, self._low = now, brain.waiting(())["low"]
-            self._known = {
-                which: (asked, said)
-                for which, (asked, said) in self._known.items()
-                if now - asked < 2 * LOOK_EVERY
-            }
+        now, self._left, self._drones = self._clock(), MISSIONS_A_LOOK, brain.drones()
+        self._known = {
+            which: (asked, said)
+            for which, (asked, said) in self._known.items()
+            if now - asked < 2 * LOOK_EVERY
+        }
 
-    def why(self, brain: Brain, mission: str, trip: str) -> str:
-        """Return why no drone flies a mission's next trip yet; empty: not known yet."""
-        now = self._clock()
-        asked, said = self._known.get((mission, trip), (-LOOK_EVERY, ""))
-        if self._left and now - asked >= LOOK_EVERY:
-            found = brain.waiting([mission])["missions"].get(mission)
-            if found is not None:
-                self._left -= 1
-                said = why_no_drone(found)
-                self._known[mission, trip] = now, said
+    def why(self, mission: str, todo: Sequence[Record]) -> str:
+        """Return why no drone flies the next trip of those that a mission has to do; empty: not known yet."""
+        which, now = (mission, todo[0]["name"] if todo else ""), self._clock()
+        asked, said = self._known.get(which, (-LOOK_EVERY, ""))
+        if self._left and todo and now - asked >= LOOK_EVERY:
+            self._left -= 1
+            said = self._why_no_drone(chain_of([trip_of(self._app, one) for one in todo]))
+            self._known[which] = now, said
         return said
 
-    def why_low(self, id: str, drone: Mapping[str, Any]) -> str:
+    def why_low(self, drone: Mapping[str, Any]) -> str:
         """Return why a free drone is not ready; empty: it is."""
-        if drone["status"] != DroneStatus.FREE.value:
+        if drone["status"] != _FREE:
             return ""
-        if id in self._low:
+        if drone.get("aside"):  # older brains do not say so
             return "its battery is too low for every trip that waits"
         return "its battery has little more than its reserve" if drone["low"] else ""
 
+    def _why_no_drone(self, chain: Sequence[Trip]) -> str:
+        """Return what keeps each drone of the fleet from flying a chain of trips."""
+        free = retired = 0
+        low: list[tuple[float, float]] = []
+        status: Counter[str] = Counter()
+        cannot: Counter[str] = Counter()
+        for one in self._fleet.drones:
+            drone = self._drones[one.id]
+            if drone["retired"] and drone["status"] != _LOST:
+                retired += 1
+            elif drone["status"] != _LOST and (why := self._never(one, drone, chain)):
+                cannot[why] += 1
+            elif drone["status"] != _FREE:
+                status[drone["status"]] += 1
+            elif drone.get("aside"):
+                x, y, z = drone["at"]
+                kind = self._kinds[one.category]
+                needs = self._reach.level(kind, one.home, (x, y, z), chain)
+                low.append((needs, drone["battery"]))
+            else:
+                free += 1
+        parts = [f"{free} free{self._room()}"] if free else []
+        parts += [_too_low(low)] if low else []
+        parts += [f"{number} {_DOES[one]}" for one, number in status.items()]
+        parts += [f"{retired} retired"] if retired else []
+        return "; ".join([*parts, *(f"{n} cannot: {why}" for why, n in cannot.items())])
 
-def why_no_drone(found: Mapping[str, Any]) -> str:
-    """Return in words what keeps each drone of the fleet from flying a waiting trip."""
-    parts = [f"{number} {_DOES[status]}" for status, number in found["status"].items()]
-    if found["retired"]:
-        parts.append(f"{found['retired']} retired")
-    if low := found["low"]:
-        nearest = min(low, key=lambda one: (one["needs"] - one["has"], one["has"], one["needs"]))
-        enough = f"it takes {percent(ceil(nearest['needs'] * 100) / 100)}"
-        has = f"the nearest has {percent(floor(nearest['has'] * 100) / 100)}"
-        needs = f": {enough}, {has}" if nearest["needs"] <= 1 else ""
-        parts.insert(0, f"{len(low)} free, but too low{needs}")
-    if able := found["free"]:
-        parts.insert(0, f"{able} free" + ("" if found["room"] else ", but no more may fly at once"))
-    parts += [f"{number} cannot: {reason}" for reason, number in found["cannot"].items()]
-    return "; ".join(parts)
+    def _never(self, one: DroneData, drone: Mapping[str, Any], chain: Sequence[Trip]) -> str:
+        """Return why a drone can never fly it; no route is searched for one that may just be busy."""
+        kind, trip = self._kinds[one.category], chain[0]
+        heavy = trip.item is not None and trip.item.mass > kind.payload
+        if drone.get("aside") or heavy or not kind.can(trip.action):
+            miss = miss_of(self._app, self._fleet.airspace, kind, one.home, chain)
+            return miss.reason if miss else ""
+        return ""
+
+    def _room(self) -> str:
+        most = self._fleet.max_airborne
+        flying = sum(drone["status"] in _IN_THE_AIR for drone in self._drones.values())
+        return "" if most is None or flying < most else ", but no more may fly at once"
+
+
+def _too_low(low: Sequence[tuple[float, float]]) -> str:
+    """Return how many are too low, and of the nearest what it needs and has."""
+    needs, has = min(low, key=lambda one: (one[0] - one[1], one[1], one[0]))
+    if needs > 1:
+        return f"{len(low)} free, but too low"
+    enough, there = percent(ceil(needs * 100) / 100), percent(floor(has * 100) / 100)
+    return f"{len(low)} free, but too low: it takes {enough}, the nearest has {there}"

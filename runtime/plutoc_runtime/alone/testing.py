@@ -133,16 +133,15 @@ class _Instruments:
     def __init__(self, context: KitContext) -> None:
         self._context = context
 
-    async def read(self, drone: str, name: str) -> float:
-        """Return what it measures under this name."""
-        value = self._context.sensors.get(name)
-        if value is None:
+    async def ask(self, do: str, drone: str, *, name: str, value: float = 0.0) -> float:
+        """Return what it measures under a name, or keep what it measures from now on."""
+        if do == "write":
+            self._context.sensors[name] = self._context.written[name] = value
+            return value
+        measured = self._context.sensors.get(name)
+        if measured is None:
             raise FlightFailed(Failure.ACTION, f"{drone} has no {name}")
-        return value() if callable(value) else value
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Keep a value, which from now on is what it measures, too."""
-        self._context.sensors[name] = self._context.written[name] = value
+        return measured() if callable(measured) else measured
 
 
 class AppKit(Generic[M, T]):

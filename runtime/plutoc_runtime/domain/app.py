@@ -54,14 +54,7 @@ def about(app: App) -> dict[str, Any]:
         "name": app.name,
         "title": app.title,
         "fields": [
-            {
-                "name": one.name,
-                "on": one.on.value,
-                "type": one.type.value,
-                "label": one.label,
-                "default": one.default,
-            }
-            for one in app.fields
+            {**asdict(one), "on": one.on.value, "type": one.type.value} for one in app.fields
         ],
         "categories": [
             {**asdict(one), "actions": one.actions and sorted(one.actions)}

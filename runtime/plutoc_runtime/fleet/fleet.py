@@ -67,7 +67,7 @@ class Fleet:
 
         async def land(drone: Drone) -> None:
             try:
-                await self._orders.land(drone.id)
+                await self._orders.ask("land", drone.id)
             except FlightFailed as error:
                 lose(str(error))
                 await self._rescue(drone, str(error))
@@ -166,7 +166,7 @@ class Fleet:
 
     async def _stay(self, drone: Drone) -> None:
         try:
-            await self._orders.land(drone.id)
+            await self._orders.ask("land", drone.id)
         except FlightFailed as error:
             await self._rescue(drone, str(error))
             return
@@ -187,7 +187,7 @@ class Fleet:
         for _ in range(FLIGHTS_HOME):
             self._become(drone, DroneStatus.RETURNING)
             try:
-                await self._orders.home(drone.id)
+                await self._orders.ask("home", drone.id)
             except FlightFailed as error:
                 if not await self._recovered(drone, str(error)):
                     return
@@ -204,11 +204,11 @@ class Fleet:
     async def _recovered(self, drone: Drone, reason: str, repaired: bool = False) -> bool:
         """Recover a drone; return False if it is lost."""
         self._become(drone, _RECOVERING)
-        why = await self._orders.recover(drone.id)
+        home = await self._orders.ask("recover", drone.id)  # true, or what a lost drone says
         if drone in self.lost_before:
             self._lose(drone, self.lost_before[drone])
-        elif why is not None:
-            why = self._not_ready(drone, why) if repaired else why
+        elif home is not True:
+            why = self._not_ready(drone, str(home or "")) if repaired else str(home or "")
             reason = cut_off(printable(reason), LONGEST) or "it could not be brought home"
             self._lose(drone, why or reason)
         else:

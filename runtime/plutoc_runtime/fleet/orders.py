@@ -76,32 +76,21 @@ class Orders:
         settle = self._flying.get(drone)
         self._give({"do": "break_off", "drone": drone, "flight": flight, "settle": settle})
 
-    # Commands to one drone, which return when they are done, and raise `FlightFailed`
+    # All else
 
-    async def hold(self, drone: str) -> None:
-        """Hover, for as long as an action of the app's own takes."""
-        await self._ask("hold", drone)
-
-    async def read(self, drone: str, name: str) -> float:
-        """Return a sensor or variable of a hovering drone."""
-        return float(await self._ask("read", drone, name=name))
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set a parameter of a hovering drone."""
-        await self._ask("write", drone, name=name, value=value)
-
-    async def home(self, drone: str) -> None:
-        """Fly to its dock, and land there."""
-        await self._ask("home", drone)
-
-    async def land(self, drone: str) -> None:
-        """Land here."""
-        await self._ask("land", drone)
-
-    async def recover(self, drone: str) -> str | None:
-        """Bring a drone home after a failed flight, landed; else it is lost: return what it says of that."""
-        home = await self._ask("recover", drone)
-        return None if home is True else str(home or "")
+    async def ask(self, do: str, drone: str, **more: object) -> Any:
+        """Give an order, and return what came of it; raise `FlightFailed`. Cancelling this cancels the order."""
+        outcome: Future[Any] = Future()
+        number = self._give({"do": do, "drone": drone, **more}, outcome.set)
+        try:
+            result = await outcome
+        finally:
+            if not outcome.is_set:
+                self._answers.pop(number, None)
+                self._give({"do": "cancel", "drone": drone, "order": number})
+        if isinstance(result, FlightFailed):
+            raise result
+        return result
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it can be recovered once more."""
@@ -117,20 +106,6 @@ class Orders:
             self._answers[number] = answer
         self.pending.append(order)
         return number
-
-    async def _ask(self, do: str, drone: str, **more: object) -> Any:
-        """Give an order, and wait for its outcome; cancelling this cancels the order."""
-        outcome: Future[Any] = Future()
-        number = self._give({"do": do, "drone": drone, **more}, outcome.set)
-        try:
-            result = await outcome
-        finally:
-            if not outcome.is_set:
-                self._answers.pop(number, None)
-                self._give({"do": "cancel", "drone": drone, "order": number})
-        if isinstance(result, FlightFailed):
-            raise result
-        return result
 
 
 def failure_of(told: Mapping[str, Any]) -> FlightFailed:

@@ -51,7 +51,7 @@ class OwnAction(Action):
         context = Context(kernel, core.results, core.log, mission, lambda: state.flight, live)
         call = _call(kernel, hook, drone, trip, context, **trip.parameters)
         work = kernel.spawn(call, key, f"{mission.name}: {self.name}")
-        hover = kernel.spawn(core.orders.hold(drone.id), key, f"{drone.id} hovers")
+        hover = kernel.spawn(core.orders.ask("hold", drone.id), key, f"{drone.id} hovers")
         held = ProtectedFacts(trip, "name", "action", "item", "index", "attempt", "status")
         over, began = Future[None](), kernel.now
         work.watch(over.set)

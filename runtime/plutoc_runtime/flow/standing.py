@@ -6,7 +6,6 @@ each call of it.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from dataclasses import fields as dataclass_fields
@@ -16,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
-from ..domain.status import DroneStatus, Status, TripStatus
+from ..domain.status import Status, TripStatus
 from ..domain.text import said
 from ..hooks.plain_data import fields_of, item_data, known_fields, trip_data, trip_of
 
@@ -27,7 +26,6 @@ if TYPE_CHECKING:
     from ..domain.fleet_data import FleetData
     from ..domain.model import Drone, Mission, Trip
     from ..fleet.fleet import Fleet
-    from ..fleet.needs import Request
     from ..hooks.plain_data import Data
     from ..trips.flight import Flight
     from .mission import MissionState
@@ -109,9 +107,10 @@ def whereabouts_of(state: MissionState, flow: Callable[..., Any]) -> Data:
     }
 
 
-def drone_standing(drone: Drone, fleet: Fleet) -> Data:
+def drone_standing(drone: Drone, fleet: Fleet, aside: bool) -> Data:
     """Return where a drone stands, what it has flown, and why it is not ready to fly, as `unready`."""
     return {
+        "aside": aside,
         "unready": fleet.unready.get(drone, ""),
         "retired": drone in fleet.retired,
         "low": fleet.is_low(drone),
@@ -121,39 +120,6 @@ def drone_standing(drone: Drone, fleet: Fleet) -> Data:
         "landed": drone.telemetry.landed,
         "trips": drone.trips,
     }
-
-
-def hindrances(fleet: Fleet, request: Request) -> dict[str, Any]:
-    """Return how many drones are `free`, `retired`, busy by `status`, or `cannot` fly the trip, and why.
-
-    `low`: for each free drone whose battery is too low, the level that it `needs` and `has`; `room`: whether
-    one more may fly. No route is searched here, as that would delay the flight.
-    """
-    queue, free, retired = fleet.queue, 0, 0
-    low: list[dict[str, float]] = []
-    status: Counter[str] = Counter()
-    cannot: Counter[str] = Counter()
-    for drone in fleet.drones:
-        if drone in fleet.retired and drone.status is not DroneStatus.LOST:
-            retired += 1
-        elif drone.status is not DroneStatus.LOST and (why := _never(request, drone, queue.low)):
-            cannot[why] += 1
-        elif drone in queue.low:
-            low.append({"needs": request.level(drone), "has": drone.battery_level})
-        elif drone.status is DroneStatus.FREE:
-            free += 1
-        else:
-            status[drone.status.value] += 1
-    counts = {"status": dict(status), "cannot": dict(cannot), "retired": retired}
-    return {**counts, "free": free, "room": queue.room, "low": low}
-
-
-def _never(request: Request, drone: Drone, known: Any) -> str | None:
-    """Return why a drone can never fly it, as far as known."""
-    category, trip = drone.category, request.trip
-    heavy = trip.item is not None and trip.item.mass > category.payload
-    asked = drone in known or heavy or not category.can(trip.action)
-    return request.never(drone) if asked else None
 
 
 def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[str, Trip]:

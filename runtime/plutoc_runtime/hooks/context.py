@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from inspect import iscoroutinefunction, unwrap
 from math import isfinite
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from ..domain.errors import ActionFailed, FlightFailed
 from ..domain.model import NO_RESULT, Result, Results
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Point, ResultStore, Trip
     from ..time.kernel import Key, Task
     from ..time.told import ToldTime
-
-T = TypeVar("T")
 
 
 class LatestFlight(Protocol):
@@ -115,10 +113,9 @@ def _finite(seconds: float) -> float:
 
 
 class Instruments(Protocol):
-    """The orders that read and set values of a hovering drone."""
+    """Gives orders to a hovering drone, such as to `read` or to `write` a value."""
 
-    async def read(self, drone: str, name: str) -> float: ...
-    async def write(self, drone: str, name: str, value: float) -> None: ...
+    async def ask(self, do: str, drone: str, *, name: str, value: float = ...) -> Any: ...
 
 
 class LiveDrone:
@@ -146,7 +143,7 @@ class LiveDrone:
     async def read(self, name: str) -> float:
         """Return the current value of a sensor or variable, such as `range.front`."""
         _must_be_a_name(name)
-        return await self._asked(lambda drone: self._orders.read(drone, name), name)
+        return float(await self._asked("read", name))
 
     async def write(self, name: str, value: float) -> None:
         """Set a parameter; returns when the drone has it."""
@@ -154,7 +151,7 @@ class LiveDrone:
         number = float(value)
         if not isfinite(number):
             raise ValueError(f"{name} cannot be set to {number}")
-        await self._asked(lambda drone: self._orders.write(drone, name, number), name)
+        await self._asked("write", name, value=number)
 
     def release(self) -> None:
         """End the access to the drone: the action has ended."""
@@ -170,12 +167,13 @@ class LiveDrone:
             raise RuntimeError(f"the action of {self._drone.id} is over: it does other things now")
         return self._drone
 
-    async def _asked(self, ask: Callable[[str], Coroutine[Any, Any, T]], name: str) -> T:
-        """Make the request within the kernel, and wait for the answer in a hook."""
+    async def _asked(self, do: str, name: str, **more: float) -> Any:
+        """Give the order within the kernel, and wait for the answer in a hook."""
         kernel, drone = self._kernel, self._now.id
 
-        def begin() -> Task[T]:
-            task = kernel.spawn(ask(drone), self._key, f"{drone} is asked for {name}")
+        def begin() -> Task[Any]:
+            asks = self._orders.ask(do, drone, name=name, **more)
+            task = kernel.spawn(asks, self._key, f"{drone} is asked for {name}")
             task.over = lambda _: None  # an error is told to the hook, not to the kernel
             return task
 

@@ -7,7 +7,7 @@ from typing import Any
 from pluto_fleet.shared.domain.model import Category, Item
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.telemetry import Charge
-from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons, why_no_drone
+from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 
@@ -27,10 +27,20 @@ def far(name: str, **more: Any) -> apps.Mission:
     return apps.mission(name, apps.trip("1", 19.0, 19.0, **more))
 
 
+def looking(fleet: Living) -> WaitReasons:
+    """Return the reasons at the beginning of a sample."""
+    waiting = WaitReasons(fleet.app, fleet.fleet, lambda: 0.0)
+    waiting.look(fleet.life.brain)
+    return waiting
+
+
 def said(fleet: Living) -> list[str]:
     """Return what is said of each that waits."""
-    found = fleet.life.brain.waiting(list(fleet.life.records.missions))
-    return [why_no_drone(each) for each in found["missions"].values()]
+    waiting, where = looking(fleet), fleet.life.brain.whereabouts()
+    missions = fleet.life.records.missions.items()
+    return [
+        waiting.why(name, one["todo"]) for name, one in missions if where[name]["drone"] is None
+    ]
 
 
 def test_drones_that_are_free_but_too_low_are_not_what_a_mission_waits_for_without_a_word() -> None:
@@ -72,9 +82,8 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
     None
 ):
     def why_low(fleet: Living) -> list[str]:
-        waiting, brain = WaitReasons(lambda: 0.0), fleet.life.brain
-        waiting.look(brain)
-        return [waiting.why_low(id, drone) for id, drone in brain.drones().items()]
+        waiting = looking(fleet)
+        return [waiting.why_low(drone) for drone in fleet.life.brain.drones().values()]
 
     too_low = "its battery is too low for every trip that waits"
     assert why_low(living(far("a"), low=0.25)) == [too_low] * 3
@@ -87,9 +96,8 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
 def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
     """None is forgotten, and nothing is found out twice within seconds."""
     fleet = living(*[far(f"m{n}") for n in range(3 * MISSIONS_A_LOOK)], low=0.25)
-    brain, missions = fleet.life.brain, list(fleet.life.records.missions)
-    waiting, seen = WaitReasons(lambda: 0.0), []
+    waiting, missions, seen = looking(fleet), fleet.life.records.missions.items(), list[int]()
     for _ in range(4):
-        waiting.look(brain)
-        seen.append(sum(bool(waiting.why(brain, mission, "1")) for mission in missions))
+        waiting.look(fleet.life.brain)
+        seen.append(sum(bool(waiting.why(name, one["todo"])) for name, one in missions))
     assert seen == [MISSIONS_A_LOOK, 2 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK]
