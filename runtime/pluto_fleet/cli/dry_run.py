@@ -37,8 +37,6 @@ if TYPE_CHECKING:
     from ..files.drones import DroneEntry
     from ..flight.outcome import SimulationResult
     from ..jobs.controls import Controls
-
-    # was an import of itself
     from ..shared.domain.actions import Plain
     from ..shared.domain.model import Item, Point
     from ..shared.time.kernel import Kernel
