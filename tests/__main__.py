@@ -52,6 +52,7 @@ MEASURES = {
     "python benchmarks/compile.py": "how long `compile` takes: anew, after an edit, for 10,000 blocks",
     "python benchmarks/large_apps.py": "how the time of `check` grows from 1,000 blocks to 10,000",
     "python benchmarks/typing_latency.py": "from a keystroke to what is published, at 100 and 1,000 blocks",
+    "python benchmarks/simulate.py": "what a trip of a simulation costs, and how that grows with drones and trips",
     "python benchmarks/allocation.py": "what it costs to choose drones, in large fleets and long queues",
     "python benchmarks/traffic.py": "how near drones come to each other, and what keeping them apart costs",
     "python benchmarks/station.py": "what it costs to watch a flight; needs Chromium",

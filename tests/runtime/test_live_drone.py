@@ -24,12 +24,16 @@ Hook = Callable[..., object]
 FAST = Category(name="scout", speed=200.0)
 
 
-def flown(hook: Hook, *, real: bool = False) -> apps.SimulationResult:
-    """Return what comes of a mission with this action, in virtual or in real time."""
+def flown(hook: Hook, *, real: bool = False, apart: float = 0.0) -> apps.SimulationResult:
+    """Return what comes of a mission with this action, in virtual or in real time.
+
+    In virtual time only drones that are kept apart are flown by a navigation.
+    """
     action = OwnAction(name="grip", hook=hook)
     height = 0.003 if real else 1.2
     trip = apps.Trip(name="A", action="grip", target=(3.0, 0.5, height))
-    fleet = apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), airspace=Airspace(cruise_height=height))
+    homes, space = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0)), Airspace(cruise_height=height)
+    fleet = apps.fleet(*homes, airspace=space, apart=apart)
     app = apps.app(apps.flow(), categories=[FAST], actions=[action])
     mission = apps.mission("field", trip)
     if real:
@@ -37,9 +41,9 @@ def flown(hook: Hook, *, real: bool = False) -> apps.SimulationResult:
     return apps.fly(app, mission, on=fleet)
 
 
-def reason(hook: Hook, *, real: bool = False) -> str:
+def reason(hook: Hook, *, real: bool = False, apart: float = 0.0) -> str:
     """Return why the mission with this action fails."""
-    (mission,) = flown(hook, real=real).missions
+    (mission,) = flown(hook, real=real, apart=apart).missions
     assert mission.status is Status.FAILED
     return mission.reason
 
@@ -93,9 +97,10 @@ def test_a_drone_that_has_it_not_fails_the_action(
 
     monkeypatch.setattr(SimulatedNavigation, "read", refuse)
     expected = "has no log variable range.front"
-    assert reason(grip, real=real).endswith(expected)
-    assert "grip failed" in reason(grip, real=real)
-    assert flown(without, real=real).completed
+    said = reason(grip, real=real, apart=0.5)
+    assert said.endswith(expected)
+    assert "grip failed" in said
+    assert flown(without, real=real, apart=0.5).completed
 
 
 @pytest.mark.parametrize("real", [False, True])
@@ -194,7 +199,7 @@ def test_an_answer_that_never_comes_ends_with_the_flight(
         await context.live(drone).read("range.front")
 
     monkeypatch.setattr(SimulatedNavigation, "read", never)
-    assert "crashed at" in reason(grip, real=real)
+    assert "crashed at" in reason(grip, real=real, apart=0.5)
     assert over == ["range.front"]
 
 

@@ -81,12 +81,12 @@ def test_one_that_is_as_lost_as_before_stays_so(monkeypatch: pytest.MonkeyPatch)
     async def drone_report(drone: str) -> DroneReport:
         return replace(fleet.navigation.bodies[drone].report, problems=("it lies on its back",))
 
-    fleet = living(*"ab")
+    fleet = living(*"abcd")  # the others fly long enough for it to be asked
     monkeypatch.setattr(fleet.navigation, "mended", lambda _: None)
     fleet.at(20.0, lambda: vars(fleet.navigation).update(drone_report=drone_report))
     crashes(fleet, 5.0)
     fleet.at(40.0, lambda: fleet.life.control.bring_back("cf1"))
-    assert fleet.run() == ["COMPLETED"] * 2
+    assert fleet.run() == ["COMPLETED"] * 4
     assert drone(fleet).status is DroneStatus.LOST
     assert len(fleet.named("drone.lost")) == 2
     (event,) = fleet.named("drone.not_ready")

@@ -23,14 +23,13 @@ from typing import Any, NamedTuple, TypeVar
 from ..shared import output
 from ..shared.domain.errors import ANY_ERROR
 from .forked import leave, not_for_children, refused
+from .held_signals import BY_A_PERSON, Held, held
 
 T = TypeVar("T")
 R = TypeVar("R")
 
 _ENOUGH, _MOST = 20, 50
 """Into how many parts tasks are divided, unless a part would have more than so many of them."""
-
-_BY_A_PERSON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class WorkerDied(Exception):
@@ -116,18 +115,15 @@ def _begin(
 ) -> None:
     receives, sends = Pipe(duplex=False)
     output.flush()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, _BY_A_PERSON)
-    try:
+    with held() as signals:  # until the worker is known: else nothing would end it
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # threads that a hook has begun
             process = os.fork()
         if process == 0:
             for pipe in (receives, *workers):
                 pipe.close()  # else a worker would not notice that its reader has gone
-            _work(work, tasks, places, sends, before)
+            _work(work, tasks, places, sends, signals)
         workers[receives] = _Worker(process, deque(places))
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
     sends.close()
 
 
@@ -136,16 +132,16 @@ def _work(
     tasks: Sequence[T],
     places: Sequence[int],
     sends: Connection,
-    mask: set[Any],
+    signals: Held,
 ) -> None:
     """Do tasks, up to the first error, and leave: in a worker nothing returns."""
     code = 1
     try:
         not_for_children(sends.fileno())  # else the reader would wait for a hook's children, too
-        for number in _BY_A_PERSON:
+        for number in BY_A_PERSON:
             if signal.getsignal(number) is not signal.SIG_IGN:  # as with nohup
                 signal.signal(number, signal.SIG_DFL)
-        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        signals.unblock()
         with refused():
             for place in places:
                 message = _outcome(work, tasks[place])
@@ -225,15 +221,23 @@ def _ending(workers: dict[Connection, _Worker]) -> Iterator[None]:
         signal.signal(number, signal.SIG_DFL)
         os.kill(os.getpid(), number)
 
-    changed = []
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) is signal.SIG_DFL:
-            with suppress(ValueError):  # not in the main thread
-                signal.signal(number, ended)
-                changed.append(number)
+    def interrupted(number: int, frame: FrameType | None) -> None:
+        with held():  # a second interrupt must not keep any worker alive
+            end()
+        assert callable(interrupt)
+        interrupt(number, frame)
+
+    interrupt = signal.getsignal(signal.SIGINT)
+    before: dict[signal.Signals, Any] = {}
+    with suppress(ValueError):  # not in the main thread
+        for number in BY_A_PERSON[1:]:
+            if signal.getsignal(number) is signal.SIG_DFL:
+                before[number] = signal.signal(number, ended)
+        if callable(interrupt):
+            before[signal.SIGINT] = signal.signal(signal.SIGINT, interrupted)
     try:
         yield
     finally:
         end()
-        for number in changed:
-            signal.signal(number, signal.SIG_DFL)
+        for number, handler in before.items():
+            signal.signal(number, handler)

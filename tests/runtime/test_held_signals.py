@@ -1,0 +1,127 @@
+"""Ctrl-C while a process forks: it counts once it has forked, and is neither lost nor told as an error."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+SCRIPT = """
+import os, select, signal, sys, threading, time
+
+def blocked(number):
+    signal.pthread_kill(threading.get_ident(), number)
+
+def elsewhere(number):
+    '''Let another thread receive it, and wait until it has: Python calls the handler in this one.'''
+    reads, writes = os.pipe()
+    os.set_blocking(writes, False)
+    before = signal.set_wakeup_fd(writes)
+    signal.pthread_kill(other.ident, number)
+    select.select([reads], [], [])
+    signal.set_wakeup_fd(before)
+
+def strike():
+    send, numbers = signals
+    for number in numbers:
+        send(number)
+
+def quits(number, frame):
+    raise SystemExit("told to quit")
+
+os.register_at_fork(before=strike)  # those that are registered later are called earlier
+import pluto_fleet.process.forked
+from pluto_fleet.process.workers import in_workers
+
+other = threading.Thread(target=time.sleep, args=(60,), daemon=True)
+other.start()
+send, what, *names = sys.argv[1:]
+signals = {"blocked": blocked, "elsewhere": elsewhere}[send], [getattr(signal, n) for n in names]
+signal.signal(signal.SIGHUP, quits)
+try:
+    if what == "workers":
+        list(in_workers(time.sleep, [60, 60], 2))
+    elif os.fork() == 0:
+        os._exit(0)
+    print("lost")
+except KeyboardInterrupt:
+    print("interrupted")
+except SystemExit as end:
+    print(end)
+after = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+after &= signal.getsignal(signal.SIGHUP) is quits
+after &= not signal.pthread_sigmask(signal.SIG_BLOCK, ())
+print("as before" if after else "changed")
+try:
+    while os.waitpid(-1, 0) and what == "workers":
+        print("a worker is left")
+except ChildProcessError:
+    pass
+"""
+
+
+def said(*arguments: str) -> list[str]:
+    """Return what a process prints that is sent signals while it forks."""
+    # `ignore`: from 3.12 on, Python warns of forks where there are threads
+    run = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", SCRIPT, *arguments],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert (run.returncode, run.stderr) == (0, "")
+    return run.stdout.splitlines()
+
+
+@pytest.mark.parametrize("what", ["fork", "workers"])
+@pytest.mark.parametrize("send", ["blocked", "elsewhere"])
+def test_an_interrupt_during_a_fork_is_raised_after_it(send: str, what: str) -> None:
+    """By the main thread's own signal, and by one that reaches another thread."""
+    assert said(send, what, "SIGINT") == ["interrupted", "as before"]
+
+
+@pytest.mark.parametrize("what", ["fork", "workers"])
+@pytest.mark.parametrize("send", ["blocked", "elsewhere"])
+def test_so_is_what_another_handler_raises(send: str, what: str) -> None:
+    """An app may have its own for the end of its terminal."""
+    assert said(send, what, "SIGHUP") == ["told to quit", "as before"]
+
+
+def test_one_that_comes_twice_counts_once() -> None:
+    """As it does for a process that is not scheduled meanwhile."""
+    assert said("blocked", "fork", "SIGINT", "SIGINT") == ["interrupted", "as before"]
+
+
+CHILD = """
+import os, signal, sys
+
+def strike():
+    if os.getppid() == parent:
+        os.kill(os.getpid(), signal.SIGINT)
+
+parent = os.getpid()
+os.register_at_fork(after_in_child=strike)  # before the library's own is called
+import pluto_fleet.process.forked
+
+child = os.fork()
+if child == 0:
+    os._exit(3)
+print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+
+
+def test_an_interrupt_of_the_child_ends_it_silently() -> None:
+    """It has not begun with anything that were to be told of."""
+    run = subprocess.run(
+        [sys.executable, "-c", CHILD],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert (run.stdout, run.stderr) == (f"{-2}\n", "")
