@@ -9,11 +9,10 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import NoReturn, TypeVar
-
-from .held_signals import BY_A_PERSON, in_child, unblock_in_child
 
 leave = os._exit
 """The real one, for ourselves."""
@@ -73,7 +72,7 @@ def not_for_children(descriptor: int) -> None:
 def deaf() -> None:
     """Reset signal handling in a child: its signals must not wake the parent's loop."""
     signal.set_wakeup_fd(-1)
-    for number in BY_A_PERSON:
+    for number in _SIGNALS:
         signal.signal(number, signal.SIG_DFL)
 
 
@@ -82,12 +81,24 @@ def _identity(descriptor: int) -> tuple[int, int]:
     return found.st_dev, found.st_ino
 
 
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _RAISES = signal.default_int_handler
 
 
+def _wait_for_signals() -> None:
+    """Block signals in this thread while it forks, until the child has dropped its parent's handlers."""
+    _before.mask = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+
+
+def _take_signals() -> None:
+    signal.pthread_sigmask(signal.SIG_SETMASK, _before.mask)
+
+
+_before = threading.local()
+
+
 def _let_go() -> None:
-    """Clean up in the child, before anything else runs in it; its signals are blocked until then."""
-    in_child()
+    """Clean up in the child, before anything else runs in it."""
     for call in reversed(tuple(_lets_go.values())):  # what was set last is put back first
         call()
     for descriptor, which in _files.items():
@@ -98,7 +109,7 @@ def _let_go() -> None:
     _files.clear()
     if signal.SIGINT in signal.sigpending() and signal.getsignal(signal.SIGINT) is _RAISES:
         signal.signal(signal.SIGINT, signal.SIG_DFL)  # what is raised in here, Python drops
-    unblock_in_child()
+    _take_signals()
 
 
 def _put_nothing(descriptor: int) -> None:
@@ -108,7 +119,7 @@ def _put_nothing(descriptor: int) -> None:
     os.close(nothing)
 
 
-os.register_at_fork(after_in_child=_let_go)
+os.register_at_fork(before=_wait_for_signals, after_in_parent=_take_signals, after_in_child=_let_go)
 
 
 def end_if_forked(parent: int, error: BaseException | None = None) -> None:

@@ -23,13 +23,15 @@ from typing import Any, NamedTuple, TypeVar
 from ..shared import output
 from ..shared.domain.errors import ANY_ERROR
 from .forked import leave, not_for_children, refused
-from .held_signals import BY_A_PERSON, Held, held
 
 T = TypeVar("T")
 R = TypeVar("R")
 
 _ENOUGH, _MOST = 20, 50
 """Into how many parts tasks are divided, unless a part would have more than so many of them."""
+
+_BY_A_PERSON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+"""The signals that ask a process to end; the first raises, so its handler is replaced first."""
 
 
 class WorkerDied(Exception):
@@ -115,14 +117,14 @@ def _begin(
 ) -> None:
     receives, sends = Pipe(duplex=False)
     output.flush()
-    with held() as signals:  # until the worker is known: else nothing would end it
+    with _held():  # until the worker is known: else nothing would end it
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # threads that a hook has begun
             process = os.fork()
         if process == 0:
             for pipe in (receives, *workers):
                 pipe.close()  # else a worker would not notice that its reader has gone
-            _work(work, tasks, places, sends, signals)
+            _work(work, tasks, places, sends)
         workers[receives] = _Worker(process, deque(places))
     sends.close()
 
@@ -132,16 +134,14 @@ def _work(
     tasks: Sequence[T],
     places: Sequence[int],
     sends: Connection,
-    signals: Held,
 ) -> None:
     """Do tasks, up to the first error, and leave: in a worker nothing returns."""
     code = 1
     try:
         not_for_children(sends.fileno())  # else the reader would wait for a hook's children, too
-        for number in BY_A_PERSON:
+        for number in _BY_A_PERSON:
             if signal.getsignal(number) is not signal.SIG_IGN:  # as with nohup
                 signal.signal(number, signal.SIG_DFL)
-        signals.unblock()
         with refused():
             for place in places:
                 message = _outcome(work, tasks[place])
@@ -203,6 +203,27 @@ def _how(status: int) -> str:
 
 
 @contextmanager
+def _held() -> Iterator[None]:
+    """Hold back the signals that ask this process to end; they are handled as this context ends.
+
+    In a function that is called at a fork, Python drops what a handler raises.
+    """
+    noted: set[int] = set()
+    handlers: dict[int, Any] = {}
+    with suppress(ValueError):  # not in the main thread
+        for number in _BY_A_PERSON:
+            if callable(signal.getsignal(number)):
+                handlers[number] = signal.signal(number, lambda number, _: noted.add(number))
+    try:
+        yield
+    finally:
+        for number in reversed(handlers):
+            signal.signal(number, handlers[number])
+        for number in noted:
+            signal.raise_signal(number)
+
+
+@contextmanager
 def _ending(workers: dict[Connection, _Worker]) -> Iterator[None]:
     """End all workers with this context, and with this process if that is asked to end."""
 
@@ -222,7 +243,7 @@ def _ending(workers: dict[Connection, _Worker]) -> Iterator[None]:
         os.kill(os.getpid(), number)
 
     def interrupted(number: int, frame: FrameType | None) -> None:
-        with held():  # a second interrupt must not keep any worker alive
+        with _held():  # a second interrupt must not keep any worker alive
             end()
         assert callable(interrupt)
         interrupt(number, frame)
@@ -230,7 +251,7 @@ def _ending(workers: dict[Connection, _Worker]) -> Iterator[None]:
     interrupt = signal.getsignal(signal.SIGINT)
     before: dict[signal.Signals, Any] = {}
     with suppress(ValueError):  # not in the main thread
-        for number in BY_A_PERSON[1:]:
+        for number in _BY_A_PERSON[1:]:
             if signal.getsignal(number) is signal.SIG_DFL:
                 before[number] = signal.signal(number, ended)
         if callable(interrupt):

@@ -1,4 +1,4 @@
-"""Ctrl-C while a process forks: it counts once it has forked, and is neither lost nor told as an error."""
+"""Ctrl-C while a worker is forked: it counts once that has been done, and is neither lost nor told as an error."""
 
 from __future__ import annotations
 
@@ -32,19 +32,15 @@ def quits(number, frame):
     raise SystemExit("told to quit")
 
 os.register_at_fork(before=strike)  # those that are registered later are called earlier
-import pluto_fleet.process.forked
 from pluto_fleet.process.workers import in_workers
 
 other = threading.Thread(target=time.sleep, args=(60,), daemon=True)
 other.start()
-send, what, *names = sys.argv[1:]
+send, *names = sys.argv[1:]
 signals = {"blocked": blocked, "elsewhere": elsewhere}[send], [getattr(signal, n) for n in names]
 signal.signal(signal.SIGHUP, quits)
 try:
-    if what == "workers":
-        list(in_workers(time.sleep, [60, 60], 2))
-    elif os.fork() == 0:
-        os._exit(0)
+    list(in_workers(time.sleep, [60, 60], 2))
     print("lost")
 except KeyboardInterrupt:
     print("interrupted")
@@ -55,7 +51,7 @@ after &= signal.getsignal(signal.SIGHUP) is quits
 after &= not signal.pthread_sigmask(signal.SIG_BLOCK, ())
 print("as before" if after else "changed")
 try:
-    while os.waitpid(-1, 0) and what == "workers":
+    while os.waitpid(-1, 0):
         print("a worker is left")
 except ChildProcessError:
     pass
@@ -77,23 +73,21 @@ def said(*arguments: str) -> list[str]:
     return run.stdout.splitlines()
 
 
-@pytest.mark.parametrize("what", ["fork", "workers"])
 @pytest.mark.parametrize("send", ["blocked", "elsewhere"])
-def test_an_interrupt_during_a_fork_is_raised_after_it(send: str, what: str) -> None:
+def test_an_interrupt_during_a_fork_is_raised_after_it(send: str) -> None:
     """By the main thread's own signal, and by one that reaches another thread."""
-    assert said(send, what, "SIGINT") == ["interrupted", "as before"]
+    assert said(send, "SIGINT") == ["interrupted", "as before"]
 
 
-@pytest.mark.parametrize("what", ["fork", "workers"])
 @pytest.mark.parametrize("send", ["blocked", "elsewhere"])
-def test_so_is_what_another_handler_raises(send: str, what: str) -> None:
+def test_so_is_what_another_handler_raises(send: str) -> None:
     """An app may have its own for the end of its terminal."""
-    assert said(send, what, "SIGHUP") == ["told to quit", "as before"]
+    assert said(send, "SIGHUP") == ["told to quit", "as before"]
 
 
 def test_one_that_comes_twice_counts_once() -> None:
     """As it does for a process that is not scheduled meanwhile."""
-    assert said("blocked", "fork", "SIGINT", "SIGINT") == ["interrupted", "as before"]
+    assert said("blocked", "SIGINT", "SIGINT") == ["interrupted", "as before"]
 
 
 CHILD = """
