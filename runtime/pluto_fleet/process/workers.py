@@ -209,7 +209,7 @@ def _held() -> Iterator[None]:
     In a function that is called at a fork, Python drops what a handler raises.
     """
     noted: set[int] = set()
-    handlers: dict[int, Any] = {}
+    handlers: dict[signal.Signals, Any] = {}
     with suppress(ValueError):  # not in the main thread
         for number in _BY_A_PERSON:
             if callable(signal.getsignal(number)):
@@ -219,8 +219,8 @@ def _held() -> Iterator[None]:
     finally:
         for number in reversed(handlers):
             signal.signal(number, handlers[number])
-        for number in noted:
-            signal.raise_signal(number)
+        for missed in noted:
+            signal.raise_signal(missed)
 
 
 @contextmanager
