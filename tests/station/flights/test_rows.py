@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pytest
@@ -19,7 +19,11 @@ def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, 
 
 def row(record: dict[str, Any], block: str, **more: Any) -> dict[str, object]:
     where = {"block": block, "drone": None, "flies": False, "allocated": False, "until": None}
-    return living_row("a", record, where | more, ("allocate",), 1, 10.0, lambda name, trip: trip)
+
+    def why(mission: str, todo: Sequence[Mapping[str, Any]]) -> str:
+        return str(todo[0]["name"]) if todo else ""
+
+    return living_row("a", record, where | more, ("allocate",), 1, 10.0, why)
 
 
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
