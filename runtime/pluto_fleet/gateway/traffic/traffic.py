@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from math import dist
+from math import dist, inf
 from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import Failure, FlightFailed
 from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
 from .reservations import Reservation, are_near, meets, nearest, part_way
-from .wait_queue import Obstacle, Wait
+from .wait_queue import Elder, Obstacle, Wait
 from .ways import Ground, Section, sections
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class Traffic:
             return await wait.over
         finally:
             if self._waiting.get(section.drone) is wait:
-                del self._waiting[section.drone]
+                self._leaves(wait)
 
     def passed(self, drone: str) -> None:
         """Called when a drone has reached the next point of its section."""
@@ -149,8 +149,9 @@ class Traffic:
 
     def break_off(self, drone: str) -> None:
         """Drop a drone's place in the queue."""
-        wait = self._waiting.pop(drone, None)
+        wait = self._waiting.get(drone)
         if wait is not None:
+            self._leaves(wait)
             wait.over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
 
     def lost(self, drone: str) -> None:
@@ -164,8 +165,22 @@ class Traffic:
 
     # The queue
 
+    def _leaves(self, wait: Wait) -> None:
+        """Remove a drone from the queue; younger ones that were to let it pass are due."""
+        del self._waiting[wait.section.drone]
+        for other in self._waiting.values():
+            if any(elder is not None and elder.wait is wait for elder in other.elders):
+                other.due = -inf
+
+    def _changed(self, drone: str) -> None:
+        """Called when what a drone has reserved has changed: those that it keeps are due."""
+        for wait in self._waiting.values():
+            if drone in wait.keepers:
+                wait.due = -inf
+
     def _released(self, drone: str) -> None:
         """Check the drones that wait for this one, at the end of this instant."""
+        self._changed(drone)
         if self._waiting:
             if not self._free:
                 self._look_at(self._kernel.now, self._look_at_some)
@@ -179,14 +194,15 @@ class Traffic:
         free, self._free = self._free, {}
         for wait in self._in_turn():
             is_for_room = wait.section.stands and self.is_limited
-            if is_for_room or wait.was_kept_by(free):
+            if is_for_room or not free.keys().isdisjoint(wait.keepers):
                 self._serve(wait)
 
     def _look(self) -> None:
-        """Serve all waiting drones: space becomes free gradually, without a notice."""
-        self._timer = None
+        """Serve the waiting drones that are due: space becomes free gradually, without a notice."""
+        self._timer, now = None, self._kernel.now
         for wait in self._in_turn():
-            self._serve(wait)
+            if wait.due <= now or self._should_land(wait):
+                self._serve(wait)
         if self._waiting:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
 
@@ -199,26 +215,35 @@ class Traffic:
             ways = self.ground.ways_down(wait.section.drone)
             section = next((way for way in ways if self._blocker(way) is None), None)
         if section is not None:
-            del self._waiting[section.drone]
+            self._leaves(wait)
             wait.over.set(self._give(section))
 
     def _found(self, wait: Wait) -> Section | None:
         """Return a free section. Most are still blocked by the same drone as before."""
-        if not self._has_room(wait.section):
-            return None
         now = self._kernel.now
+        if not self._has_room(wait.section):
+            wait.due = now
+            return None
+        due = inf
         for index, way in enumerate(wait.ways):
             obstacle, elder = wait.obstacles[index], wait.elders[index]
-            if obstacle is not None and (obstacle.is_sure(now) or self._stays(obstacle, way)):
-                continue
-            if index and elder is not None and self._waiting.get(elder.section.drone) is elder:
+            if index and elder is not None and self._is_waiting(elder.wait):
                 continue  # the first one's obstacle must be known
-            claim = self._blocker(way)
-            wait.obstacles[index] = None if claim is None else self._obstacle(claim, way)
-            if claim is None:
-                wait.elders[index] = elder = self._elder(way, wait.since)
-                if elder is None:
-                    return way
+            if obstacle is None or not (obstacle.is_sure(now) or self._stays(obstacle, way)):
+                claim = self._blocker(way, wait.clear[index])
+                if claim is None and not (elder is not None and self._goes_first(elder)):
+                    elder = wait.elders[index] = self._elder(way, wait.since)
+                    if elder is None:
+                        claim = self._blocker(way)  # where all are now, also if not on their routes
+                        if claim is None:
+                            return way
+                obstacle = None if claim is None else self._obstacle(claim, way)
+                wait.obstacles[index] = obstacle
+            if obstacle is not None:
+                due = min(due, obstacle.due)
+            elif not index:
+                due = now
+        wait.looked(due)
         return None
 
     def _stays(self, obstacle: Obstacle, way: Section) -> bool:
@@ -253,8 +278,8 @@ class Traffic:
         return sections(section, self.level, self._airspace) if ways is None else ways(section)
 
     def _give(self, section: Section) -> Section:
-        claim = self._claim(section.drone)
-        claim.moves_along(section.points, section.tail)
+        self._claim(section.drone).moves_along(section.points, section.tail)
+        self._changed(section.drone)
         return section
 
     def _claim(self, drone: str) -> Reservation:
@@ -268,6 +293,7 @@ class Traffic:
         claim = self._claims.pop(drone, None)
         if claim is not None:
             claim.points = ()  # so that no other takes it for an obstacle
+            self._changed(drone)
 
     def _has_room(self, section: Section) -> bool:
         """Return whether a drone may take off, by the limit of drones in the air."""
@@ -286,8 +312,13 @@ class Traffic:
         until = self._silent.get(claim.drone)
         return until is not None and self._kernel.now >= until
 
-    def _blocker(self, section: Section) -> Reservation | None:
-        """Return a drone whose reservation blocks a section."""
+    def _blocker(
+        self, section: Section, clear: dict[str, tuple[Point, ...]] | None = None
+    ) -> Reservation | None:
+        """Return a drone whose reservation blocks a section.
+
+        Routes in `clear` are taken not to; others that do not are added.
+        """
         claims, drone = self._claims, section.drone
         if not claims or (len(claims) == 1 and drone in claims):
             return None
@@ -295,7 +326,9 @@ class Traffic:
         x, y, z, most_x, most_y, most_z = section.box
         x, y, z = x - limit, y - limit, z - limit
         most_x, most_y, most_z = most_x + limit, most_y + limit, most_z + limit
-        for claim in claims.values():
+        for other, claim in claims.items():
+            if other == drone or (clear is not None and clear.get(other) is claim.points):
+                continue
             box = claim.box
             if (
                 box[0] < most_x
@@ -304,10 +337,11 @@ class Traffic:
                 and box[4] > y
                 and box[2] < most_z
                 and box[5] > z
-                and claim.drone != drone
                 and self._is_in_the_way(claim, section)
             ):
                 return claim
+            if clear is not None and claim.moves:
+                clear[other] = claim.points
         return None
 
     def touches_down(self, drone: str) -> bool:
@@ -333,7 +367,7 @@ class Traffic:
         now = nearest(way[:1], shape[:1])
         return now >= limit or meets(way, shape, now - 1e-6)
 
-    def _elder(self, section: Section, since: float) -> Wait | None:
+    def _elder(self, section: Section, since: float) -> Elder | None:
         """Return a drone that has waited longer, and would wait longer still for this section.
 
         None may end where an older one wants to fly, nor cross there once it is its turn. A landing is never
@@ -349,13 +383,19 @@ class Traffic:
                 and wait.section.drone != section.drone
                 and are_near(section.box, wait.section.box, limit)
                 and meets(points, wanted, limit)
-                and (
-                    meets(points[-1:], wanted, limit)
-                    or (self._is_its_turn(wait) and not self._makes_room(section, wanted))
-                )
             ):
-                return wait
+                if meets(points[-1:], wanted, limit):
+                    return Elder(wait, True)
+                if self._is_its_turn(wait) and not self._makes_room(section, wanted):
+                    return Elder(wait, False)
         return None
+
+    def _is_waiting(self, wait: Wait) -> bool:
+        return self._waiting.get(wait.section.drone) is wait
+
+    def _goes_first(self, elder: Elder) -> bool:
+        """Whether what was found of an elder drone still holds."""
+        return self._is_waiting(elder.wait) and (elder.always or self._is_its_turn(elder.wait))
 
     def _makes_room(self, section: Section, wanted: tuple[Point, ...]) -> bool:
         """Whether a drone that is about to leave hovers where another wants to fly."""
