@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ...shared.domain.errors import Failure, FlightFailed
 from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
 from .reservations import Reservation, are_near, meets, nearest, part_way
-from .wait_queue import Elder, Obstacle, Wait
+from .wait_queue import HOVERS, Elder, Obstacle, Wait
 from .ways import Ground, Section, sections
 
 if TYPE_CHECKING:
@@ -173,9 +173,14 @@ class Traffic:
                 other.due = -inf
 
     def _changed(self, drone: str) -> None:
-        """Called when what a drone has reserved has changed: those that it keeps are due."""
+        """Called when what a drone has reserved has changed: those that it keeps, or may keep, are due."""
+        claim = self._claims.get(drone)
         for wait in self._waiting.values():
-            if drone in wait.keepers:
+            if drone in wait.keepers or (
+                wait.obstacles[0] is None
+                and claim is not None
+                and are_near(wait.section.box, claim.box, self.limit)
+            ):
                 wait.due = -inf
 
     def _released(self, drone: str) -> None:
@@ -201,7 +206,7 @@ class Traffic:
         """Serve the waiting drones that are due: space becomes free gradually, without a notice."""
         self._timer, now = None, self._kernel.now
         for wait in self._in_turn():
-            if wait.due <= now or self._should_land(wait):
+            if wait.due <= now or self._should_land(wait) or self._may_go(wait):
                 self._serve(wait)
         if self._waiting:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
@@ -241,8 +246,8 @@ class Traffic:
                 wait.obstacles[index] = obstacle
             if obstacle is not None:
                 due = min(due, obstacle.due)
-            elif not index:
-                due = now
+            elif not index:  # an elder drone keeps it
+                due = now + HOVERS
         wait.looked(due)
         return None
 
@@ -396,6 +401,11 @@ class Traffic:
     def _goes_first(self, elder: Elder) -> bool:
         """Whether what was found of an elder drone still holds."""
         return self._is_waiting(elder.wait) and (elder.always or self._is_its_turn(elder.wait))
+
+    def _may_go(self, wait: Wait) -> bool:
+        """Whether a drone that only an elder one keeps need not wait for that any more."""
+        elder = wait.elders[0]
+        return wait.obstacles[0] is None and elder is not None and not self._goes_first(elder)
 
     def _makes_room(self, section: Section, wanted: tuple[Point, ...]) -> bool:
         """Whether a drone that is about to leave hovers where another wants to fly."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _HALVINGS = 6
 """Steps of the bisection of how far a drone must fly on a leg before it has left a route."""
-_HOVERS = 5.0
+HOVERS = 5.0
 """Seconds after which a hovering obstacle is checked again: it may have come down."""
 _EXACT = 1e-6
 _ALMOST = 0.9
@@ -49,7 +49,7 @@ class Obstacle:
         if not claim.moves:
             stops = claim.tail and now < claim.until  # it has not stopped yet
             self._points, self._last = claim.points, 0
-            self._until = claim.until if stops else now + _HOVERS
+            self._until = claim.until if stops else now + HOVERS
             return
         shape = claim.shape(now)
         if claim.points is not self._points or claim.at > self._last:
