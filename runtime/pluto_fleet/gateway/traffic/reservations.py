@@ -138,18 +138,19 @@ def are_near(a: Box, b: Box, limit: float) -> bool:
     )
 
 
+def legs_of(line: tuple[Point, ...]) -> list[tuple[Point, Point]]:
+    """Return the legs of a line; of a place, one from there to there."""
+    return [*pairwise(line)] if len(line) > 1 else [(line[0], line[0])]
+
+
 def nearest(a: tuple[Point, ...], b: tuple[Point, ...]) -> float:
     """Return the distance between two lines."""
-    return min(
-        between(p, q, r, s)
-        for p, q in pairwise((a[0], *a) if len(a) == 1 else a)
-        for r, s in pairwise((b[0], *b) if len(b) == 1 else b)
-    )
+    return min(between(p, q, r, s) for p, q in legs_of(a) for r, s in legs_of(b))
 
 
 def meets(a: tuple[Point, ...], b: tuple[Point, ...], limit: float) -> bool:
     """Return whether two lines come nearer to each other than a distance."""
-    legs = [*pairwise(b)] if len(b) > 1 else [(b[0], b[0])]
+    legs = legs_of(b)
     p = a[0]
     px, py, pz = p
     for q in a[1:] or a:

@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ...shared.domain.motion import CLIMB_SPEED, smoothly
 from ...shared.time.future import Future
-from .reservations import NEARLY, Reservation, meets, part_way
+from .legs import leaves
+from .reservations import NEARLY, Reservation, legs_of, meets
 from .ways import Section
 
 if TYPE_CHECKING:
     from ...shared.domain.model import Category, Point
 
 
-_HALVINGS = 6
-"""Steps of the bisection of how far a drone must fly on a leg before it has left a route."""
 HOVERS = 5.0
 """Seconds after which a hovering obstacle is checked again: it may have come down."""
 _EXACT = 1e-6
@@ -74,14 +73,8 @@ class Obstacle:
         if not metres:
             return 0.0
         if not self._clear:
-            least, most = 0.0, 1.0
-            for _ in range(_HALVINGS):
-                part = (least + most) / 2
-                if meets(way, (part_way(here, end, part), end), limit):
-                    least = part
-                else:
-                    most = part
-            self._clear = (1.0 - least) * metres
+            part = max(leaves(here, end, c, d, limit) for c, d in legs_of(way))
+            self._clear = (1.0 - part) * metres
             if self._is_real and end[2] <= 0.0 < here[2]:  # others come nearer once it touches down
                 self._clear = max(self._clear, min(metres, NEARLY * metres / here[2]))
         return self._takes(here, end, max(0.0, 1.0 - self._clear / metres))
