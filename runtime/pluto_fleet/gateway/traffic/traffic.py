@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ...shared.domain.errors import Failure, FlightFailed
 from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
 from .reservations import Reservation, are_near, meets, nearest, part_way
-from .wait_queue import HOVERS, Elder, Obstacle, Wait
+from .wait_queue import HOVERS, Elder, Obstacle, Wait, WaitQueue
 from .ways import Ground, Section, sections
 
 if TYPE_CHECKING:
@@ -66,8 +66,7 @@ class Traffic:
         """The reservations of drones in the air, or about to take off."""
         self._silent: dict[str, float] = {}
         """Lost drones, and until when each may still be in the air."""
-        self._waiting: dict[str, Wait] = {}
-        """The oldest first."""
+        self._waiting = WaitQueue(self.limit)
         self._free: dict[str, None] = {}
         """The drones that have released space at this instant."""
         self.halted: dict[str, None] = {}
@@ -97,14 +96,14 @@ class Traffic:
     async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
         """Wait for a section, and return it; it may only lead out of the way."""
         wait = Wait(section, since, tuple(self._ways(section, ways)))
-        self._waiting[section.drone] = wait
+        self._waiting.add(wait)
         if self._timer is None:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
         try:
             return await wait.over
         finally:
-            if self._waiting.get(section.drone) is wait:
-                self._leaves(wait)
+            if wait in self._waiting:
+                self._waiting.remove(wait)
 
     def passed(self, drone: str) -> None:
         """Called when a drone has reached the next point of its section."""
@@ -149,9 +148,9 @@ class Traffic:
 
     def break_off(self, drone: str) -> None:
         """Drop a drone's place in the queue."""
-        wait = self._waiting.get(drone)
+        wait = self._waiting.of(drone)
         if wait is not None:
-            self._leaves(wait)
+            self._waiting.remove(wait)
             wait.over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
 
     def lost(self, drone: str) -> None:
@@ -165,28 +164,12 @@ class Traffic:
 
     # The queue
 
-    def _leaves(self, wait: Wait) -> None:
-        """Remove a drone from the queue; younger ones that were to let it pass are due."""
-        del self._waiting[wait.section.drone]
-        for other in self._waiting.values():
-            if any(elder is not None and elder.wait is wait for elder in other.elders):
-                other.due = -inf
-
-    def _changed(self, drone: str) -> None:
-        """Called when what a drone has reserved has changed: those that it keeps, or may keep, are due."""
-        claim = self._claims.get(drone)
-        for wait in self._waiting.values():
-            if drone in wait.keepers or (
-                wait.obstacles[0] is None
-                and claim is not None
-                and are_near(wait.section.box, claim.box, self.limit)
-            ):
-                wait.due = -inf
-
     def _released(self, drone: str) -> None:
         """Check the drones that wait for this one, at the end of this instant."""
-        self._changed(drone)
         if self._waiting:
+            claim = self._claims.get(drone)
+            if claim is not None:
+                self._waiting.changed(claim)
             if not self._free:
                 self._look_at(self._kernel.now, self._look_at_some)
             self._free[drone] = None
@@ -197,7 +180,7 @@ class Traffic:
     def _look_at_some(self) -> None:
         """Serve the drones that waited for those that have released space."""
         free, self._free = self._free, {}
-        for wait in self._in_turn():
+        for wait in self._waiting.in_turn():
             is_for_room = wait.section.stands and self.is_limited
             if is_for_room or not free.keys().isdisjoint(wait.keepers):
                 self._serve(wait)
@@ -205,14 +188,11 @@ class Traffic:
     def _look(self) -> None:
         """Serve the waiting drones that are due: space becomes free gradually, without a notice."""
         self._timer, now = None, self._kernel.now
-        for wait in self._in_turn():
+        for wait in self._waiting.in_turn():
             if wait.due <= now or self._should_land(wait) or self._may_go(wait):
                 self._serve(wait)
         if self._waiting:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
-
-    def _in_turn(self) -> list[Wait]:
-        return sorted(self._waiting.values(), key=lambda wait: wait.since)
 
     def _serve(self, wait: Wait) -> None:
         section = self._found(wait)
@@ -220,49 +200,58 @@ class Traffic:
             ways = self.ground.ways_down(wait.section.drone)
             section = next((way for way in ways if self._blocker(way) is None), None)
         if section is not None:
-            self._leaves(wait)
+            self._waiting.remove(wait)
             wait.over.set(self._give(section))
 
     def _found(self, wait: Wait) -> Section | None:
-        """Return a free section. Most are still blocked by the same drone as before."""
+        """Return a free section; if there is none, write down when to look again."""
         now = self._kernel.now
         if not self._has_room(wait.section):
             wait.due = now
             return None
         due = inf
         for index, way in enumerate(wait.ways):
-            obstacle, elder = wait.obstacles[index], wait.elders[index]
-            if index and elder is not None and self._is_waiting(elder.wait):
+            elder = wait.elders[index]
+            if index and elder is not None and elder.wait in self._waiting:
                 continue  # the first one's obstacle must be known
-            if obstacle is None or not (obstacle.is_sure(now) or self._stays(obstacle, way)):
-                claim = self._blocker(way, wait.clear[index])
-                if claim is None and not (elder is not None and self._goes_first(elder)):
-                    elder = wait.elders[index] = self._elder(way, wait.since)
-                    if elder is None:
-                        claim = self._blocker(way)  # where all are now, also if not on their routes
-                        if claim is None:
-                            return way
-                obstacle = None if claim is None else self._obstacle(claim, way)
-                wait.obstacles[index] = obstacle
-            if obstacle is not None:
-                due = min(due, obstacle.due)
-            elif not index:  # an elder drone keeps it
-                due = now + HOVERS
+            obstacle = self._obstacle_on(wait, index)
+            if obstacle is None and not self._is_kept(wait, index):
+                obstacle = self._obstacle(way)  # where all are now, also if not on their routes
+                if obstacle is None:
+                    return way
+            wait.obstacles[index] = obstacle
+            due = min(due, now + HOVERS if obstacle is None else obstacle.due)
         wait.looked(due)
         return None
 
-    def _stays(self, obstacle: Obstacle, way: Section) -> bool:
-        """Return whether an obstacle that may have left a route is still there."""
-        claim = obstacle.claim
-        if self._claims.get(claim.drone) is not claim or not self._is_in_the_way(claim, way):
-            return False
-        obstacle.seen(way.whole, self.limit, self._kernel.now)
-        return True
+    def _obstacle_on(self, wait: Wait, index: int) -> Obstacle | None:
+        """Return the obstacle on an alternative: most often the same as before."""
+        way, obstacle = wait.ways[index], wait.obstacles[index]
+        if obstacle is not None:
+            if obstacle.is_sure(self._kernel.now):
+                return obstacle
+            claim = obstacle.claim
+            if self._claims.get(claim.drone) is claim and self._is_in_the_way(claim, way):
+                obstacle.seen(way.whole, self.limit, self._kernel.now)
+                return obstacle
+        return self._obstacle(way, wait.clear[index])
 
-    def _obstacle(self, claim: Reservation, way: Section) -> Obstacle:
+    def _obstacle(
+        self, way: Section, clear: dict[str, tuple[Point, ...]] | None = None
+    ) -> Obstacle | None:
+        claim = self._blocker(way, clear)
+        if claim is None:
+            return None
         obstacle = Obstacle(claim, self._drones[claim.drone].category, self.is_real)
         obstacle.seen(way.whole, self.limit, self._kernel.now)
         return obstacle
+
+    def _is_kept(self, wait: Wait, index: int) -> bool:
+        """Whether an alternative without an obstacle is for an older drone."""
+        elder = wait.elders[index]
+        if elder is None or not self._goes_first(elder):
+            elder = wait.elders[index] = self._elder(wait.ways[index], wait.since)
+        return elder is not None
 
     def _should_land(self, wait: Wait) -> bool:
         """Whether a waiting drone should do so on the ground."""
@@ -283,8 +272,9 @@ class Traffic:
         return sections(section, self.level, self._airspace) if ways is None else ways(section)
 
     def _give(self, section: Section) -> Section:
-        self._claim(section.drone).moves_along(section.points, section.tail)
-        self._changed(section.drone)
+        claim = self._claim(section.drone)
+        claim.moves_along(section.points, section.tail)
+        self._waiting.changed(claim)
         return section
 
     def _claim(self, drone: str) -> Reservation:
@@ -298,7 +288,7 @@ class Traffic:
         claim = self._claims.pop(drone, None)
         if claim is not None:
             claim.points = ()  # so that no other takes it for an obstacle
-            self._changed(drone)
+            self._waiting.changed(claim)
 
     def _has_room(self, section: Section) -> bool:
         """Return whether a drone may take off, by the limit of drones in the air."""
@@ -381,7 +371,7 @@ class Traffic:
         if section.lands or section.tail:
             return None
         points, limit = section.points, self.limit
-        for wait in self._waiting.values():
+        for wait in self._waiting:
             wanted = wait.section.points
             if (
                 wait.since < since
@@ -395,12 +385,9 @@ class Traffic:
                     return Elder(wait, False)
         return None
 
-    def _is_waiting(self, wait: Wait) -> bool:
-        return self._waiting.get(wait.section.drone) is wait
-
     def _goes_first(self, elder: Elder) -> bool:
         """Whether what was found of an elder drone still holds."""
-        return self._is_waiting(elder.wait) and (elder.always or self._is_its_turn(elder.wait))
+        return elder.wait in self._waiting and (elder.always or self._is_its_turn(elder.wait))
 
     def _may_go(self, wait: Wait) -> bool:
         """Whether a drone that only an elder one keeps need not wait for that any more."""

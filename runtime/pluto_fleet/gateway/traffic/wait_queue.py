@@ -1,9 +1,9 @@
-"""Waiting drones, the obstacles on their routes, and when it is worth checking those again."""
+"""Waiting drones, what keeps each, and when it is worth looking at it again."""
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from math import dist, inf
 from typing import TYPE_CHECKING, NamedTuple
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ...shared.domain.motion import CLIMB_SPEED, smoothly
 from ...shared.time.future import Future
 from .legs import leaves
-from .reservations import NEARLY, Reservation, legs_of, meets
+from .reservations import NEARLY, Reservation, are_near, legs_of, meets
 from .ways import Section
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 HOVERS = 5.0
-"""Seconds after which a hovering obstacle is checked again: it may have come down."""
+"""Seconds after which it is checked again what hovering drones are in the way: they may have drifted, or come down."""
 _EXACT = 1e-6
 _ALMOST = 0.9
 """The share of the expected time of a leg that it takes at least: no drone flies exactly as expected."""
@@ -145,3 +145,47 @@ class Wait:
         """Called when it was looked at in vain."""
         self.due = due
         self.keepers = {one.claim.drone for one in self.obstacles if one is not None}
+
+
+class WaitQueue:
+    """All drones that wait. One is due again when what it waits for has changed, or may have."""
+
+    def __init__(self, limit: float) -> None:
+        self._waits: dict[str, Wait] = {}
+        self._limit = limit
+
+    def __len__(self) -> int:
+        return len(self._waits)
+
+    def __iter__(self) -> Iterator[Wait]:
+        return iter(self._waits.values())
+
+    def __contains__(self, wait: Wait) -> bool:
+        return self._waits.get(wait.section.drone) is wait
+
+    def of(self, drone: str) -> Wait | None:
+        """Return what a drone waits for, if anything."""
+        return self._waits.get(drone)
+
+    def in_turn(self) -> list[Wait]:
+        """Return all, those that have waited longest first."""
+        return sorted(self, key=lambda wait: wait.since)
+
+    def add(self, wait: Wait) -> None:
+        """Add a drone that begins to wait."""
+        self._waits[wait.section.drone] = wait
+
+    def remove(self, wait: Wait) -> None:
+        """Remove one that waits no more; those that were to let it pass are due."""
+        del self._waits[wait.section.drone]
+        for other in self:
+            if any(elder is not None and elder.wait is wait for elder in other.elders):
+                other.due = -inf
+
+    def changed(self, claim: Reservation) -> None:
+        """Called when a drone has reserved something else, or less: those that it keeps, or may keep, are due."""
+        for wait in self:
+            if claim.drone in wait.keepers or (
+                wait.obstacles[0] is None and are_near(wait.section.box, claim.box, self._limit)
+            ):
+                wait.due = -inf
