@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from math import dist
 from typing import TYPE_CHECKING
 
 from .legs import between
@@ -104,6 +105,15 @@ class Reservation:
 def part_way(a: Point, b: Point, part: float) -> Point:
     """Return the place on a straight way that has this part of it behind."""
     return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])
+
+
+def ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
+    """Return the point to which a drone may overshoot on its route."""
+    if len(shape) < 2 or not metres:
+        return ()
+    here, there = shape[:2]
+    far = dist(here, there)
+    return (part_way(here, there, min(1.0, metres / far) if far else 0.0),)
 
 
 def box_of(points: Sequence[Point]) -> Box:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from math import dist, inf
+from math import inf
 from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import Failure, FlightFailed
 from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
-from .reservations import Reservation, are_near, meets, nearest, part_way
+from .reservations import Reservation, ahead, are_near, meets, nearest
 from .wait_queue import HOVERS, Elder, Obstacle, Wait, WaitQueue
 from .ways import Ground, Section, sections
 
@@ -131,8 +131,8 @@ class Traffic:
         elif claim is None:
             self._claim(drone).rests((), 0.0)
         elif claim.moves:
-            ahead = _ahead(claim.shape(self._kernel.now), self._overshoot)
-            claim.rests(ahead, self._kernel.now + STOPPING)
+            tail = ahead(claim.shape(self._kernel.now), self._overshoot)
+            claim.rests(tail, self._kernel.now + STOPPING)
         self._released(drone)
 
     def _stop_before(self, drone: str) -> None:
@@ -167,8 +167,7 @@ class Traffic:
     def _released(self, drone: str) -> None:
         """Check the drones that wait for this one, at the end of this instant."""
         if self._waiting:
-            claim = self._claims.get(drone)
-            if claim is not None:
+            if (claim := self._claims.get(drone)) is not None:
                 self._waiting.changed(claim)
             if not self._free:
                 self._look_at(self._kernel.now, self._look_at_some)
@@ -381,7 +380,8 @@ class Traffic:
             ):
                 if meets(points[-1:], wanted, limit):
                     return Elder(wait, True)
-                if self._is_its_turn(wait) and not self._makes_room(section, wanted):
+                makes_room = not section.stands and meets(points[:1], wanted, limit)
+                if self._is_its_turn(wait) and not makes_room:
                     return Elder(wait, False)
         return None
 
@@ -394,20 +394,7 @@ class Traffic:
         elder = wait.elders[0]
         return wait.obstacles[0] is None and elder is not None and not self._goes_first(elder)
 
-    def _makes_room(self, section: Section, wanted: tuple[Point, ...]) -> bool:
-        """Whether a drone that is about to leave hovers where another wants to fly."""
-        return not section.stands and meets(section.points[:1], wanted, self.limit)
-
     def _is_its_turn(self, wait: Wait) -> bool:
         """Whether a drone has waited for long, and does not wait for one that hovers in its way."""
         blocker = self._first_blocker(wait)
         return self._kernel.now - wait.since >= ELDER and (blocker is None or blocker.moves)
-
-
-def _ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
-    """Return the point to which a drone may overshoot on its route."""
-    if len(shape) < 2 or not metres:
-        return ()
-    here, there = shape[:2]
-    far = dist(here, there)
-    return (part_way(here, there, min(1.0, metres / far) if far else 0.0),)
