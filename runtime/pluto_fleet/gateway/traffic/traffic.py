@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ...shared.domain.model import Point
 
 AGAIN = 0.5
-"""Seconds after which waiting drones are checked again, even if none has reported to have passed."""
+"""Seconds between two looks at the waiting drones that are due, even if none has reported to have passed."""
 WAIT_BEFORE_LANDING = 10.0
 """Seconds that a drone hovers in the way of others before it lands, and waits there."""
 AT_LAST = 30.0

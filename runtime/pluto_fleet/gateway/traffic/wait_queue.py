@@ -55,7 +55,7 @@ class Obstacle:
             self._points, self._clear = claim.points, 0.0
             self._last = claim.at + _last_leg(way, shape, limit)
         self._until = now
-        if claim.at == self._last:
+        if claim.at == self._last and len(shape) > 1:
             self._until += self._seconds(way, limit, shape[0], shape[1]) - _EXACT
 
     @property
