@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from math import inf
 
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from pluto_fleet.gateway.traffic.legs import between, leaves
-from pluto_fleet.gateway.traffic.reservations import part_way
+from pluto_fleet.gateway.traffic.reservations import Reservation, part_way
 from pluto_fleet.gateway.traffic.traffic import AGAIN, Traffic
-from pluto_fleet.gateway.traffic.wait_queue import HOVERS, Wait
+from pluto_fleet.gateway.traffic.wait_queue import HOVERS, Elder, Wait, WaitQueue
 from pluto_fleet.gateway.traffic.ways import Section
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point
@@ -111,6 +112,34 @@ def test_who_is_to_let_an_older_one_pass_goes_once_that_waits_no_more() -> None:
     sky.advance(2 * AGAIN)
     assert not sky.navigation.telemetry["cf3"].landed
     assert sky.until(younger, 60)
+
+
+def waits(drone: str, x: float) -> Wait:
+    """Return a drone that wants to fly along a line, and need not be looked at by itself."""
+    section = Section(drone, ((x, 1.0, 1.2), (x, 9.0, 1.2)), False, False)
+    return Wait(section, 0.0, (section, section.at_height(0.5)), due=inf)
+
+
+def test_only_those_are_due_that_one_who_waits_no_more_has_kept() -> None:
+    queue, elder, kept, other = WaitQueue(LIMIT), waits("cf1", 1), waits("cf2", 1), waits("cf3", 9)
+    for wait in (elder, kept, other):
+        queue.add(wait)
+    kept.elders[1] = Elder(elder, True)
+    queue.remove(elder)
+    assert (kept.due, other.due) == (-inf, inf)
+    assert [*queue] == [kept, other]
+
+
+def test_only_those_are_due_that_a_reservation_keeps_or_may_keep() -> None:
+    queue, kept, near, far = WaitQueue(LIMIT), waits("cf1", 9), waits("cf2", 1), waits("cf3", 9)
+    for wait in (kept, near, far):
+        queue.add(wait)
+    sky = Sky([(1, 1)])
+    claim = Reservation("cf4", sky.navigation.telemetry["cf1"])
+    claim.moves_along(((1.0, 5.0, 1.2), (3.0, 5.0, 1.2)), ())
+    kept.keepers = {"cf4"}
+    queue.changed(claim)
+    assert (kept.due, near.due, far.due) == (-inf, -inf, inf)
 
 
 metres = st.one_of(st.integers(0, 3).map(float), st.floats(0, 3))
