@@ -45,6 +45,39 @@ def between(a: Point, b: Point, c: Point, d: Point) -> float:
     return sqrt(dx * dx + dy * dy + dz * dz)
 
 
+def leaves(a: Point, b: Point, c: Point, d: Point, limit: float) -> float:
+    """Return after which part of a leg from a to b, which comes near the one from c to d, it is clear of it.
+
+    What is near a leg is a cylinder with a sphere around each end: the last of them counts.
+    """
+    if between(a, b, c, d) >= limit:
+        return 0.0
+    ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+    uu, far = ux * ux + uy * uy + uz * uz, limit * limit
+    if uu <= _POINT:
+        return 1.0
+    last = 0.0
+    for x, y, z in (c, d):
+        rx, ry, rz = a[0] - x, a[1] - y, a[2] - z
+        ur = ux * rx + uy * ry + uz * rz
+        root = ur * ur - uu * (rx * rx + ry * ry + rz * rz - far)
+        if root > 0.0:
+            last = max(last, (sqrt(root) - ur) / uu)
+    vx, vy, vz = d[0] - c[0], d[1] - c[1], d[2] - c[2]
+    vv = vx * vx + vy * vy + vz * vz
+    if vv > _POINT:
+        rx, ry, rz = a[0] - c[0], a[1] - c[1], a[2] - c[2]
+        uv, rv = ux * vx + uy * vy + uz * vz, rx * vx + ry * vy + rz * vz
+        across = uu - uv * uv / vv  # the same, without what is along that leg
+        ur = ux * rx + uy * ry + uz * rz - uv * rv / vv
+        root = ur * ur - across * (rx * rx + ry * ry + rz * rz - rv * rv / vv - far)
+        if across > 1e-12 * uu and root > 0.0:
+            part = (sqrt(root) - ur) / across
+            if 0.0 <= rv + part * uv <= vv:
+                last = max(last, part)
+    return min(1.0, last)
+
+
 _POINT = 1e-18
 """Square metres: a leg shorter than this has no direction."""
 

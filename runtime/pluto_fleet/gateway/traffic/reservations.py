@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from math import dist
 from typing import TYPE_CHECKING
 
 from .legs import between
@@ -106,6 +107,15 @@ def part_way(a: Point, b: Point, part: float) -> Point:
     return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])
 
 
+def ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
+    """Return the point to which a drone may overshoot on its route."""
+    if len(shape) < 2 or not metres:
+        return ()
+    here, there = shape[:2]
+    far = dist(here, there)
+    return (part_way(here, there, min(1.0, metres / far) if far else 0.0),)
+
+
 def box_of(points: Sequence[Point]) -> Box:
     """Return the box around a line."""
     (x, y, z), *others = points
@@ -138,18 +148,19 @@ def are_near(a: Box, b: Box, limit: float) -> bool:
     )
 
 
+def legs_of(line: tuple[Point, ...]) -> list[tuple[Point, Point]]:
+    """Return the legs of a line; of a place, one from there to there."""
+    return [*pairwise(line)] if len(line) > 1 else [(line[0], line[0])]
+
+
 def nearest(a: tuple[Point, ...], b: tuple[Point, ...]) -> float:
     """Return the distance between two lines."""
-    return min(
-        between(p, q, r, s)
-        for p, q in pairwise((a[0], *a) if len(a) == 1 else a)
-        for r, s in pairwise((b[0], *b) if len(b) == 1 else b)
-    )
+    return min(between(p, q, r, s) for p, q in legs_of(a) for r, s in legs_of(b))
 
 
 def meets(a: tuple[Point, ...], b: tuple[Point, ...], limit: float) -> bool:
     """Return whether two lines come nearer to each other than a distance."""
-    legs = [*pairwise(b)] if len(b) > 1 else [(b[0], b[0])]
+    legs = legs_of(b)
     p = a[0]
     px, py, pz = p
     for q in a[1:] or a:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from math import dist
+from math import inf
 from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import Failure, FlightFailed
 from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
-from .reservations import Reservation, are_near, meets, nearest, part_way
-from .wait_queue import Obstacle, Wait
+from .reservations import Reservation, ahead, are_near, meets, nearest
+from .wait_queue import HOVERS, Elder, Obstacle, Wait, WaitQueue
 from .ways import Ground, Section, sections
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ...shared.domain.model import Point
 
 AGAIN = 0.5
-"""Seconds after which waiting drones are checked again, even if none has reported to have passed."""
+"""Seconds between two looks at the waiting drones that are due, even if none has reported to have passed."""
 WAIT_BEFORE_LANDING = 10.0
 """Seconds that a drone hovers in the way of others before it lands, and waits there."""
 AT_LAST = 30.0
@@ -66,8 +66,7 @@ class Traffic:
         """The reservations of drones in the air, or about to take off."""
         self._silent: dict[str, float] = {}
         """Lost drones, and until when each may still be in the air."""
-        self._waiting: dict[str, Wait] = {}
-        """The oldest first."""
+        self._waiting = WaitQueue(self.limit)
         self._free: dict[str, None] = {}
         """The drones that have released space at this instant."""
         self.halted: dict[str, None] = {}
@@ -97,14 +96,14 @@ class Traffic:
     async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
         """Wait for a section, and return it; it may only lead out of the way."""
         wait = Wait(section, since, tuple(self._ways(section, ways)))
-        self._waiting[section.drone] = wait
+        self._waiting.add(wait)
         if self._timer is None:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
         try:
             return await wait.over
         finally:
-            if self._waiting.get(section.drone) is wait:
-                del self._waiting[section.drone]
+            if wait in self._waiting:
+                self._waiting.remove(wait)
 
     def passed(self, drone: str) -> None:
         """Called when a drone has reached the next point of its section."""
@@ -132,8 +131,8 @@ class Traffic:
         elif claim is None:
             self._claim(drone).rests((), 0.0)
         elif claim.moves:
-            ahead = _ahead(claim.shape(self._kernel.now), self._overshoot)
-            claim.rests(ahead, self._kernel.now + STOPPING)
+            tail = ahead(claim.shape(self._kernel.now), self._overshoot)
+            claim.rests(tail, self._kernel.now + STOPPING)
         self._released(drone)
 
     def _stop_before(self, drone: str) -> None:
@@ -149,8 +148,9 @@ class Traffic:
 
     def break_off(self, drone: str) -> None:
         """Drop a drone's place in the queue."""
-        wait = self._waiting.pop(drone, None)
+        wait = self._waiting.of(drone)
         if wait is not None:
+            self._waiting.remove(wait)
             wait.over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
 
     def lost(self, drone: str) -> None:
@@ -167,6 +167,8 @@ class Traffic:
     def _released(self, drone: str) -> None:
         """Check the drones that wait for this one, at the end of this instant."""
         if self._waiting:
+            if (claim := self._claims.get(drone)) is not None:
+                self._waiting.changed(claim)
             if not self._free:
                 self._look_at(self._kernel.now, self._look_at_some)
             self._free[drone] = None
@@ -177,21 +179,19 @@ class Traffic:
     def _look_at_some(self) -> None:
         """Serve the drones that waited for those that have released space."""
         free, self._free = self._free, {}
-        for wait in self._in_turn():
+        for wait in self._waiting.in_turn():
             is_for_room = wait.section.stands and self.is_limited
-            if is_for_room or wait.was_kept_by(free):
+            if is_for_room or not free.keys().isdisjoint(wait.keepers):
                 self._serve(wait)
 
     def _look(self) -> None:
-        """Serve all waiting drones: space becomes free gradually, without a notice."""
-        self._timer = None
-        for wait in self._in_turn():
-            self._serve(wait)
+        """Serve the waiting drones that are due: space becomes free gradually, without a notice."""
+        self._timer, now = None, self._kernel.now
+        for wait in self._waiting.in_turn():
+            if wait.due <= now or self._should_land(wait) or self._may_go(wait):
+                self._serve(wait)
         if self._waiting:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
-
-    def _in_turn(self) -> list[Wait]:
-        return sorted(self._waiting.values(), key=lambda wait: wait.since)
 
     def _serve(self, wait: Wait) -> None:
         section = self._found(wait)
@@ -199,40 +199,58 @@ class Traffic:
             ways = self.ground.ways_down(wait.section.drone)
             section = next((way for way in ways if self._blocker(way) is None), None)
         if section is not None:
-            del self._waiting[section.drone]
+            self._waiting.remove(wait)
             wait.over.set(self._give(section))
 
     def _found(self, wait: Wait) -> Section | None:
-        """Return a free section. Most are still blocked by the same drone as before."""
-        if not self._has_room(wait.section):
-            return None
+        """Return a free section; if there is none, write down when to look again."""
         now = self._kernel.now
+        if not self._has_room(wait.section):
+            wait.due = now
+            return None
+        due = inf
         for index, way in enumerate(wait.ways):
-            obstacle, elder = wait.obstacles[index], wait.elders[index]
-            if obstacle is not None and (obstacle.is_sure(now) or self._stays(obstacle, way)):
-                continue
-            if index and elder is not None and self._waiting.get(elder.section.drone) is elder:
+            elder = wait.elders[index]
+            if index and elder is not None and elder.wait in self._waiting:
                 continue  # the first one's obstacle must be known
-            claim = self._blocker(way)
-            wait.obstacles[index] = None if claim is None else self._obstacle(claim, way)
-            if claim is None:
-                wait.elders[index] = elder = self._elder(way, wait.since)
-                if elder is None:
+            obstacle = self._obstacle_on(wait, index)
+            if obstacle is None and not self._is_kept(wait, index):
+                obstacle = self._obstacle(way)  # where all are now, also if not on their routes
+                if obstacle is None:
                     return way
+            wait.obstacles[index] = obstacle
+            due = min(due, now + HOVERS if obstacle is None else obstacle.due)
+        wait.looked(due)
         return None
 
-    def _stays(self, obstacle: Obstacle, way: Section) -> bool:
-        """Return whether an obstacle that may have left a route is still there."""
-        claim = obstacle.claim
-        if self._claims.get(claim.drone) is not claim or not self._is_in_the_way(claim, way):
-            return False
-        obstacle.seen(way.whole, self.limit, self._kernel.now)
-        return True
+    def _obstacle_on(self, wait: Wait, index: int) -> Obstacle | None:
+        """Return the obstacle on an alternative: most often the same as before."""
+        way, obstacle = wait.ways[index], wait.obstacles[index]
+        if obstacle is not None:
+            if obstacle.is_sure(self._kernel.now):
+                return obstacle
+            claim = obstacle.claim
+            if self._claims.get(claim.drone) is claim and self._is_in_the_way(claim, way):
+                obstacle.seen(way.whole, self.limit, self._kernel.now)
+                return obstacle
+        return self._obstacle(way, wait.clear[index])
 
-    def _obstacle(self, claim: Reservation, way: Section) -> Obstacle:
+    def _obstacle(
+        self, way: Section, clear: dict[str, tuple[Point, ...]] | None = None
+    ) -> Obstacle | None:
+        claim = self._blocker(way, clear)
+        if claim is None:
+            return None
         obstacle = Obstacle(claim, self._drones[claim.drone].category, self.is_real)
         obstacle.seen(way.whole, self.limit, self._kernel.now)
         return obstacle
+
+    def _is_kept(self, wait: Wait, index: int) -> bool:
+        """Whether an alternative without an obstacle is for an older drone."""
+        elder = wait.elders[index]
+        if elder is None or not self._goes_first(elder):
+            elder = wait.elders[index] = self._elder(wait.ways[index], wait.since)
+        return elder is not None
 
     def _should_land(self, wait: Wait) -> bool:
         """Whether a waiting drone should do so on the ground."""
@@ -255,6 +273,7 @@ class Traffic:
     def _give(self, section: Section) -> Section:
         claim = self._claim(section.drone)
         claim.moves_along(section.points, section.tail)
+        self._waiting.changed(claim)
         return section
 
     def _claim(self, drone: str) -> Reservation:
@@ -268,6 +287,7 @@ class Traffic:
         claim = self._claims.pop(drone, None)
         if claim is not None:
             claim.points = ()  # so that no other takes it for an obstacle
+            self._waiting.changed(claim)
 
     def _has_room(self, section: Section) -> bool:
         """Return whether a drone may take off, by the limit of drones in the air."""
@@ -286,8 +306,13 @@ class Traffic:
         until = self._silent.get(claim.drone)
         return until is not None and self._kernel.now >= until
 
-    def _blocker(self, section: Section) -> Reservation | None:
-        """Return a drone whose reservation blocks a section."""
+    def _blocker(
+        self, section: Section, clear: dict[str, tuple[Point, ...]] | None = None
+    ) -> Reservation | None:
+        """Return a drone whose reservation blocks a section.
+
+        Routes in `clear` are taken not to; others that do not are added.
+        """
         claims, drone = self._claims, section.drone
         if not claims or (len(claims) == 1 and drone in claims):
             return None
@@ -295,7 +320,9 @@ class Traffic:
         x, y, z, most_x, most_y, most_z = section.box
         x, y, z = x - limit, y - limit, z - limit
         most_x, most_y, most_z = most_x + limit, most_y + limit, most_z + limit
-        for claim in claims.values():
+        for other, claim in claims.items():
+            if other == drone or (clear is not None and clear.get(other) is claim.points):
+                continue
             box = claim.box
             if (
                 box[0] < most_x
@@ -304,10 +331,11 @@ class Traffic:
                 and box[4] > y
                 and box[2] < most_z
                 and box[5] > z
-                and claim.drone != drone
                 and self._is_in_the_way(claim, section)
             ):
                 return claim
+            if clear is not None and claim.moves:
+                clear[other] = claim.points
         return None
 
     def touches_down(self, drone: str) -> bool:
@@ -333,7 +361,7 @@ class Traffic:
         now = nearest(way[:1], shape[:1])
         return now >= limit or meets(way, shape, now - 1e-6)
 
-    def _elder(self, section: Section, since: float) -> Wait | None:
+    def _elder(self, section: Section, since: float) -> Elder | None:
         """Return a drone that has waited longer, and would wait longer still for this section.
 
         None may end where an older one wants to fly, nor cross there once it is its turn. A landing is never
@@ -342,35 +370,31 @@ class Traffic:
         if section.lands or section.tail:
             return None
         points, limit = section.points, self.limit
-        for wait in self._waiting.values():
+        for wait in self._waiting:
             wanted = wait.section.points
             if (
                 wait.since < since
                 and wait.section.drone != section.drone
                 and are_near(section.box, wait.section.box, limit)
                 and meets(points, wanted, limit)
-                and (
-                    meets(points[-1:], wanted, limit)
-                    or (self._is_its_turn(wait) and not self._makes_room(section, wanted))
-                )
             ):
-                return wait
+                if meets(points[-1:], wanted, limit):
+                    return Elder(wait, True)
+                makes_room = not section.stands and meets(points[:1], wanted, limit)
+                if self._is_its_turn(wait) and not makes_room:
+                    return Elder(wait, False)
         return None
 
-    def _makes_room(self, section: Section, wanted: tuple[Point, ...]) -> bool:
-        """Whether a drone that is about to leave hovers where another wants to fly."""
-        return not section.stands and meets(section.points[:1], wanted, self.limit)
+    def _goes_first(self, elder: Elder) -> bool:
+        """Whether what was found of an elder drone still holds."""
+        return elder.wait in self._waiting and (elder.always or self._is_its_turn(elder.wait))
+
+    def _may_go(self, wait: Wait) -> bool:
+        """Whether a drone that only an elder one keeps need not wait for that any more."""
+        elder = wait.elders[0]
+        return wait.obstacles[0] is None and elder is not None and not self._goes_first(elder)
 
     def _is_its_turn(self, wait: Wait) -> bool:
         """Whether a drone has waited for long, and does not wait for one that hovers in its way."""
         blocker = self._first_blocker(wait)
         return self._kernel.now - wait.since >= ELDER and (blocker is None or blocker.moves)
-
-
-def _ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:
-    """Return the point to which a drone may overshoot on its route."""
-    if len(shape) < 2 or not metres:
-        return ()
-    here, there = shape[:2]
-    far = dist(here, there)
-    return (part_way(here, there, min(1.0, metres / far) if far else 0.0),)

@@ -206,7 +206,7 @@ class Ground:
         """Return whether another drone is in this drone's dock."""
         home = self._drones[drone].home
         return any(
-            docked(telemetry.location, home) and telemetry.landed and other != drone
+            telemetry.landed and other != drone and docked(telemetry.location, home)
             for other, telemetry in self._telemetry.items()
         )
 
