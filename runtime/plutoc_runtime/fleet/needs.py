@@ -8,7 +8,7 @@ from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from ..time.future import Future
-from .reach import Reach, chain_of, miss_of
+from .reach import MORE, Reach, chain_of, miss_of
 
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Point, Trip
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Request(Future["Drone"]):
     """A mission's request for a drone; as a future it is set to the drone that it gets."""
 
-    __slots__ = ("_levels", "_reach", "_trips", "goal", "policy", "rank", "trip", "why")
+    __slots__ = ("_bounds", "_levels", "_reach", "_trips", "goal", "policy", "rank", "trip", "why")
 
     def __init__(
         self, reach: Reach, trips: Sequence[Trip], policy: Policy, rank: tuple[int, int]
@@ -29,27 +29,35 @@ class Request(Future["Drone"]):
         """The rank: its priority, and minus the number of its arrival; the highest is served first."""
         self.goal = self.trip.source or self.trip.target  # where its drone flies to first
         self.why = ""  # why its drone was chosen
-        self._reach, self._trips = reach, trips
+        self._reach, self._trips, self._bounds = reach, trips, reach.bounds(trips[0])
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
-        level = drone.telemetry.battery_level
-        here = drone.telemetry.location
+        level, here = drone.telemetry.battery_level, drone.telemetry.location
+        if here == drone.home and self._surely(drone, level):
+            return True
         return level >= self.at_least(drone, here) and level >= self.level(drone)
 
     def at_least(self, drone: Drone, here: Point) -> float:
         """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
         (x, y, _), (a, b, z), (c, d, _) = self.goal, here, drone.home
-        upright, a_metre = self._reach.at_least(drone.category, self.trip)
+        upright, a_metre, _, _ = self._bounds[drone.category]
         level = a_metre * (hypot(x - a, y - b) + hypot(x - c, y - d))
         # not below 0 where it leads is not a number
         return max(0.0, upright + level if z <= 0.0 else level)
 
+    def _surely(self, drone: Drone, level: float) -> bool:
+        """Return whether a level suffices from home by an upper bound, without a route search."""
+        home, (_, _, slack, enough) = drone.home, self._bounds[drone.category]
+        if level < enough:
+            enough = self.at_least(drone, home) * MORE + slack
+        return level >= enough and home[2] <= 0.0 and not self._reach.airspace.problem(home)
+
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
         category, home = drone.category, drone.home
-        if self._level(category, home, home) <= 1.0:
+        if self._surely(drone, 1.0) or self._level(category, home, home) <= 1.0:
             return None
         reach = self._reach
         miss = miss_of(reach.app, reach.airspace, category, home, chain_of(self._trips))

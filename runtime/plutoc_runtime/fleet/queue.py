@@ -63,7 +63,10 @@ class Queue:
         if len(self._arrived) > 100 + 2 * len(self._waiting):
             self._arrived, self._needs = self._waiting[:], {}
         self._arrived.append(request)
-        insort(self._waiting, request, key=_by_rank)
+        if self._waiting and self._waiting[0].rank > request.rank:
+            self._waiting.insert(0, request)
+        else:
+            insort(self._waiting, request, key=_by_rank)
         self._fresh.append(request)
         self._kernel.at_the_end = self._serve
         return request
@@ -155,7 +158,7 @@ class Queue:
             below, request = place, self._waiting[place]
             if isinstance(request.policy, Batch):
                 below = self._share_among(place, request.policy)
-            elif any(map(request.able, self._ready)):
+            else:
                 try:
                     choice = request.policy(request.trip, self._ready, request.able)
                 except HookFault as fault:
@@ -209,7 +212,8 @@ class Queue:
         request.fail(error)
 
     def _drop(self, request: Request) -> None:
-        del self._waiting[self._place(request)]
+        most_are_last = self._waiting[-1] is request
+        del self._waiting[-1 if most_are_last else self._place(request)]
 
     def _place(self, request: Request) -> int:
         place = bisect_left(self._waiting, request.rank, key=_by_rank)

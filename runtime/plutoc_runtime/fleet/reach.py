@@ -6,9 +6,10 @@ its battery evenly, moving or not.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from enum import IntEnum
-from math import dist, inf
+from functools import lru_cache
+from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
@@ -215,11 +216,11 @@ def idle_actions(app: App, fleet: FleetData) -> list[str]:
 
 
 class Reach:
-    """The battery for a trip, and a cheap lower bound of it: the exact one takes a route search."""
+    """The battery for a trip, and cheap bounds of it: the exact one takes a route search."""
 
     def __init__(self, app: App, airspace: Airspace) -> None:
         self.app, self.airspace = app, airspace
-        self._least: dict[tuple[Category, str, float], tuple[float, float]] = {}
+        self._bounds = lru_cache(_REMEMBERED)(self._bounds_of)
 
     def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
         """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
@@ -229,20 +230,33 @@ class Reach:
         share = needed(category, self.airspace, here, stops, home)
         return inf if share is None else share + category.reserve
 
-    def at_least(self, category: Category, trip: Trip) -> tuple[float, float]:
-        """Return what a trip takes at least of a level from the ground beside its way, and for each metre of that."""
-        key = category, trip.action, trip.target[2]
-        if key not in self._least:
-            motion, speed, full = category.motion, category.speed, category.flight_time
-            height = min(trip.target[2], self.airspace.cruise_height)
-            seconds = motion.rises(height, speed) + motion.lands(height, speed)
-            seconds += self.app.actions[trip.action].seconds
-            # a metre of a short leg takes no less than one of a long leg
-            shares = (seconds, motion.flies(_FAR, speed) / _FAR)
-            least = [share * motion.drain / full * _LESS for share in shares]
-            self._least[key] = category.reserve + least[0], least[1]
-        return self._least[key]
+    def bounds(self, trip: Trip) -> Mapping[Category, Bounds]:
+        """Return bounds of what a trip takes of each category's battery from the ground."""
+        target = trip.target
+        plain = trip.source is None and trip.item is None and not self.airspace.problem(target)
+        return self._bounds(trip.action, target[2], plain)
+
+    def _bounds_of(self, action: str, height: float, plain: bool) -> Mapping[Category, Bounds]:
+        found: dict[Category, Bounds] = {}
+        space = self.airspace
+        cruise, across = space.cruise_height, hypot(*space.size) + _BEYOND
+        plain = plain and action != PICK and not (space.no_fly or space.problem((0.0, 0.0, cruise)))
+        for one in self.app.categories:
+            motion, speed, share = one.motion, one.speed, one.motion.drain / one.flight_time
+            upright = motion.rises(cruise, speed) + motion.lands(max(0.0, height), speed)
+            upright += 2 * motion.settles + self.app.actions[action].seconds
+            a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less
+            slack = a_metre * abs(height - cruise) + 2 * motion.shortness(speed)
+            least, way = one.reserve + share * upright * _LESS, share * a_metre * _LESS
+            slack = share * slack if plain and one.can(action) else inf
+            found[one] = least, way, slack, (least + 2 * across * way) * MORE + slack
+        return found
 
 
-_FAR = 1e6  # metres of a long leg
-_LESS = 1 - 1e-9  # sums of floats are not exact, and a bound must be one
+Bounds = tuple[float, float, float, float]
+"""The least level beside the way, and for each metre of it; how much more than `MORE` times both it is at
+most; and what suffices from any place on the map."""
+
+_FAR, _BEYOND = 1e6, 0.01  # metres of a long leg, and beyond an edge of the map that do not count
+_LESS, MORE = 1 - 1e-9, 1 + 1e-8  # sums of floats are not exact, and bounds must be true
+_REMEMBERED = 1_000  # heights of targets, most of which are the cruise height
