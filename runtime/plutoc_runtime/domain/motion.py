@@ -73,7 +73,7 @@ class Motion:
         if not self.smooth:
             return self.pace * metres / speed
         followed = PEAK * metres / min(speed, self.limit)
-        return self.pace * max(SHORTEST, followed, sqrt(PUSH * metres / MOST))
+        return self.pace * max(SHORTEST, followed, sqrt(PUSH * abs(metres) / MOST))
 
     def shortness(self, speed: float) -> float:
         """Return how many seconds a short leg can take more than its share of a long one."""

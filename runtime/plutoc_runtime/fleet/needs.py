@@ -25,18 +25,23 @@ class Request(Future["Drone"]):
     ) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
-        self.trip, self.policy, self.rank = trips[0], policy, rank
+        self.trip = trip = trips[0]
+        self.policy, self.rank = policy, rank
         """The rank: its priority, and minus the number of its arrival; the highest is served first."""
-        self.goal = self.trip.source or self.trip.target  # where its drone flies to first
+        self.goal = trip.source or trip.target  # where its drone flies to first
         self.why = ""  # why its drone was chosen
-        self._reach, self._trips, self._bounds = reach, trips, reach.bounds(trips[0])
+        self._reach, self._trips = reach, trips
+        straight = trip.source is None and trip.item is None
+        self._bounds = reach.bounds(trip.action, trip.target, straight)
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
         level, here = drone.telemetry.battery_level, drone.telemetry.location
-        if here == drone.home and self._surely(drone, level):
-            return True
+        if here == drone.home:
+            bounds = self._bounds[drone.category]
+            if level >= bounds[3] or level >= self.at_least(drone, here) * MORE + bounds[2]:
+                return True
         return level >= self.at_least(drone, here) and level >= self.level(drone)
 
     def at_least(self, drone: Drone, here: Point) -> float:
@@ -47,17 +52,13 @@ class Request(Future["Drone"]):
         # not below 0 where it leads is not a number
         return max(0.0, upright + level if z <= 0.0 else level)
 
-    def _surely(self, drone: Drone, level: float) -> bool:
-        """Return whether a level suffices from home by an upper bound, without a route search."""
-        home, (_, _, slack, enough) = drone.home, self._bounds[drone.category]
-        if level < enough:
-            enough = self.at_least(drone, home) * MORE + slack
-        return level >= enough and home[2] <= 0.0 and not self._reach.airspace.problem(home)
-
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
-        category, home = drone.category, drone.home
-        if self._surely(drone, 1.0) or self._level(category, home, home) <= 1.0:
+        category = drone.category
+        if self._bounds[category][3] <= 1.0:
+            return None
+        home = drone.home
+        if self._level(category, home, home) <= 1.0:
             return None
         reach = self._reach
         miss = miss_of(reach.app, reach.airspace, category, home, chain_of(self._trips))

@@ -36,7 +36,7 @@ class Queue:
     def __init__(
         self, kernel: Kernel, reach: Reach, drones: Sequence[Drone], max_airborne: int | None
     ) -> None:
-        self._kernel, self._reach = kernel, reach
+        self._kernel, self._reach, reach.homes = kernel, reach, [one.home for one in drones]
         self._drones, self._max_airborne = drones, max_airborne
         self._waiting: list[Request] = []  # sorted by rank, the last is served first
         self._fresh: list[Request] = []  # the requests that have not been looked at yet
@@ -57,16 +57,13 @@ class Queue:
 
     def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
         """Request a drone for the first trip; it is given at the end of this instant or later."""
-        self._arrivals += 1
-        # raises here, in its mission, if a hook has left something odd there
-        request = Request(self._reach, trips, policy, (+priority, -self._arrivals))
-        if len(self._arrived) > 100 + 2 * len(self._waiting):
-            self._arrived, self._needs = self._waiting[:], {}
-        self._arrived.append(request)
-        if self._waiting and self._waiting[0].rank > request.rank:
-            self._waiting.insert(0, request)
+        self._arrivals = number = self._arrivals - 1
+        rank, waiting = (+priority, number), self._waiting  # raises in its mission, if that is odd
+        request = Request(self._reach, trips, policy, rank)
+        if waiting and waiting[0].rank > rank:  # most that enter
+            waiting.insert(0, request)
         else:
-            insort(self._waiting, request, key=_by_rank)
+            insort(waiting, request, key=_by_rank)
         self._fresh.append(request)
         self._kernel.at_the_end = self._serve
         return request
@@ -81,7 +78,8 @@ class Queue:
         self._low.pop(drone, None)
         if drone.status is _LOST:
             self._one_is_lost = True
-        self.changed()
+        if self._waiting:
+            self._kernel.at_the_end = self._serve
 
     def changed(self) -> None:
         """Serve the queue at the end of this instant."""
@@ -131,6 +129,10 @@ class Queue:
     # Serving
 
     def _serve(self) -> None:
+        if len(self._arrived) > 100 + 2 * len(self._waiting):
+            self._arrived, self._needs = self._waiting[:], {}
+        else:
+            self._arrived += self._fresh
         if self._low and (self._fresh or self._kernel.now >= self._recheck_at):
             self._put_back_the_charged()
         low = self._low
@@ -149,31 +151,31 @@ class Queue:
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        below = len(self._waiting)
+        below, ready = len(self._waiting), self._ready
         for place in self._places():
-            if not self._ready or not self.room:
+            if not ready or (self._max_airborne is not None and not self.room):
                 break
             if place >= below:
                 continue  # it was served with others of its policy
-            below, request = place, self._waiting[place]
+            request = self._waiting[place]
             if isinstance(request.policy, Batch):
                 below = self._share_among(place, request.policy)
             else:
                 try:
-                    choice = request.policy(request.trip, self._ready, request.able)
+                    choice = request.policy(request.trip, ready, request.able)
                 except HookFault as fault:
                     self._refuse(request, fault)
                 else:
-                    self._give(request, choice)
+                    self._give(place, choice)
 
     def _places(self) -> Iterator[int]:
         """Yield the places of requests in turn; after one in vain, of those for which a ready drone suffices."""
-        place, ready = len(self._waiting), len(self._ready) + 1
-        while place and len(self._ready) < ready:
-            place, ready = place - 1, len(self._ready)
+        place, ready, before = len(self._waiting), self._ready, inf
+        while place and (now := len(ready)) < before:
+            place, before = place - 1, now
             yield place
         suited = set[Request]()
-        for drone in self._ready if place else ():
+        for drone in ready if place else ():
             some = self._needs_of(drone).up_to(drone.battery_level, _MANY)
             suited.update(some if len(some) <= _MANY else self._waiting)
         for other in sorted(map(self._place, suited), reverse=True):
@@ -192,17 +194,17 @@ class Queue:
 
         first = next((n + 1 for n in range(place - 1, -1, -1) if not alike(n)), 0)
         end = next((n for n in range(place + 1, len(waiting)) if not alike(n)), len(waiting))
-        requests = waiting[first:end][::-1]
-        offers = [(request.trip, request.able) for request in requests]
-        for request, choice in zip(requests, policy(offers, self._ready), strict=True):
+        places = range(end - 1, first - 1, -1)
+        offers = [(waiting[each].trip, waiting[each].able) for each in places]
+        for each, choice in zip(places, policy(offers, self._ready), strict=True):
             if self.room:
-                self._give(request, choice)
+                self._give(each, choice)
         return first
 
-    def _give(self, request: Request, choice: Choice | None) -> None:
+    def _give(self, place: int, choice: Choice | None) -> None:
         if choice is not None:
+            request = self._waiting.pop(place)
             drone, request.why = choice
-            self._drop(request)
             self._ready.remove(drone)
             drone.status = _BUSY  # at once: no other request may have it
             request.set(drone)
@@ -212,8 +214,7 @@ class Queue:
         request.fail(error)
 
     def _drop(self, request: Request) -> None:
-        most_are_last = self._waiting[-1] is request
-        del self._waiting[-1 if most_are_last else self._place(request)]
+        del self._waiting[self._place(request)]
 
     def _place(self, request: Request) -> int:
         place = bisect_left(self._waiting, request.rank, key=_by_rank)

@@ -219,8 +219,9 @@ class Reach:
     """The battery for a trip, and cheap bounds of it: the exact one takes a route search."""
 
     def __init__(self, app: App, airspace: Airspace) -> None:
-        self.app, self.airspace = app, airspace
-        self._bounds = lru_cache(_REMEMBERED)(self._bounds_of)
+        self.app, self.airspace, self.homes = app, airspace, ()
+        self.bounds = lru_cache(_REMEMBERED)(self._bounds)
+        self._bounds_at = lru_cache(_REMEMBERED)(self._bounds_of)
 
     def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
         """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
@@ -230,20 +231,21 @@ class Reach:
         share = needed(category, self.airspace, here, stops, home)
         return inf if share is None else share + category.reserve
 
-    def bounds(self, trip: Trip) -> Mapping[Category, Bounds]:
-        """Return bounds of what a trip takes of each category's battery from the ground."""
-        target = trip.target
-        plain = trip.source is None and trip.item is None and not self.airspace.problem(target)
-        return self._bounds(trip.action, target[2], plain)
+    def _bounds(self, action: str, target: Point, straight: bool) -> Mapping[Category, Bounds]:
+        """Return bounds of what a trip takes of each category's battery; `straight`: to its target alone."""
+        plain = straight and action != PICK and not self.airspace.problem(target)
+        return self._bounds_at(action, target[2], plain)
 
     def _bounds_of(self, action: str, height: float, plain: bool) -> Mapping[Category, Bounds]:
         found: dict[Category, Bounds] = {}
         space = self.airspace
         cruise, across = space.cruise_height, hypot(*space.size) + _BEYOND
-        plain = plain and action != PICK and not (space.no_fly or space.problem((0.0, 0.0, cruise)))
+        ends = (0.0, 0.0, cruise), *self.homes
+        plain = plain and not space.no_fly and not any(map(space.problem, ends))
+        plain = plain and all(home[2] <= 0.0 for home in self.homes)
         for one in self.app.categories:
             motion, speed, share = one.motion, one.speed, one.motion.drain / one.flight_time
-            upright = motion.rises(cruise, speed) + motion.lands(max(0.0, height), speed)
+            upright = motion.rises(cruise, speed) + motion.lands(height, speed)
             upright += 2 * motion.settles + self.app.actions[action].seconds
             a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less
             slack = a_metre * abs(height - cruise) + 2 * motion.shortness(speed)
@@ -258,5 +260,5 @@ Bounds = tuple[float, float, float, float]
 most; and what suffices from any place on the map."""
 
 _FAR, _BEYOND = 1e6, 0.01  # metres of a long leg, and beyond an edge of the map that do not count
+_REMEMBERED = 1_000  # targets, and their heights: plans repeat theirs
 _LESS, MORE = 1 - 1e-9, 1 + 1e-8  # sums of floats are not exact, and bounds must be true
-_REMEMBERED = 1_000  # heights of targets, most of which are the cruise height

@@ -99,7 +99,8 @@ class KnownState:
     @property
     def location(self) -> Point:
         """Where it is."""
-        last, now = self._legs[-1], self._clock.now
+        last = self._legs[-1]
+        now = self._clock.now
         return last.end if now >= last.arrives else place_on(self._legs, now)
 
     @property
