@@ -21,7 +21,8 @@ _BEFALL = {
     Failure.LINK: "lost its link",
     Failure.BATTERY: "ran out of battery",
 }
-"""What happens at one moment of a flight; each has the name of its field below."""
+"""What happens at one moment of a flight."""
+_NAMES = [(what.value, what) for what in _BEFALL]  # with the names of their fields below
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +50,7 @@ class Drawn:
 
     def moments(self, began: float) -> list[tuple[float, Failure | None]]:
         """Return the faults with their times, for a flight that took off at this time."""
-        drawn = ((getattr(self, what.value), what) for what in _BEFALL)
+        drawn = ((getattr(self, name), what) for name, what in _NAMES)
         return [(began + after, what) for after, what in drawn if after is not None]
 
 
@@ -61,7 +62,7 @@ def draw(faults: Faults, seed: int, flight: str, seconds: float) -> Drawn:
     if faults == _NONE:
         return Drawn()
     chance, moments = Random(f"{seed}/{flight}"), dict[str, float]()
-    for name in (what.value for what in _BEFALL):
+    for name, _ in _NAMES:
         # Both numbers are drawn in any case, so one probability does not change the other's outcome.
         happens, when = chance.random() < getattr(faults, name), chance.random() * seconds
         if happens:

@@ -144,7 +144,7 @@ class IdealDrones:
     """Obeys a brain with ideal drones; a fleet of one flies exactly as it does with traffic."""
 
     def __init__(self, app: App, fleet: FleetData, faults: Faults, seed: int, clock: Clock) -> None:
-        self._clock, self._airspace, self._chance = clock, fleet.airspace, (faults, seed)
+        self._clock, self._airspace, self._faults, self._seed = clock, fleet.airspace, faults, seed
         self._world = World(seed, fleet.airspace, fleet.world)
         self._told: list[dict[str, Any]] = []
         categories = {category.name: category for category in app.categories}
@@ -166,10 +166,13 @@ class IdealDrones:
 
     def news(self) -> dict[str, Any]:
         """Return the telemetry of the drones whose motion has changed since the last call."""
+        now, found = self._clock.now, dict[str, Any]()
         for drone in self._all:
-            if drone.due <= self._clock.now:
+            if drone.due <= now:
                 drone.settle()  # it may have touched down by itself
-        return {drone.id: drone.news() for drone in self._all if drone.changed}
+            if drone.changed:
+                found[drone.id] = drone.news()
+        return found
 
     def obey(self, order: Mapping[str, Any]) -> None:
         """Begin what is ordered."""
@@ -204,8 +207,11 @@ class IdealDrones:
         way = [self._above(drone)]
         for stop in stops:
             way += permitted_way(airspace, drone.id, way[-1], stop)
-        seconds = flight_seconds(drone.category, airspace, start, stops, order["seconds"])
-        drone.begin(draw(*self._chance, order["flight"], seconds))
+        if self._faults == Faults():
+            drone.begin(Drawn())
+        else:
+            seconds = flight_seconds(drone.category, airspace, start, stops, order["seconds"])
+            drone.begin(draw(self._faults, self._seed, order["flight"], seconds))
         yield from self._follow(drone, way)
         action, item = order["action"], item_of(order["item"])
         if action is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Mapping
 from random import Random
 from typing import TYPE_CHECKING
@@ -33,12 +34,17 @@ centimetre."""
 _BLURRED = 0.1  # the share of photos that are not sharp
 
 
+def _along_x(feature: Feature) -> float:
+    return feature.at[0]
+
+
 class World:
     """What can be seen and measured on a map; without data it is made up from the seed."""
 
     def __init__(self, seed: int, airspace: Airspace, data: WorldData | None = None) -> None:
         data = invented(seed, airspace) if data is None else data
         self.features, self.sources = data.features, data.sources
+        self._by_x = sorted(data.features, key=_along_x)
         self.background = {**BACKGROUND, **data.background}
         self._seed = seed
 
@@ -69,12 +75,10 @@ class World:
         x, y = (round(along + chance.gauss(0.0, _DRIFT), 3) for along in point[:2])
         z = round(point[2], 3)
         width, height = round(z * _WIDTH, 3), round(z * _HEIGHT, 3)
-        sees = sorted(
-            one.kind
-            for one in self.features
-            if x - width / 2 <= one.at[0] <= x + width / 2
-            and y - height / 2 <= one.at[1] <= y + height / 2
-        )
+        first = bisect_left(self._by_x, x - width / 2, key=_along_x)
+        end = bisect_right(self._by_x, x + width / 2, key=_along_x)
+        south, north = y - height / 2, y + height / 2
+        sees = sorted(one.kind for one in self._by_x[first:end] if south <= one.at[1] <= north)
         blurred = chance.random() < _BLURRED
         return Photo(
             position=(x, y, z),

@@ -256,12 +256,14 @@ class Queue:
         """Make drones ready again that have charged, or that suffice for a new request."""
         now = self._kernel.now
         for drone, (until, wanted) in list(self._low.items()):
-            needs = self._needs.get(drone) or self._needs_of(drone)  # it stands where it stood
-            least = needs.least(wanted) if until > now else inf
-            if until <= now or (least < wanted and drone.battery_level >= least):
+            if until <= now:
                 del self._low[drone]
-            elif least < wanted:
-                self._low[drone] = min(until, self._charged(drone, least)), least
+            elif self._fresh:
+                needs = self._needs.get(drone) or self._needs_of(drone)  # it stands where it stood
+                if (least := needs.least(wanted)) < wanted and drone.battery_level >= least:
+                    del self._low[drone]
+                elif least < wanted:
+                    self._low[drone] = min(until, self._charged(drone, least)), least
 
     def _put_aside_the_low(self) -> None:
         """Put drones aside that are too low for every request; a docked one until it has charged.
