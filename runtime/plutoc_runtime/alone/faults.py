@@ -16,12 +16,11 @@ if TYPE_CHECKING:
 OUTAGE = 20.0  # seconds until a lost link is restored
 CARRYING_HOME = 300.0  # seconds until someone has carried a drone home
 
-_BEFALL = {
+_BEFALL = {  # what happens at one moment of a flight
     Failure.CRASH: "crashed",
     Failure.LINK: "lost its link",
     Failure.BATTERY: "ran out of battery",
 }
-"""What happens at one moment of a flight."""
 _NAMES = [(what.value, what) for what in _BEFALL]  # with the names of their fields below
 
 

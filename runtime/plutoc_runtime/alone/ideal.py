@@ -144,7 +144,7 @@ class IdealDrones:
     """Obeys a brain with ideal drones; a fleet of one flies exactly as it does with traffic."""
 
     def __init__(self, app: App, fleet: FleetData, faults: Faults, seed: int, clock: Clock) -> None:
-        self._clock, self._airspace, self._faults, self._seed = clock, fleet.airspace, faults, seed
+        self._clock, self._airspace, self._chance = clock, fleet.airspace, (faults, seed)
         self._world = World(seed, fleet.airspace, fleet.world)
         self._told: list[dict[str, Any]] = []
         categories = {category.name: category for category in app.categories}
@@ -207,11 +207,9 @@ class IdealDrones:
         way = [self._above(drone)]
         for stop in stops:
             way += permitted_way(airspace, drone.id, way[-1], stop)
-        if self._faults == Faults():
-            drone.begin(Drawn())
-        else:
-            seconds = flight_seconds(drone.category, airspace, start, stops, order["seconds"])
-            drone.begin(draw(self._faults, self._seed, order["flight"], seconds))
+        faulty, kind = self._chance[0] != Faults(), drone.category
+        seconds = faulty and flight_seconds(kind, airspace, start, stops, order["seconds"])
+        drone.begin(draw(*self._chance, order["flight"], seconds))
         yield from self._follow(drone, way)
         action, item = order["action"], item_of(order["item"])
         if action is None:

@@ -15,15 +15,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-CLIMB_SPEED = 0.3
-"""Metres a second, straight up and straight down; on smooth legs that is about the mean."""
+CLIMB_SPEED = 0.3  # metres a second, straight up and down; on smooth legs about the mean
 PEAK = 2.19  # peak speed over mean speed of a smooth leg
 PUSH, MOST = 7.52, 4.0
 """Peak acceleration of a smooth leg over distance and squared time; its limit in m/s²."""
-SHORTEST = 1.0
-"""Seconds of the shortest smooth leg: three metres in half a second have flipped a drone."""
-SINKS = 0.5
-"""The share of its limit up to which a drone follows a landing closely enough to touch down."""
+SHORTEST = 1.0  # seconds of a smooth leg at least: 3 m in half a second have flipped a drone
+SINKS = 0.5  # the share of its limit up to which a drone lands closely enough to touch down
 Stage = tuple[tuple[float, float, float], float, float, float]
 """Where a leg ends, and the seconds before it, on it and after it."""
 _TAIL = 3.0  # standard deviations within which all durations lie
@@ -77,8 +74,7 @@ class Motion:
 
     def shortness(self, speed: float) -> float:
         """Return how many seconds a short leg can take more than its share of a long one."""
-        # sqrt(p * m) <= a * m + p / (4 * a)
-        most = PUSH / MOST * min(speed, self.limit) / (4 * PEAK)
+        most = PUSH / MOST * min(speed, self.limit) / (4 * PEAK)  # sqrt(pm) <= am + p / 4a
         return self.pace * max(SHORTEST, most) if self.smooth else 0.0
 
     def climb(self, metres: float, speed: float) -> float:

@@ -26,13 +26,12 @@ class Request(Future["Drone"]):
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
         self.trip = trip = trips[0]
+        # the rank: its priority, and minus the number of its arrival; the highest is served first
         self.policy, self.rank = policy, rank
-        """The rank: its priority, and minus the number of its arrival; the highest is served first."""
         self.goal = trip.source or trip.target  # where its drone flies to first
         self.why = ""  # why its drone was chosen
         self._reach, self._trips = reach, trips
-        straight = trip.source is None and trip.item is None
-        self._bounds = reach.bounds(trip.action, trip.target, straight)
+        self._bounds = reach.bounds(trip.action, trip.target, not (trip.source or trip.item))
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     def able(self, drone: Drone) -> bool:
@@ -54,26 +53,20 @@ class Request(Future["Drone"]):
 
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
-        category = drone.category
-        if self._bounds[category][3] <= 1.0:
+        if self._bounds[drone.category][3] <= 1.0 or self._level(drone, drone.home) <= 1.0:
             return None
-        home = drone.home
-        if self._level(category, home, home) <= 1.0:
-            return None
-        reach = self._reach
-        miss = miss_of(reach.app, reach.airspace, category, home, chain_of(self._trips))
+        app, airspace, chain = self._reach.app, self._reach.airspace, chain_of(self._trips)
+        miss = miss_of(app, airspace, drone.category, drone.home, chain)
         return miss and miss.reason
 
     def level(self, drone: Drone) -> float:
         """Return the battery level that a drone needs from where it stands; infinite: it never suffices."""
-        if self.never(drone) is not None:
-            return inf
-        return self._level(drone.category, drone.home, drone.location)
+        return self._level(drone, drone.location) if self.never(drone) is None else inf
 
-    def _level(self, category: Category, home: Point, here: Point) -> float:
-        key = category, home, here
+    def _level(self, drone: Drone, here: Point) -> float:
+        key = drone.category, drone.home, here
         if key not in self._levels:
-            self._levels[key] = self._reach.level(category, home, here, chain_of(self._trips))
+            self._levels[key] = self._reach.level(*key, chain_of(self._trips))
         return self._levels[key]
 
 
@@ -93,8 +86,7 @@ class Needs:
         heap, drone, place = self._heap, self._drone, self.place
         for request in self._arrived[self._seen :]:
             if not request.is_set:
-                bound = request.at_least(drone, place)
-                heappush(heap, (bound, request.rank[1], False, request))
+                heappush(heap, (request.at_least(drone, place), request.rank[1], False, request))
         self._seen = len(self._arrived)
         while heap:
             level, number, is_exact, request = heap[0]

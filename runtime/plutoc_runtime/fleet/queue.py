@@ -40,18 +40,14 @@ class Queue:
         self._drones, self._max_airborne = drones, max_airborne
         self._waiting: list[Request] = []  # sorted by rank, the last is served first
         self._fresh: list[Request] = []  # the requests that have not been looked at yet
-        self._arrived: list[Request] = []
-        """Those that wait, and some that have waited, in no order; see `Needs`."""
+        self._arrived: list[Request] = []  # those that wait, and some that have; see `Needs`
         self._needs: dict[Drone, Needs] = {}
         self._arrivals = 0
-        self._ready: list[Drone] = []
-        """While it is served: the free drones that may be chosen, in the fleet's order."""
+        self._ready: list[Drone] = []  # while it is served: those that may be chosen, in order
         self._low: dict[Drone, tuple[float, float]] = {}
         """The other free drones: too low for every request so far, until when, and what level they need."""
-        self._one_is_lost = False
-        """Whether a drone has been lost since the requests were last checked."""
-        self._recheck: Timer | None = None
-        self._recheck_at = inf
+        self._one_is_lost = False  # since the requests were last checked
+        self._recheck, self._recheck_at = Timer(int), inf
         self.served: Callable[[], None] = lambda: None
         """Called after a serving, if some still wait and a drone that is too low is not being charged."""
 
@@ -129,10 +125,9 @@ class Queue:
     # Serving
 
     def _serve(self) -> None:
+        self._arrived += self._fresh
         if len(self._arrived) > 100 + 2 * len(self._waiting):
             self._arrived, self._needs = self._waiting[:], {}
-        else:
-            self._arrived += self._fresh
         if self._low and (self._fresh or self._kernel.now >= self._recheck_at):
             self._put_back_the_charged()
         low = self._low
@@ -282,14 +277,11 @@ class Queue:
         return self._kernel.now + (drone.charging(level) + 0.001)
 
     def _look_again_when_charged(self, soonest: float) -> None:
-        if soonest == self._recheck_at:
-            return
-        if self._recheck is not None:
+        if soonest != self._recheck_at:
             self._recheck.cancel()
-        self._recheck_at, self._recheck = soonest, None
-        if soonest < inf:
-            self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
+            self._recheck_at = soonest
+            if soonest < inf:
+                self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
 
 
-_MANY = 30
-"""For more requests than so many it is not worth while to find out for which a drone suffices."""
+_MANY = 30  # for more requests it is not worth while to find out for which a drone suffices

@@ -219,9 +219,9 @@ class Reach:
     """The battery for a trip, and cheap bounds of it: the exact one takes a route search."""
 
     def __init__(self, app: App, airspace: Airspace) -> None:
-        self.app, self.airspace, self.homes = app, airspace, ()
-        self.bounds = lru_cache(_REMEMBERED)(self._bounds)
-        self._bounds_at = lru_cache(_REMEMBERED)(self._bounds_of)
+        self.app, self.airspace = app, airspace
+        self.homes: Sequence[Point] = ()  # where the drones' docks are
+        self.bounds = lru_cache(1_000)(self._bounds)  # plans repeat their targets
 
     def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
         """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
@@ -233,16 +233,11 @@ class Reach:
 
     def _bounds(self, action: str, target: Point, straight: bool) -> Mapping[Category, Bounds]:
         """Return bounds of what a trip takes of each category's battery; `straight`: to its target alone."""
-        plain = straight and action != PICK and not self.airspace.problem(target)
-        return self._bounds_at(action, target[2], plain)
-
-    def _bounds_of(self, action: str, height: float, plain: bool) -> Mapping[Category, Bounds]:
-        found: dict[Category, Bounds] = {}
-        space = self.airspace
+        space, height, found = self.airspace, target[2], dict["Category", Bounds]()
         cruise, across = space.cruise_height, hypot(*space.size) + _BEYOND
-        ends = (0.0, 0.0, cruise), *self.homes
-        plain = plain and not space.no_fly and not any(map(space.problem, ends))
-        plain = plain and all(home[2] <= 0.0 for home in self.homes)
+        # no dock may be above the ground: there no climb begins
+        ends = target, (0.0, 0.0, cruise), *((x, y, -z) for x, y, z in self.homes)
+        straight &= action != PICK and not (space.no_fly or any(map(space.problem, ends)))
         for one in self.app.categories:
             motion, speed, share = one.motion, one.speed, one.motion.drain / one.flight_time
             upright = motion.rises(cruise, speed) + motion.lands(height, speed)
@@ -250,15 +245,13 @@ class Reach:
             a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less
             slack = a_metre * abs(height - cruise) + 2 * motion.shortness(speed)
             least, way = one.reserve + share * upright * _LESS, share * a_metre * _LESS
-            slack = share * slack if plain and one.can(action) else inf
+            slack = share * slack if straight and one.can(action) else inf
             found[one] = least, way, slack, (least + 2 * across * way) * MORE + slack
         return found
 
 
 Bounds = tuple[float, float, float, float]
-"""The least level beside the way, and for each metre of it; how much more than `MORE` times both it is at
-most; and what suffices from any place on the map."""
-
+"""The least level beside the way and for each metre of it, how much more than `MORE` times both may be
+needed, and what suffices for any way on the map: the last two from home, where the drone stands."""
 _FAR, _BEYOND = 1e6, 0.01  # metres of a long leg, and beyond an edge of the map that do not count
-_REMEMBERED = 1_000  # targets, and their heights: plans repeat theirs
 _LESS, MORE = 1 - 1e-9, 1 + 1e-8  # sums of floats are not exact, and bounds must be true
