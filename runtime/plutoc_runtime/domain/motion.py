@@ -67,7 +67,7 @@ class Motion:
 
     def leg(self, metres: float, speed: float) -> float:
         """Return the seconds of a leg at a category's speed, until its end."""
-        if not self.smooth:
+        if self.legs != "smooth":
             return self.pace * metres / speed
         followed = PEAK * metres / min(speed, self.limit)
         return self.pace * max(SHORTEST, followed, sqrt(PUSH * abs(metres) / MOST))

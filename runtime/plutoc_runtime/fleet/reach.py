@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from enum import IntEnum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -231,13 +231,18 @@ class Reach:
         share = needed(category, self.airspace, here, stops, home)
         return inf if share is None else share + category.reserve
 
+    @cached_property
+    def _open(self) -> bool:
+        """Whether nothing is in the way from any dock on the ground to any place on the map."""
+        space = self.airspace
+        ends = (0.0, 0.0, space.cruise_height), *((x, y, -z) for x, y, z in self.homes)
+        return not (space.no_fly or any(map(space.problem, ends)))
+
     def _bounds(self, action: str, target: Point, straight: bool) -> Mapping[Category, Bounds]:
         """Return bounds of what a trip takes of each category's battery; `straight`: to its target alone."""
         space, height, found = self.airspace, target[2], dict["Category", Bounds]()
         cruise, across = space.cruise_height, hypot(*space.size) + _BEYOND
-        # no dock may be above the ground: there no climb begins
-        ends = target, (0.0, 0.0, cruise), *((x, y, -z) for x, y, z in self.homes)
-        straight &= action != PICK and not (space.no_fly or any(map(space.problem, ends)))
+        straight &= self._open and action != PICK and not space.problem(target)
         for one in self.app.categories:
             motion, speed, share = one.motion, one.speed, one.motion.drain / one.flight_time
             upright = motion.rises(cruise, speed) + motion.lands(height, speed)
