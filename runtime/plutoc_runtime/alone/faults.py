@@ -16,12 +16,11 @@ if TYPE_CHECKING:
 OUTAGE = 20.0  # seconds until a lost link is restored
 CARRYING_HOME = 300.0  # seconds until someone has carried a drone home
 
-_BEFALL = {  # what happens at one moment of a flight
+_BEFALL = {  # what happens at one moment of a flight: the first fields of `Drawn`, in their order
     Failure.CRASH: "crashed",
     Failure.LINK: "lost its link",
     Failure.BATTERY: "ran out of battery",
 }
-_NAMES = [(what.value, what) for what in _BEFALL]  # with the names of their fields below
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +48,7 @@ class Drawn:
 
     def moments(self, began: float) -> list[tuple[float, Failure | None]]:
         """Return the faults with their times, for a flight that took off at this time."""
-        drawn = ((getattr(self, name), what) for name, what in _NAMES)
+        drawn = zip((self.crash, self.link, self.battery), _BEFALL, strict=True)
         return [(began + after, what) for after, what in drawn if after is not None]
 
 
@@ -61,7 +60,7 @@ def draw(faults: Faults, seed: int, flight: str, seconds: float) -> Drawn:
     if faults == _NONE:
         return Drawn()
     chance, moments = Random(f"{seed}/{flight}"), dict[str, float]()
-    for name, _ in _NAMES:
+    for name in (what.value for what in _BEFALL):
         # Both numbers are drawn in any case, so one probability does not change the other's outcome.
         happens, when = chance.random() < getattr(faults, name), chance.random() * seconds
         if happens:

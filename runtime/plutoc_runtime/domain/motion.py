@@ -139,7 +139,7 @@ def smoothly(part: float) -> float:
 def charged(level: float, seconds: float, full: float, taper: float) -> float:
     """Return the level after charging for a time; `full`: the seconds from empty to full."""
     now = _progress(level, full, taper) + seconds
-    tail = full - _slows(full, taper)
+    tail = full - full * (1 - taper) / (1 + taper)  # the seconds in which it slows down
     if now <= full - tail:
         return now * (1 + taper) / full
     return 1.0 - taper * (max(0.0, full - now) / (tail or full)) ** 2
@@ -152,16 +152,12 @@ def charging(level: float, target: float, full: float, taper: float) -> float:
     return _progress(target, full, taper) - _progress(level, full, taper)
 
 
-def _slows(full: float, taper: float) -> float:
-    """Return the seconds after which a charge from empty slows down."""
-    return full * (1 - taper) / (1 + taper)
-
-
 def _progress(level: float, full: float, taper: float) -> float:
     """Return the seconds from empty to a level."""
     if level <= 1 - taper:
         return level * full / (1 + taper)
-    return full - (full - _slows(full, taper)) * sqrt(max(0.0, 1 - level) / taper)
+    tail = full - full * (1 - taper) / (1 + taper)
+    return full - tail * sqrt(max(0.0, 1 - level) / taper)
 
 
 STRAIGHT = Motion()  # straight legs at the category's speed, that take nothing beside

@@ -126,7 +126,7 @@ class Queue:
 
     def _serve(self) -> None:
         self._arrived += self._fresh
-        if len(self._arrived) > 100 + 2 * len(self._waiting):
+        if not self._needs or len(self._arrived) > 1_000 + 8 * len(self._waiting):
             self._arrived, self._needs = self._waiting[:], {}
         if self._low and (self._fresh or self._kernel.now >= self._recheck_at):
             self._put_back_the_charged()

@@ -67,10 +67,9 @@ def needed(
 
     None: no route leads there, or none home. The reserve is not in it.
     """
-    points = [point for point, _ in stops]
+    points = [*(point for point, _ in stops), (home[0], home[1], 0.0)]
     actions = sum(seconds for _, seconds in stops)
-    ground = (home[0], home[1], 0.0)
-    seconds = flight_seconds(category, airspace, start, [*points, ground], actions)
+    seconds = flight_seconds(category, airspace, start, points, actions)
     return None if seconds == inf else seconds * category.motion.drain / category.flight_time
 
 
