@@ -100,8 +100,7 @@ class IdealDrone(KnownState):
         """Do nothing more, and hover where it is, if it still takes commands."""
         self.wakes = inf
         if self.failure() is None and not self.landed:
-            now = self._clock.now
-            self.spread.put_back(now)
+            self.spread.put_back(now := self._clock.now)
             self.turn([resting(self.location, now)], now)
 
     def touch_down(self, now: float) -> None:
@@ -120,8 +119,8 @@ class IdealDrone(KnownState):
             comes = self.drawn.moments(self._began)
             if self.down is not None:  # it has lost its link, and lands
                 comes = [(self._legs[-1].arrives, None)]
-            empty = self._charge.empty_at, Failure.BATTERY
-            self.due, self._what = min([*comes, empty], key=_when)
+            comes += [(self._charge.empty_at, Failure.BATTERY)]
+            self.due, self._what = min(comes, key=_when)
 
     def _happen(self, when: float, what: Failure | None) -> None:
         x, y, z = here = place_on(self._legs, when)
@@ -166,13 +165,10 @@ class IdealDrones:
 
     def news(self) -> dict[str, Any]:
         """Return the telemetry of the drones whose motion has changed since the last call."""
-        now, found = self._clock.now, dict[str, Any]()
         for drone in self._all:
-            if drone.due <= now:
+            if drone.due <= self._clock.now:
                 drone.settle()  # it may have touched down by itself
-            if drone.changed:
-                found[drone.id] = drone.news()
-        return found
+        return {drone.id: drone.news() for drone in self._all if drone.changed}
 
     def obey(self, order: Mapping[str, Any]) -> None:
         """Begin what is ordered."""
