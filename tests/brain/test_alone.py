@@ -17,11 +17,13 @@ from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.shared.alone import simulate as alone
 from pluto_fleet.shared.alone.faults import CARRYING_HOME, OUTAGE, Faults
 from pluto_fleet.shared.alone.ideal import IdealDrones
+from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Point, Trip
 from pluto_fleet.shared.domain.status import DroneStatus, Status
 from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.flow.standing import fleet_data
 from tests.equivalence.fly import alone as by_itself
 from tests.flying import A_WEEK, Example
 from tests.runtime import apps
@@ -107,14 +109,14 @@ def track(airspace: Airspace, mission: Any, home: Point, faults: Faults, seed: i
     """Fly a mission and return where its drone was, every tenth of a second."""
     given: Any = apps.app(apps.flow()).given
     on = apps.fleet(home, airspace=airspace)
-    flown = alone.Alone(given, on, faults, seed, lambda event: None)
+    brain = Brain(given, fleet_data(on), space=airspace)
+    flown, places, now = alone.Alone(given, on, faults, seed, brain, lambda event: None), [], 0.0
     flown.begin([mission])
-    brain, places, now = flown.brain, [], 0.0
     while not flown.run(now):
         places.append(tuple(brain.drones()["cf1"]["at"]))
         now += 0.1
     assert brain.standing()["missions"]["a"]["status"] in ("COMPLETED", "FAILED")
-    flown.brain.close()
+    brain.close()
     return places
 
 

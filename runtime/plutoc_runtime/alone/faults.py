@@ -16,12 +16,11 @@ if TYPE_CHECKING:
 OUTAGE = 20.0  # seconds until a lost link is restored
 CARRYING_HOME = 300.0  # seconds until someone has carried a drone home
 
-_BEFALL = {
+_BEFALL = {  # what happens at one moment of a flight: the first fields of `Drawn`, in their order
     Failure.CRASH: "crashed",
     Failure.LINK: "lost its link",
     Failure.BATTERY: "ran out of battery",
 }
-"""What happens at one moment of a flight; each has the name of its field below."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +48,7 @@ class Drawn:
 
     def moments(self, began: float) -> list[tuple[float, Failure | None]]:
         """Return the faults with their times, for a flight that took off at this time."""
-        drawn = ((getattr(self, what.value), what) for what in _BEFALL)
+        drawn = zip((self.crash, self.link, self.battery), _BEFALL, strict=True)
         return [(began + after, what) for after, what in drawn if after is not None]
 
 

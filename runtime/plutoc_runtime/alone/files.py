@@ -31,8 +31,7 @@ if TYPE_CHECKING:
 
 LARGEST = 1 << 20  # bytes: a plan is written by people, and anything larger is another file
 
-MOST = 100
-"""Parts of one key: `tomllib` copies for each part all before it. A plan's longest key has two."""
+MOST = 100  # parts of one key: `tomllib` copies for each all before it; a plan's have two
 
 _PART = r"""(?:[A-Za-z0-9_-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
 _NEXT = rf"(?:[ \t]*\.[ \t]*{_PART})"

@@ -100,8 +100,7 @@ class IdealDrone(KnownState):
         """Do nothing more, and hover where it is, if it still takes commands."""
         self.wakes = inf
         if self.failure() is None and not self.landed:
-            now = self._clock.now
-            self.spread.put_back(now)
+            self.spread.put_back(now := self._clock.now)
             self.turn([resting(self.location, now)], now)
 
     def touch_down(self, now: float) -> None:
@@ -120,8 +119,8 @@ class IdealDrone(KnownState):
             comes = self.drawn.moments(self._began)
             if self.down is not None:  # it has lost its link, and lands
                 comes = [(self._legs[-1].arrives, None)]
-            empty = self._charge.empty_at, Failure.BATTERY
-            self.due, self._what = min([*comes, empty], key=_when)
+            comes += [(self._charge.empty_at, Failure.BATTERY)]
+            self.due, self._what = min(comes, key=_when)
 
     def _happen(self, when: float, what: Failure | None) -> None:
         x, y, z = here = place_on(self._legs, when)
@@ -204,7 +203,8 @@ class IdealDrones:
         way = [self._above(drone)]
         for stop in stops:
             way += permitted_way(airspace, drone.id, way[-1], stop)
-        seconds = flight_seconds(drone.category, airspace, start, stops, order["seconds"])
+        faulty, kind = self._chance[0] != Faults(), drone.category
+        seconds = faulty and flight_seconds(kind, airspace, start, stops, order["seconds"])
         drone.begin(draw(*self._chance, order["flight"], seconds))
         yield from self._follow(drone, way)
         action, item = order["action"], item_of(order["item"])

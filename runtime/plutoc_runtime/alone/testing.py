@@ -50,8 +50,7 @@ class Clock:
             raise ValueError(f"time cannot pass by {seconds} seconds")
         over: Future[None] = Future()
         # the last kind of all: all else that is due at that instant is done before
-        until = self.now + seconds
-        self.kernel.at(until, EventKind.ALLOCATE, FLEET, lambda: over.set(None))
+        self.kernel.at(self.now + seconds, EventKind.ALLOCATE, FLEET, lambda: over.set(None))
         self.kernel.run(over)
 
 
@@ -104,12 +103,10 @@ class KitContext(Context):
     """A hook's context, with what a test gives to it and reads back."""
 
     def __init__(self, clock: Clock, results: ResultStore, mission: Mission[Any]) -> None:
-        self.lines: list[str] = []
-        """What the hook has logged."""
+        self.lines: list[str] = []  # what the hook has logged
         self.sensors: dict[str, float | Callable[[], float]] = {}
         """What its drone measures, by name; a function is called for each value."""
-        self.written: dict[str, float] = {}
-        """What the hook has set on its drone, by name."""
+        self.written: dict[str, float] = {}  # what the hook has set on its drone, by name
         self._given = clock.kernel, results, lambda line, _: self.lines.append(line)
         self.lend(mission, lambda: None, None)
 
@@ -219,8 +216,7 @@ class AppKit(Generic[M, T]):
         """Return the mission's trip in flight; one that was not launched is by now."""
         if mission.status is not RUNNING:
             self.launch(mission)
-        trip: Trip = mission.trips[0]
-        return trip
+        return cast("Trip", mission.trips[0])
 
     def _tell(self, mission: M) -> None:
         self._flights[mission].set(mission.status)

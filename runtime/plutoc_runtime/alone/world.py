@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Mapping
+from math import inf
+from operator import attrgetter
 from random import Random
 from typing import TYPE_CHECKING
 
@@ -22,14 +25,12 @@ _NOISE = 0.001  # the sensors' error, as a share of what they measure
 
 _KINDS = ("bloom", "pest", "disease")
 _GROUND_EACH = 4.0  # square metres for each feature of a world that is made up
-_AT_MOST = 10_000
-"""Features of such a world: more would take longer to make than the missions to fly."""
+_AT_MOST = 10_000  # such features: more would take longer to make than the missions to fly
 
 _WIDTH, _HEIGHT = 1.6, 1.2
 """Metres of ground on a photo for each metre of height: a 4:3 camera sees 77° across and 62° along."""
-_DRIFT = 0.05
-"""The standard deviation of a drone's horizontal position, in metres; its height is exact to a
-centimetre."""
+_DRIFT = 0.05  # the standard deviation of a drone's horizontal position, in metres
+_at = attrgetter("at")
 _BLURRED = 0.1  # the share of photos that are not sharp
 
 
@@ -39,6 +40,7 @@ class World:
     def __init__(self, seed: int, airspace: Airspace, data: WorldData | None = None) -> None:
         data = invented(seed, airspace) if data is None else data
         self.features, self.sources = data.features, data.sources
+        self._by_x = sorted(data.features, key=_at)
         self.background = {**BACKGROUND, **data.background}
         self._seed = seed
 
@@ -69,12 +71,10 @@ class World:
         x, y = (round(along + chance.gauss(0.0, _DRIFT), 3) for along in point[:2])
         z = round(point[2], 3)
         width, height = round(z * _WIDTH, 3), round(z * _HEIGHT, 3)
-        sees = sorted(
-            one.kind
-            for one in self.features
-            if x - width / 2 <= one.at[0] <= x + width / 2
-            and y - height / 2 <= one.at[1] <= y + height / 2
-        )
+        first = bisect_left(self._by_x, (x - width / 2,), key=_at)
+        end = bisect_left(self._by_x, (x + width / 2, inf), key=_at)
+        south, north = y - height / 2, y + height / 2
+        sees = sorted(one.kind for one in self._by_x[first:end] if south <= one.at[1] <= north)
         blurred = chance.random() < _BLURRED
         return Photo(
             position=(x, y, z),

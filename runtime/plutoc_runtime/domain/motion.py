@@ -15,15 +15,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-CLIMB_SPEED = 0.3
-"""Metres a second, straight up and straight down; on smooth legs that is about the mean."""
+CLIMB_SPEED = 0.3  # metres a second, straight up and down; on smooth legs about the mean
 PEAK = 2.19  # peak speed over mean speed of a smooth leg
 PUSH, MOST = 7.52, 4.0
 """Peak acceleration of a smooth leg over distance and squared time; its limit in m/s²."""
-SHORTEST = 1.0
-"""Seconds of the shortest smooth leg: three metres in half a second have flipped a drone."""
-SINKS = 0.5
-"""The share of its limit up to which a drone follows a landing closely enough to touch down."""
+SHORTEST = 1.0  # seconds of a smooth leg at least: 3 m in half a second have flipped a drone
+SINKS = 0.5  # the share of its limit up to which a drone lands closely enough to touch down
 Stage = tuple[tuple[float, float, float], float, float, float]
 """Where a leg ends, and the seconds before it, on it and after it."""
 _TAIL = 3.0  # standard deviations within which all durations lie
@@ -70,10 +67,15 @@ class Motion:
 
     def leg(self, metres: float, speed: float) -> float:
         """Return the seconds of a leg at a category's speed, until its end."""
-        if not self.smooth:
+        if self.legs != "smooth":
             return self.pace * metres / speed
         followed = PEAK * metres / min(speed, self.limit)
-        return self.pace * max(SHORTEST, followed, sqrt(PUSH * metres / MOST))
+        return self.pace * max(SHORTEST, followed, sqrt(PUSH * abs(metres) / MOST))
+
+    def shortness(self, speed: float) -> float:
+        """Return how many seconds a short leg can take more than its share of a long one."""
+        most = PUSH / MOST * min(speed, self.limit) / (4 * PEAK)  # sqrt(pm) <= am + p / 4a
+        return self.pace * max(SHORTEST, most) if self.smooth else 0.0
 
     def climb(self, metres: float, speed: float) -> float:
         """Return the seconds straight up."""
@@ -137,7 +139,7 @@ def smoothly(part: float) -> float:
 def charged(level: float, seconds: float, full: float, taper: float) -> float:
     """Return the level after charging for a time; `full`: the seconds from empty to full."""
     now = _progress(level, full, taper) + seconds
-    tail = full - _slows(full, taper)
+    tail = full - full * (1 - taper) / (1 + taper)  # the seconds in which it slows down
     if now <= full - tail:
         return now * (1 + taper) / full
     return 1.0 - taper * (max(0.0, full - now) / (tail or full)) ** 2
@@ -150,16 +152,12 @@ def charging(level: float, target: float, full: float, taper: float) -> float:
     return _progress(target, full, taper) - _progress(level, full, taper)
 
 
-def _slows(full: float, taper: float) -> float:
-    """Return the seconds after which a charge from empty slows down."""
-    return full * (1 - taper) / (1 + taper)
-
-
 def _progress(level: float, full: float, taper: float) -> float:
     """Return the seconds from empty to a level."""
     if level <= 1 - taper:
         return level * full / (1 + taper)
-    return full - (full - _slows(full, taper)) * sqrt(max(0.0, 1 - level) / taper)
+    tail = full - full * (1 - taper) / (1 + taper)
+    return full - tail * sqrt(max(0.0, 1 - level) / taper)
 
 
 STRAIGHT = Motion()  # straight legs at the category's speed, that take nothing beside

@@ -8,7 +8,7 @@ from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from ..time.future import Future
-from .reach import Reach, chain_of, miss_of
+from .reach import MORE, Reach, chain_of, miss_of
 
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Point, Trip
@@ -18,53 +18,55 @@ if TYPE_CHECKING:
 class Request(Future["Drone"]):
     """A mission's request for a drone; as a future it is set to the drone that it gets."""
 
-    __slots__ = ("_levels", "_reach", "_trips", "goal", "policy", "rank", "trip", "why")
+    __slots__ = ("_bounds", "_levels", "_reach", "_trips", "goal", "policy", "rank", "trip", "why")
 
     def __init__(
         self, reach: Reach, trips: Sequence[Trip], policy: Policy, rank: tuple[int, int]
     ) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
-        self.trip, self.policy, self.rank = trips[0], policy, rank
-        """The rank: its priority, and minus the number of its arrival; the highest is served first."""
-        self.goal = self.trip.source or self.trip.target  # where its drone flies to first
+        self.trip = trip = trips[0]
+        # the rank: its priority, and minus the number of its arrival; the highest is served first
+        self.policy, self.rank = policy, rank
+        self.goal = trip.source or trip.target  # where its drone flies to first
         self.why = ""  # why its drone was chosen
         self._reach, self._trips = reach, trips
+        self._bounds = reach.bounds(trip.action, trip.target, not (trip.source or trip.item))
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
-        level = drone.telemetry.battery_level
-        here = drone.telemetry.location
+        level, here = drone.telemetry.battery_level, drone.telemetry.location
+        if here == drone.home:
+            bounds = self._bounds[drone.category]
+            if level >= bounds[3] or level >= self.at_least(drone, here) * MORE + bounds[2]:
+                return True
         return level >= self.at_least(drone, here) and level >= self.level(drone)
 
     def at_least(self, drone: Drone, here: Point) -> float:
         """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
         (x, y, _), (a, b, z), (c, d, _) = self.goal, here, drone.home
-        upright, a_metre = self._reach.at_least(drone.category, self.trip)
+        upright, a_metre, _, _ = self._bounds[drone.category]
         level = a_metre * (hypot(x - a, y - b) + hypot(x - c, y - d))
         # not below 0 where it leads is not a number
         return max(0.0, upright + level if z <= 0.0 else level)
 
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
-        category, home = drone.category, drone.home
-        if self._level(category, home, home) <= 1.0:
+        if self._bounds[drone.category][3] <= 1.0 or self._level(drone, drone.home) <= 1.0:
             return None
-        reach = self._reach
-        miss = miss_of(reach.app, reach.airspace, category, home, chain_of(self._trips))
+        app, airspace, chain = self._reach.app, self._reach.airspace, chain_of(self._trips)
+        miss = miss_of(app, airspace, drone.category, drone.home, chain)
         return miss and miss.reason
 
     def level(self, drone: Drone) -> float:
         """Return the battery level that a drone needs from where it stands; infinite: it never suffices."""
-        if self.never(drone) is not None:
-            return inf
-        return self._level(drone.category, drone.home, drone.location)
+        return self._level(drone, drone.location) if self.never(drone) is None else inf
 
-    def _level(self, category: Category, home: Point, here: Point) -> float:
-        key = category, home, here
+    def _level(self, drone: Drone, here: Point) -> float:
+        key = drone.category, drone.home, here
         if key not in self._levels:
-            self._levels[key] = self._reach.level(category, home, here, chain_of(self._trips))
+            self._levels[key] = self._reach.level(*key, chain_of(self._trips))
         return self._levels[key]
 
 
@@ -84,8 +86,7 @@ class Needs:
         heap, drone, place = self._heap, self._drone, self.place
         for request in self._arrived[self._seen :]:
             if not request.is_set:
-                bound = request.at_least(drone, place)
-                heappush(heap, (bound, request.rank[1], False, request))
+                heappush(heap, (request.at_least(drone, place), request.rank[1], False, request))
         self._seen = len(self._arrived)
         while heap:
             level, number, is_exact, request = heap[0]

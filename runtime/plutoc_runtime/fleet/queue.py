@@ -36,34 +36,30 @@ class Queue:
     def __init__(
         self, kernel: Kernel, reach: Reach, drones: Sequence[Drone], max_airborne: int | None
     ) -> None:
-        self._kernel, self._reach = kernel, reach
+        self._kernel, self._reach, reach.homes = kernel, reach, [one.home for one in drones]
         self._drones, self._max_airborne = drones, max_airborne
         self._waiting: list[Request] = []  # sorted by rank, the last is served first
         self._fresh: list[Request] = []  # the requests that have not been looked at yet
-        self._arrived: list[Request] = []
-        """Those that wait, and some that have waited, in no order; see `Needs`."""
+        self._arrived: list[Request] = []  # those that wait, and some that have; see `Needs`
         self._needs: dict[Drone, Needs] = {}
         self._arrivals = 0
-        self._ready: list[Drone] = []
-        """While it is served: the free drones that may be chosen, in the fleet's order."""
+        self._ready: list[Drone] = []  # while it is served: those that may be chosen, in order
         self._low: dict[Drone, tuple[float, float]] = {}
         """The other free drones: too low for every request so far, until when, and what level they need."""
-        self._one_is_lost = False
-        """Whether a drone has been lost since the requests were last checked."""
-        self._recheck: Timer | None = None
-        self._recheck_at = inf
+        self._one_is_lost = False  # since the requests were last checked
+        self._recheck, self._recheck_at = Timer(int), inf
         self.served: Callable[[], None] = lambda: None
         """Called after a serving, if some still wait and a drone that is too low is not being charged."""
 
     def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
         """Request a drone for the first trip; it is given at the end of this instant or later."""
-        self._arrivals += 1
-        # raises here, in its mission, if a hook has left something odd there
-        request = Request(self._reach, trips, policy, (+priority, -self._arrivals))
-        if len(self._arrived) > 100 + 2 * len(self._waiting):
-            self._arrived, self._needs = self._waiting[:], {}
-        self._arrived.append(request)
-        insort(self._waiting, request, key=_by_rank)
+        self._arrivals = number = self._arrivals - 1
+        rank, waiting = (+priority, number), self._waiting  # raises in its mission, if that is odd
+        request = Request(self._reach, trips, policy, rank)
+        if waiting and waiting[0].rank > rank:  # most that enter
+            waiting.insert(0, request)
+        else:
+            insort(waiting, request, key=_by_rank)
         self._fresh.append(request)
         self._kernel.at_the_end = self._serve
         return request
@@ -78,7 +74,8 @@ class Queue:
         self._low.pop(drone, None)
         if drone.status is _LOST:
             self._one_is_lost = True
-        self.changed()
+        if self._waiting:
+            self._kernel.at_the_end = self._serve
 
     def changed(self) -> None:
         """Serve the queue at the end of this instant."""
@@ -128,6 +125,9 @@ class Queue:
     # Serving
 
     def _serve(self) -> None:
+        self._arrived += self._fresh
+        if not self._needs or len(self._arrived) > 1_000 + 8 * len(self._waiting):
+            self._arrived, self._needs = self._waiting[:], {}
         if self._low and (self._fresh or self._kernel.now >= self._recheck_at):
             self._put_back_the_charged()
         low = self._low
@@ -146,31 +146,31 @@ class Queue:
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        below = len(self._waiting)
+        below, ready = len(self._waiting), self._ready
         for place in self._places():
-            if not self._ready or not self.room:
+            if not ready or (self._max_airborne is not None and not self.room):
                 break
             if place >= below:
                 continue  # it was served with others of its policy
-            below, request = place, self._waiting[place]
+            request = self._waiting[place]
             if isinstance(request.policy, Batch):
                 below = self._share_among(place, request.policy)
-            elif any(map(request.able, self._ready)):
+            else:
                 try:
-                    choice = request.policy(request.trip, self._ready, request.able)
+                    choice = request.policy(request.trip, ready, request.able)
                 except HookFault as fault:
                     self._refuse(request, fault)
                 else:
-                    self._give(request, choice)
+                    self._give(place, choice)
 
     def _places(self) -> Iterator[int]:
         """Yield the places of requests in turn; after one in vain, of those for which a ready drone suffices."""
-        place, ready = len(self._waiting), len(self._ready) + 1
-        while place and len(self._ready) < ready:
-            place, ready = place - 1, len(self._ready)
+        place, ready, before = len(self._waiting), self._ready, inf
+        while place and (now := len(ready)) < before:
+            place, before = place - 1, now
             yield place
         suited = set[Request]()
-        for drone in self._ready if place else ():
+        for drone in ready if place else ():
             some = self._needs_of(drone).up_to(drone.battery_level, _MANY)
             suited.update(some if len(some) <= _MANY else self._waiting)
         for other in sorted(map(self._place, suited), reverse=True):
@@ -189,17 +189,17 @@ class Queue:
 
         first = next((n + 1 for n in range(place - 1, -1, -1) if not alike(n)), 0)
         end = next((n for n in range(place + 1, len(waiting)) if not alike(n)), len(waiting))
-        requests = waiting[first:end][::-1]
-        offers = [(request.trip, request.able) for request in requests]
-        for request, choice in zip(requests, policy(offers, self._ready), strict=True):
+        places = range(end - 1, first - 1, -1)
+        offers = [(waiting[each].trip, waiting[each].able) for each in places]
+        for each, choice in zip(places, policy(offers, self._ready), strict=True):
             if self.room:
-                self._give(request, choice)
+                self._give(each, choice)
         return first
 
-    def _give(self, request: Request, choice: Choice | None) -> None:
+    def _give(self, place: int, choice: Choice | None) -> None:
         if choice is not None:
+            request = self._waiting.pop(place)
             drone, request.why = choice
-            self._drop(request)
             self._ready.remove(drone)
             drone.status = _BUSY  # at once: no other request may have it
             request.set(drone)
@@ -251,12 +251,14 @@ class Queue:
         """Make drones ready again that have charged, or that suffice for a new request."""
         now = self._kernel.now
         for drone, (until, wanted) in list(self._low.items()):
-            needs = self._needs.get(drone) or self._needs_of(drone)  # it stands where it stood
-            least = needs.least(wanted) if until > now else inf
-            if until <= now or (least < wanted and drone.battery_level >= least):
+            if until <= now:
                 del self._low[drone]
-            elif least < wanted:
-                self._low[drone] = min(until, self._charged(drone, least)), least
+            elif self._fresh:
+                needs = self._needs.get(drone) or self._needs_of(drone)  # it stands where it stood
+                if (least := needs.least(wanted)) < wanted and drone.battery_level >= least:
+                    del self._low[drone]
+                elif least < wanted:
+                    self._low[drone] = min(until, self._charged(drone, least)), least
 
     def _put_aside_the_low(self) -> None:
         """Put drones aside that are too low for every request; a docked one until it has charged.
@@ -275,14 +277,11 @@ class Queue:
         return self._kernel.now + (drone.charging(level) + 0.001)
 
     def _look_again_when_charged(self, soonest: float) -> None:
-        if soonest == self._recheck_at:
-            return
-        if self._recheck is not None:
+        if soonest != self._recheck_at:
             self._recheck.cancel()
-        self._recheck_at, self._recheck = soonest, None
-        if soonest < inf:
-            self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
+            self._recheck_at = soonest
+            if soonest < inf:
+                self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
 
 
-_MANY = 30
-"""For more requests than so many it is not worth while to find out for which a drone suffices."""
+_MANY = 30  # for more requests it is not worth while to find out for which a drone suffices

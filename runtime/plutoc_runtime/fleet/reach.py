@@ -6,9 +6,10 @@ its battery evenly, moving or not.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from enum import IntEnum
-from math import dist, inf
+from functools import cached_property, lru_cache
+from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
@@ -66,10 +67,9 @@ def needed(
 
     None: no route leads there, or none home. The reserve is not in it.
     """
-    points = [point for point, _ in stops]
+    points = [*(point for point, _ in stops), (home[0], home[1], 0.0)]
     actions = sum(seconds for _, seconds in stops)
-    ground = (home[0], home[1], 0.0)
-    seconds = flight_seconds(category, airspace, start, [*points, ground], actions)
+    seconds = flight_seconds(category, airspace, start, points, actions)
     return None if seconds == inf else seconds * category.motion.drain / category.flight_time
 
 
@@ -215,11 +215,12 @@ def idle_actions(app: App, fleet: FleetData) -> list[str]:
 
 
 class Reach:
-    """The battery for a trip, and a cheap lower bound of it: the exact one takes a route search."""
+    """The battery for a trip, and cheap bounds of it: the exact one takes a route search."""
 
     def __init__(self, app: App, airspace: Airspace) -> None:
         self.app, self.airspace = app, airspace
-        self._least: dict[tuple[Category, str, float], tuple[float, float]] = {}
+        self.homes: Sequence[Point] = ()  # where the drones' docks are
+        self.bounds = lru_cache(1_000)(self._bounds)  # plans repeat their targets
 
     def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
         """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
@@ -229,20 +230,32 @@ class Reach:
         share = needed(category, self.airspace, here, stops, home)
         return inf if share is None else share + category.reserve
 
-    def at_least(self, category: Category, trip: Trip) -> tuple[float, float]:
-        """Return what a trip takes at least of a level from the ground beside its way, and for each metre of that."""
-        key = category, trip.action, trip.target[2]
-        if key not in self._least:
-            motion, speed, full = category.motion, category.speed, category.flight_time
-            height = min(trip.target[2], self.airspace.cruise_height)
-            seconds = motion.rises(height, speed) + motion.lands(height, speed)
-            seconds += self.app.actions[trip.action].seconds
-            # a metre of a short leg takes no less than one of a long leg
-            shares = (seconds, motion.flies(_FAR, speed) / _FAR)
-            least = [share * motion.drain / full * _LESS for share in shares]
-            self._least[key] = category.reserve + least[0], least[1]
-        return self._least[key]
+    @cached_property
+    def _open(self) -> bool:
+        """Whether nothing is in the way from any dock on the ground to any place on the map."""
+        space = self.airspace
+        ends = (0.0, 0.0, space.cruise_height), *((x, y, -z) for x, y, z in self.homes)
+        return not (space.no_fly or any(map(space.problem, ends)))
+
+    def _bounds(self, action: str, target: Point, straight: bool) -> Mapping[Category, Bounds]:
+        """Return bounds of what a trip takes of each category's battery; `straight`: to its target alone."""
+        space, height, found = self.airspace, target[2], dict["Category", Bounds]()
+        cruise, across = space.cruise_height, hypot(*space.size) + _BEYOND
+        straight &= self._open and action != PICK and not space.problem(target)
+        for one in self.app.categories:
+            motion, speed, share = one.motion, one.speed, one.motion.drain / one.flight_time
+            upright = motion.rises(cruise, speed) + motion.lands(height, speed)
+            upright += 2 * motion.settles + self.app.actions[action].seconds
+            a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less
+            slack = a_metre * abs(height - cruise) + 2 * motion.shortness(speed)
+            least, way = one.reserve + share * upright * _LESS, share * a_metre * _LESS
+            slack = share * slack if straight and one.can(action) else inf
+            found[one] = least, way, slack, (least + 2 * across * way) * MORE + slack
+        return found
 
 
-_FAR = 1e6  # metres of a long leg
-_LESS = 1 - 1e-9  # sums of floats are not exact, and a bound must be one
+Bounds = tuple[float, float, float, float]
+"""The least level beside the way and for each metre of it, how much more than `MORE` times both may be
+needed, and what suffices for any way on the map: the last two from home, where the drone stands."""
+_FAR, _BEYOND = 1e6, 0.01  # metres of a long leg, and beyond an edge of the map that do not count
+_LESS, MORE = 1 - 1e-9, 1 + 1e-8  # sums of floats are not exact, and bounds must be true

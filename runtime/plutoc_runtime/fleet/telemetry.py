@@ -110,10 +110,8 @@ class KnownState:
 
     def take(self, told: Mapping[str, Any]) -> None:
         """Take over a message about it; what the message does not say stays as it was."""
-        now, legs = self._clock.now, told.get("legs")
-        if legs is None and "leg" in told:
-            legs = [told["leg"]]
-        if legs is not None:
+        now, one = self._clock.now, told.get("leg")
+        if legs := told.get("legs") or (one and [one]):
             smooth = self.motion.smooth
             self._legs = [
                 Leg(point_of(a), point_of(b), leaves, at, smooth) for a, b, leaves, at in legs
