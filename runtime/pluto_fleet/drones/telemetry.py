@@ -142,11 +142,11 @@ class VehicleTelemetry:
     def __init__(
         self,
         home: Point,
-        flight_time: float,
+        endurance: float,
         ask: Callable[[], DroneTelemetry],
         calls: NavigationCalls,
     ) -> None:
-        self._home, self._flight_time = home, flight_time
+        self._home, self._endurance = home, endurance
         self._ask, self._calls = ask, calls
         self._raw: DroneTelemetry | None = None
         self._last: Sample | None = None
@@ -192,7 +192,7 @@ class VehicleTelemetry:
         last, now = self.look(), self._calls.clock()
         if now < self.rises_until:
             return False
-        return last is None or not last.flying or now - last.time > EMPTY * self._flight_time
+        return last is None or not last.flying or now - last.time > EMPTY * self._endurance
 
     @property
     def silence(self) -> float:

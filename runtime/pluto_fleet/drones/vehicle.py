@@ -115,7 +115,7 @@ class Vehicle:
         self.cargo, self.calls = cargo, NavigationCalls(drone.id, say, clock)
         self.telemetry = VehicleTelemetry(
             drone.home,
-            drone.category.flight_time,
+            drone.category.endurance,
             lambda: self.navigation.telemetry,
             self.calls,
         )
@@ -176,7 +176,7 @@ class Vehicle:
         self.calls.say(self.out_of_reach)
         self.on_lost()
         if now < telemetry.rises_until:  # it was about to take off, and may have done so
-            telemetry.rises_until = now + EMPTY * self.drone.category.flight_time
+            telemetry.rises_until = now + EMPTY * self.drone.category.endurance
         self.commands.fail(FlightFailed(Failure.LINK, self.out_of_reach))
 
     def crashed(self, why: str) -> None:

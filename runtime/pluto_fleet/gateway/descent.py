@@ -113,7 +113,7 @@ class Descent:
         step = 0.0 if traffic is None else traffic.step
         ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, step)
         kind = drone.category
-        enough = telemetry.battery_level * kind.flight_time / kind.motion.drain
+        enough = telemetry.battery_level * kind.endurance
         return [way for way in ways if self._course(drone, way).seconds < enough]
 
     def _course(self, drone: FleetDrone, way: Section) -> Course:

@@ -182,7 +182,7 @@ class Body:
 
     def lift_off(self, now: float) -> None:
         """Leave the ground: the battery drains from now on, and faults are due."""
-        drains = -self.model.drain / self.drone.category.flight_time
+        drains = -1.0 / self.drone.category.endurance
         self._charge = self._charge.changing(now + self.model.take_off, drains)
         self._began, self._landed = now, False
 

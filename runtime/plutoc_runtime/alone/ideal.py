@@ -85,8 +85,8 @@ class IdealDrone(KnownState):
 
     def lift_off(self) -> None:
         """Leave the ground: the battery drains from now on, and faults are due."""
-        drains = -self.motion.drain / self.category.flight_time
-        self._charge = self._charge.changing(self._clock.now + self.motion.take_off, drains)
+        leaves, drains = self._clock.now + self.motion.take_off, -1.0 / self.category.endurance
+        self._charge = self._charge.changing(leaves, drains)
         self.landed = False
         self._look_ahead()
 

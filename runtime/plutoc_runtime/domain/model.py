@@ -38,6 +38,11 @@ class Category:
     motion: Motion = STRAIGHT
     """How its drones fly, by the fleet's file."""
 
+    @property
+    def endurance(self) -> float:
+        """How many seconds in the air take a full battery."""
+        return self.flight_time / self.motion.drain
+
     def can(self, action: str) -> bool:
         """Return whether drones of this category can do the action."""
         return self.actions is None or action in self.actions

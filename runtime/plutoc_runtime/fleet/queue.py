@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from math import inf
 from operator import attrgetter
 from typing import TYPE_CHECKING
@@ -106,11 +106,6 @@ class Queue:
         """Whether one more drone may fly."""
         most = self._max_airborne
         return most is None or sum(drone.status in _IN_THE_AIR for drone in self._drones) < most
-
-    @property
-    def low(self) -> Collection[Drone]:
-        """The free drones whose batteries are too low for every request."""
-        return self._low.keys()
 
     def too_low(self) -> Iterator[Drone]:
         """Yield the free drones that waiting missions could use if they were charged."""

@@ -70,7 +70,7 @@ def needed(
     points = [*(point for point, _ in stops), (home[0], home[1], 0.0)]
     actions = sum(seconds for _, seconds in stops)
     seconds = flight_seconds(category, airspace, start, points, actions)
-    return None if seconds == inf else seconds * category.motion.drain / category.flight_time
+    return None if seconds == inf else seconds / category.endurance
 
 
 class Lacks(IntEnum):
@@ -243,7 +243,7 @@ class Reach:
         cruise, across = space.cruise_height, hypot(*space.size) + _BEYOND
         straight &= self._open and action != PICK and not space.problem(target)
         for one in self.app.categories:
-            motion, speed, share = one.motion, one.speed, one.motion.drain / one.flight_time
+            motion, speed, share = one.motion, one.speed, 1.0 / one.endurance
             upright = motion.rises(cruise, speed) + motion.lands(height, speed)
             upright += 2 * motion.settles + self.app.actions[action].seconds
             a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less

@@ -224,6 +224,8 @@ def _are_named(items: Iterable[tuple[Any, Any]]) -> bool:
 
 def value_of(data: object) -> object:
     """Return a stored result of an action."""
+    if data is None:  # most actions give none
+        return None
     match data:
         case {"$number": str(text)}:
             return float(text)

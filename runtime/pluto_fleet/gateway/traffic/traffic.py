@@ -155,8 +155,7 @@ class Traffic:
 
     def lost(self, drone: str) -> None:
         """Called when a drone's position is unknown: it is down when its battery is empty at the latest."""
-        flight_time = self._drones[drone].category.flight_time
-        self._silent[drone] = self._kernel.now + flight_time
+        self._silent[drone] = self._kernel.now + self._drones[drone].category.endurance
 
     def found(self, drone: str) -> None:
         """Called when a lost drone has telemetry again."""
