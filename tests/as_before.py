@@ -3,9 +3,10 @@
     python -m tests.as_before --seeds 100           # compare
     python -m tests.as_before --seeds 100 --write   # keep what is printed now
 
-`tests/as_before.json` was written by the second command at the last commit whose packages carried the
-whole runtime (0984158): one hash for each seed, of what `simulate --json --trace` printed, without
-mishaps and with them. What a mission does, and when, is the same since, where drones fly straight.
+`tests/as_before.json` has one hash for each seed, of what `simulate --json --trace` printed, without
+mishaps and with them, where drones fly straight. It was written by the second command when jobs of one
+instant began to reserve their space in the order in which they arrive, and ways home to be one section
+(decision 18); until then all was as at the last commit whose packages carried the whole runtime (0984158).
 """
 
 from __future__ import annotations

@@ -10,6 +10,7 @@ from pathlib import Path
 SOURCE = """\
 pluto 1
 app watched "A flight that many watch" {
+  category scout(speed: 1 m/s, flight_time: 15 min) can measure
   create = MissionCreator
   allocate = DroneAllocator(policy: nearest)
   launch = TripLauncher
