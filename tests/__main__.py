@@ -20,7 +20,7 @@ REWRITES = {
     "python -m tests.seam.packages": "keep a package of a new seam, once it is settled",
 }
 CAMPAIGNS = {
-    "python -m tests.as_before --seeds 100": "simulations print what they printed before packages became thin",
+    "python -m tests.as_before --seeds 100": "simulations of straight flights print what they printed before",
     "python -m tests.format --mutants 2000": "format many layouts of every example",
     "python -m tests.lsp.holes": "cut a thousand holes into the examples: is what stood there offered?",
     "python -m tests.fuzz --minutes 10": "feed the compiler with odd input",
