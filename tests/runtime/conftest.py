@@ -9,6 +9,9 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
+
+import pytest
 
 from tests.one_brain import Elsewhere
 
@@ -30,3 +33,22 @@ if EMBEDDED:
     assert not [name for name in sys.modules if embedded_name(name)], "loaded before the copy"
     sys.path.insert(0, EMBEDDED)
     sys.meta_path.insert(0, Elsewhere(embedded_name))
+
+
+@pytest.fixture
+def no_worker_left(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Hold that each process that a test forks has ended, and was waited for; others may have children here."""
+    forked: list[int] = []
+    fork = os.fork
+
+    def forks() -> int:
+        child = fork()
+        forked.append(child)
+        return child
+
+    monkeypatch.setattr(os, "fork", forks)
+    yield
+    assert forked, "nothing was forked"
+    for child in forked:
+        with pytest.raises(ChildProcessError):
+            os.waitpid(child, os.WNOHANG)

@@ -22,11 +22,7 @@ def squared(number: int) -> int:
     return number * number
 
 
-def assert_no_children() -> None:
-    with pytest.raises(ChildProcessError):
-        os.waitpid(-1, os.WNOHANG)
-
-
+@pytest.mark.usefixtures("no_worker_left")
 @pytest.mark.parametrize("jobs", [1, 2, 7])
 def test_results_and_prints_come_in_order(jobs: int, capsys: pytest.CaptureFixture[str]) -> None:
     """However many work at once."""
@@ -34,7 +30,6 @@ def test_results_and_prints_come_in_order(jobs: int, capsys: pytest.CaptureFixtu
     out, err = capsys.readouterr()
     assert out.splitlines() == [f"{number} squared" for number in range(50)]
     assert err == "three!\n"
-    assert_no_children()
 
 
 def test_what_is_not_wanted_is_not_printed(capsys: pytest.CaptureFixture[str]) -> None:
@@ -65,6 +60,7 @@ def fails(number: int) -> int:
     return number
 
 
+@pytest.mark.usefixtures("no_worker_left")
 @pytest.mark.parametrize("jobs", [1, 4])
 def test_an_error_comes_in_its_turn(jobs: int) -> None:
     """After all that was done before it, as if there were no workers."""
@@ -73,7 +69,6 @@ def test_an_error_comes_in_its_turn(jobs: int) -> None:
     with pytest.raises(LookupError, match="20") as raised:
         next(work)
     assert "in fails" in str(raised.value.__cause__)
-    assert_no_children()
 
 
 class Odd(Exception):
@@ -102,6 +97,7 @@ def dies(how: Callable[[], object]) -> Callable[[int], int]:
     return work
 
 
+@pytest.mark.usefixtures("no_worker_left")
 @pytest.mark.parametrize(
     ("how", "told"),
     [
@@ -114,7 +110,6 @@ def test_a_worker_that_dies_is_told_with_its_task(how: Callable[[], object], tol
     with pytest.raises(WorkerDied) as died:
         list(in_workers(dies(how), range(12), 2))
     assert (died.value.place, died.value.how) == (4, told)
-    assert_no_children()
 
 
 def test_a_hook_cannot_leave_by_itself() -> None:
@@ -123,15 +118,16 @@ def test_a_hook_cannot_leave_by_itself() -> None:
         list(in_workers(dies(lambda: os._exit(3)), range(5), 1))
 
 
+@pytest.mark.usefixtures("no_worker_left")
 def test_who_stops_early_leaves_no_worker() -> None:
     """Though it would go on for a minute."""
     work = in_workers(time.sleep, [0, 60, 60], 3)
     assert isinstance(work, Generator)
     next(work)
     work.close()
-    assert_no_children()
 
 
+@pytest.mark.usefixtures("no_worker_left")
 def test_an_interrupt_ends_all_at_once() -> None:
     """Workers that are busy, too."""
     parent = os.getpid()
@@ -142,7 +138,6 @@ def test_an_interrupt_ends_all_at_once() -> None:
 
     with pytest.raises(KeyboardInterrupt):
         list(in_workers(interrupts, [60, 60], 2))
-    assert_no_children()
 
 
 def test_a_child_of_a_hook_that_lives_on_is_not_waited_for(tmp_path: Path) -> None:
