@@ -199,13 +199,16 @@ class Body:
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below: its flight has ended; in its dock it charges from its touch-down on."""
-        touched = min(now, self._leg.arrives) if self._leg.end[2] <= 0.0 else now
+        self._charge = self._grounded(now)
         self._rest(now)
-        at_home = docked(self._leg.end, self.drone.home)
-        rate = 1.0 / self.drone.category.charge_time if at_home else 0.0
-        self._charge = self._charge.changing(touched, rate)
         self._drawn = Drawn()
         self._changed()
+
+    def _grounded(self, now: float) -> Charge:
+        """Return the battery of a drone that is on the ground now, and may have touched down before."""
+        touched = min(now, self._leg.arrives) if self._leg.end[2] <= 0.0 else now
+        charges = docked(self._leg.at(now), self.drone.home)
+        return self._charge.changing(touched, charges / self.drone.category.charge_time)
 
     def dock(self, now: float) -> None:
         """Put it into its dock, so that it takes commands again."""
@@ -281,12 +284,12 @@ class Body:
         if what is Failure.LINK:
             self.move((x, y, 0.0), when, when, when + z / CLIMB_SPEED)
             return
-        self._rest(when)
         if what is Failure.BATTERY:
             self._charge = Charge(0.0, when, taper=self.model.taper)
         else:
-            self._charge = self._charge.changing(when, 0.0)
+            self._charge = self._grounded(when).changing(when, 0.0)
             self.carries = None
+        self._rest(when)
 
     def _rest(self, when: float) -> None:
         x, y, _ = self._leg.at(when)
