@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ...shared.domain.model import Point
 
 DRIFT = 0.3
-"""Metres that a hovering drone may drift before it is noticed."""
+"""Metres that a drone may be off its place, or its route, before it is noticed."""
 SINKS = 0.1
 """Metres below its hovering place, from which on a drone is taken to be descending."""
 
@@ -55,7 +55,7 @@ class Reservation:
         """Reserve a route that it is about to fly, with its possible overshoot."""
         self.points, self.at, self.tail = points, 0, tail
         self.moves, self.fails = True, False
-        self.box = box_of((*points, *tail) if tail else points)
+        self.box = _widened(box_of((*points, *tail) if tail else points))
 
     def rests(self, tail: tuple[Point, ...], until: float) -> None:
         """Reserve the place where it hovers now."""
@@ -81,9 +81,8 @@ class Reservation:
 
     def _widen(self) -> None:
         """Extend the box to where it may drift or sink before it is noticed."""
-        x, y, z, *most = box_of((*self.points, *self.tail))
-        x, y = x - DRIFT, y - DRIFT
-        self.box = x, y, min(0.0, z), most[0] + DRIFT, most[1] + DRIFT, most[2] + DRIFT
+        x, y, z, *most = _widened(box_of((*self.points, *self.tail)))
+        self.box = x, y, min(0.0, z), most[0], most[1], most[2]
 
     def shape(self, now: float) -> tuple[Point, ...]:
         """Return the reserved line, as its corners."""
@@ -100,6 +99,11 @@ class Reservation:
         if self.fails or here[2] < self.points[0][2] - SINKS:
             return here, (here[0], here[1], 0.0)
         return (here, *self.tail) if now < self.until else (here,)
+
+
+def _widened(box: Box) -> Box:
+    x, y, z, *most = box
+    return x - DRIFT, y - DRIFT, z - DRIFT, most[0] + DRIFT, most[1] + DRIFT, most[2] + DRIFT
 
 
 def part_way(a: Point, b: Point, part: float) -> Point:
