@@ -114,6 +114,20 @@ def test_who_is_to_let_an_older_one_pass_goes_once_that_waits_no_more() -> None:
     assert sky.until(younger, 60)
 
 
+@pytest.mark.parametrize(("seconds", "waits"), [(0.0, False), (0.05, False), (0.2, True)])
+def test_requests_count_as_simultaneous_that_come_one_right_after_the_other(
+    seconds: float, waits: bool
+) -> None:
+    """Those of one instant do in a simulation, and so must they where they come over a line."""
+    sky = Sky([(5, 0.5), (1, 5), (9, 7)], airspace=Airspace(ceiling=LOW))
+    assert sky.until(gives(sky, "cf2", (5, 5, 1.2)), 60)
+    gives(sky, "cf1", (5, 9, 1.2))
+    sky.advance(seconds)
+    gives(sky, "cf3", (5, 7, 1.2))
+    sky.advance(5)
+    assert sky.navigation.telemetry["cf3"].landed == waits
+
+
 def waits(drone: str, x: float) -> Wait:
     """Return a drone that wants to fly along a line, and need not be looked at by itself."""
     section = Section(drone, ((x, 1.0, 1.2), (x, 9.0, 1.2)), False, False)

@@ -23,6 +23,8 @@ WAIT_BEFORE_LANDING = 10.0
 """Seconds that a drone hovers in the way of others before it lands, and waits there."""
 AT_LAST = 30.0
 """Seconds after which it lands even if its way will soon be free."""
+TOGETHER = 0.1
+"""Seconds within which requests count as simultaneous: those of one instant reach a gateway one by one."""
 ELDER = 20.0
 """Seconds after which later requests may not even cross where a drone wants to fly."""
 OVERSHOOT, STOPPING = 0.6, 2.0
@@ -372,7 +374,7 @@ class Traffic:
         for wait in self._waiting:
             wanted = wait.section.points
             if (
-                wait.since < since
+                wait.since < since - TOGETHER
                 and wait.section.drone != section.drone
                 and are_near(section.box, wait.section.box, limit)
                 and meets(points, wanted, limit)
