@@ -96,13 +96,13 @@ def read_flights(path: Path) -> Flights:
 def _command(path: Path, row: int, facts: Mapping[str, Any]) -> Command:
     try:
         ended_at, (before, after) = float(facts["t"]), facts["battery"]
-        x, y, z = map(float, facts["from"])
+        (x, y, z), (to_x, to_y, to_z) = (map(float, facts[end]) for end in ("from", "to"))
         return Command(
             drone=str(facts["drone"]),
             category=str(facts["category"]),
             what=str(facts["what"]),
             start=(x, y, z),
-            end=tuple(map(float, facts["to"])),  # type: ignore[arg-type]
+            end=(to_x, to_y, to_z),
             speed=float(facts["speed"]),
             began=ended_at - float(facts["seconds"]),
             ended_at=ended_at,
