@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..files.reading import shortened
 from ..process.text import of
 from ..shared.domain.errors import BadInput
+from ..shared.domain.status import IN_THE_AIR, DroneStatus
 from ..shared.domain.text import place, quoted
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, Task
@@ -127,9 +128,10 @@ class RecordedFlight(RecordedBrain):
         since: dict[str, float] = {}
         while self._ended_at is not None and not self._over.is_set:
             now, drones = self.kernel.now, self.brain.drones()
-            under_way = {id for id, one in drones.items() if one["status"] in _UNDER_WAY}
+            stand = {id: DroneStatus(one["status"]) for id, one in drones.items()}
+            under_way = {id for id, status in stand.items() if status in IN_THE_AIR}
             for id in drones:
-                stands = drones[id]["status"] == "RECOVERING" and drones[id]["landed"]
+                stands = stand[id] is DroneStatus.RECOVERING and drones[id]["landed"]
                 if id in under_way and stands:
                     since.setdefault(id, now)
                 else:
@@ -144,9 +146,6 @@ class RecordedFlight(RecordedBrain):
                 break
             await self.kernel.sleep(1.0)
         self._helpless = None
-
-
-_UNDER_WAY = ("RETURNING", "RECOVERING", "BUSY")
 
 
 def _refuse_if_none_is_ready(fleet_report: FleetReport, lost: Mapping[str, str]) -> None:

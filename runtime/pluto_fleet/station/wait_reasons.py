@@ -8,7 +8,7 @@ from math import ceil, floor
 from typing import TYPE_CHECKING, Any
 
 from ..shared.domain.app import moving
-from ..shared.domain.status import DroneStatus
+from ..shared.domain.status import IN_THE_AIR, DroneStatus
 from ..shared.domain.text import percent
 from ..shared.fleet.reach import Reach, chain_of, miss_of
 from ..shared.hooks.plain_data import trip_of
@@ -34,7 +34,6 @@ _DOES = {
     "RECOVERING": "recovering",
     "OFFLINE": "not asked yet",
 }
-_IN_THE_AIR = ("BUSY", "RETURNING", "RECOVERING")
 
 
 class WaitReasons:
@@ -115,7 +114,7 @@ class WaitReasons:
 
     def _room(self) -> str:
         most = self._fleet.max_airborne
-        flying = sum(drone["status"] in _IN_THE_AIR for drone in self._drones.values())
+        flying = sum(DroneStatus(drone["status"]) in IN_THE_AIR for drone in self._drones.values())
         return "" if most is None or flying < most else ", but no more may fly at once"
 
 

@@ -43,6 +43,9 @@ class DroneStatus(Enum):
     OFFLINE = "OFFLINE"
 
 
+IN_THE_AIR = (DroneStatus.BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
+"""The statuses of drones that fly, or are about to."""
+
 UNEXECUTED, RUNNING, STANDBY = Status.UNEXECUTED, Status.RUNNING, Status.STANDBY
 COMPLETED, FAILED = Status.COMPLETED, Status.FAILED
 """The five by names of their own: to look one up on its class takes many times as long."""

@@ -15,7 +15,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from ..domain.errors import HookFault, MissionFailed
-from ..domain.status import DroneStatus
+from ..domain.status import IN_THE_AIR, DroneStatus
 from ..time.kernel import FLEET, EventKind, Kernel, Timer
 from .needs import Needs, Request
 from .policies import Batch, Choice, Policy
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from ..domain.model import Drone, Trip
 
 _FREE, _BUSY, _LOST = DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.LOST
-_IN_THE_AIR = (_BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
 _in_the_file, _by_rank = attrgetter("index"), attrgetter("rank")
 
@@ -74,8 +73,7 @@ class Queue:
         self._low.pop(drone, None)
         if drone.status is _LOST:
             self._one_is_lost = True
-        if self._waiting:
-            self._kernel.at_the_end = self._serve
+        self.changed()
 
     def changed(self) -> None:
         """Serve the queue at the end of this instant."""
@@ -105,7 +103,7 @@ class Queue:
     def room(self) -> bool:
         """Whether one more drone may fly."""
         most = self._max_airborne
-        return most is None or sum(drone.status in _IN_THE_AIR for drone in self._drones) < most
+        return most is None or sum(drone.status in IN_THE_AIR for drone in self._drones) < most
 
     def too_low(self) -> Iterator[Drone]:
         """Yield the free drones that waiting missions could use if they were charged."""
