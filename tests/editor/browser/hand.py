@@ -10,10 +10,11 @@ Target = Locator | tuple[float, float]
 
 
 def middle(target: Target) -> tuple[float, float]:
-    """Return the pixel in the middle of what is pointed at."""
+    """Return the pixel in the middle of what is pointed at, once it rests: the drawing may glide."""
     if isinstance(target, tuple):
         return target
     target.scroll_into_view_if_needed()
+    target.element_handle().wait_for_element_state("stable")
     box = target.bounding_box()
     assert box is not None
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
