@@ -16,13 +16,11 @@ export function choose({ title, options, at = null, placeholder = "Type to find"
   const list = h("ul", { class: "choices", role: "listbox", id: listId, "aria-label": title });
   const why = h("p", { class: "hint choice-why", role: "status" });
   let [shown, at_, chosen] = [[], 0, null];
-  let all = [];
-  let [waits, entered, failed] = [true, false, null];
+  let [all, entered, failed] = [null, false, null]; // all: null until it is known
   const { closed, close } = showDialog({
     title, kind: "chooser", at, focus: input, content: [above?.(renew), input, list, why],
   });
-  if (Array.isArray(options)) renew(options);
-  else options.then(renew, (error) => { failed = error; close(); });
+  Promise.resolve(options).then(renew, (error) => { failed = error; close(); });
   input.focus();
   return closed.then(() => {
     if (failed) throw failed;
@@ -30,7 +28,7 @@ export function choose({ title, options, at = null, placeholder = "Type to find"
   });
 
   function renew(next) {
-    [all, waits] = [next, false];
+    all = next;
     draw();
     if (entered) take(at_);
     entered = false;
@@ -45,7 +43,7 @@ export function choose({ title, options, at = null, placeholder = "Type to find"
 
   function draw() {
     const words = input.value.trim().toLowerCase();
-    shown = all.map((one) => ({ one, rank: words ? rank(one, words) : 0 }))
+    shown = (all ?? []).map((one) => ({ one, rank: words ? rank(one, words) : 0 }))
       .filter(({ one, rank: far }) => far < 3 || `${one.detail}`.toLowerCase().includes(words))
       .sort((a, b) => Boolean(a.one.why) - Boolean(b.one.why) || a.rank - b.rank).map(({ one }) => one);
     at_ = 0;
@@ -61,7 +59,7 @@ export function choose({ title, options, at = null, placeholder = "Type to find"
     [...list.children].forEach((item, j) => set(item, "aria-selected", String(i === j)));
     set(input, "aria-activedescendant", shown.length ? `${listId}-${i}` : null);
     list.children[i]?.scrollIntoView({ block: "nearest" });
-    put(why, shown.length ? shown[i].why ?? "" : waits ? "" : "Nothing fits.");
+    put(why, shown.length ? shown[i].why ?? "" : all ? "Nothing fits." : "");
   }
 
   function take(i) {
@@ -78,8 +76,8 @@ export function choose({ title, options, at = null, placeholder = "Type to find"
       mark((at_ + by + shown.length) % shown.length);
     } else if (event.key === "Enter") {
       event.preventDefault();
-      if (waits) entered = true;
-      else take(at_);
+      if (all) take(at_);
+      else entered = true;
     }
   }
 }
