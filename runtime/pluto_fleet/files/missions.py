@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +10,7 @@ from ..shared.domain import values
 from ..shared.domain.actions import PICK, RELEASE, Action, Plain
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.model import Item, Point, Trip
+from ..shared.domain.promises import misplaced, promised
 from ..shared.domain.text import quoted
 from ..shared.domain.values import wrongly_carried
 from . import errors
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.model import Mission, Trip
+    from ..shared.domain.promises import Promises
 
 
 ELSEWHERE = {
@@ -56,6 +58,16 @@ def read_fields(table: Table, app: App, entity: Entity) -> dict[str, Any]:
                 table.problem(said, field.name)
     return given
 
+
+PROMISES: dict[str, values.Read] = {
+    "deadline": values.moment,
+    "window": values.window,
+    "after": values.after,
+}
+"""What a plan may promise of a mission, and how each is read."""
+
+PROMISING = (3, 2)
+"""The first seam whose brains keep promises."""
 
 BASIC = ("name", "action", "target", "source", "parameters", "item")
 NOWHERE: Point = (0.0, 0.0, 0.0)
@@ -156,8 +168,13 @@ def missions_of(document: Document, app: App, airspace: Airspace) -> list[Missio
     return missions
 
 
-def read_missions(document: Document, app: App, airspace: Airspace) -> list[Mission[Any]]:
-    """Return the missions as far as they are valid; the document collects what is wrong."""
+def read_missions(
+    document: Document, app: App, airspace: Airspace, known: Collection[str] = ()
+) -> list[Mission[Any]]:
+    """Return the missions as far as they are valid; the document collects what is wrong.
+
+    `known` are the missions that fly already.
+    """
     top = Table(document, document.data)
     top.only(("mission",), "a missions file")
     names: dict[str, Table] = {}
@@ -167,6 +184,10 @@ def read_missions(document: Document, app: App, airspace: Airspace) -> list[Miss
     ]
     if document.data.get("mission", []) == []:
         top.problem(errors.none_given("mission"))
+    tables = [*top.tables("mission", "mission")] if document.problems == [] else []
+    for place, said in misplaced(missions, known) if tables else ():
+        tables[place].who = f"mission {quoted(missions[place].name)}"
+        tables[place].problem(said, "after")
     return missions
 
 
@@ -176,9 +197,25 @@ def _mission(
     number = str(index + 1)
     known = table.valid_name("name") or ("name" not in table.data and number)
     table.who = f"mission {quoted(known) if known else number}"
-    only_fields(table, app, Entity.MISSION, ("name", "trip"))
+    only_fields(table, app, Entity.MISSION, ("name", "trip", *PROMISES))
     name = table.read("name", values.name) or number
     table.differs("mission", "name", name, names)
     given = read_fields(table, app, Entity.MISSION)
+    promises = _promises(table, app)
     trips = read_trips(table, app, airspace)
-    return app.mission(name=name, trips=trips, index=index, **given)
+    return app.mission(name=name, trips=trips, index=index, promises=promises, **given)
+
+
+def _promises(table: Table, app: App) -> Promises:
+    given: dict[str, Any] = {}
+    for key, convert in PROMISES.items():
+        value = table.read(key, convert)
+        if value is not None:
+            given[key] = value
+            if app.seam < PROMISING:
+                table.problem(errors.no_promises(key, app.name), key)
+    try:
+        return promised(given)
+    except ValueError as error:
+        table.problem(str(error), "window")
+        return {}

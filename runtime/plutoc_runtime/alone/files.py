@@ -18,6 +18,7 @@ from ..domain.fields import Entity, FieldType
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from ..domain.model import Item
 from ..domain.motion import motion_of
+from ..domain.promises import misplaced, promised
 from ..domain.text import cut_off, number, printable, quoted
 from ..domain.values import Cells, crowded, wrongly_carried
 
@@ -76,9 +77,16 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
         name = entry.get("name")
         who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
         data = {"name": f"{index + 1}", **entry}
-        given = _table(data, who, f"name:new trip:any? {fields}", **kinds)
+        schema = f"name:new trip:any? deadline:moment? window:window? after:after? {fields}"
+        given = _table(data, who, schema, **kinds)
+        try:
+            given["promises"] = promised(given)
+        except ValueError as error:
+            raise BadInput(f"{who}: {error}") from None
         trips = _trips(entry, who, app, airspace)
         missions.append(app.mission(**given, index=index, trips=trips))
+    for index, said in misplaced(missions, ()):
+        raise BadInput(f"{path}: mission {quoted(missions[index].name)}: {said}")
     return missions
 
 

@@ -14,6 +14,7 @@ from ..domain.status import FAILED, UNEXECUTED, Status
 from ..time.future import Future
 from ..time.kernel import Task, mission_key
 from .mission import Core, MissionState
+from .promises import Promises
 from .run import Run
 from .standing import as_crash, blame, blamed
 
@@ -23,6 +24,7 @@ class Engine:
 
     def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
         self.core, self.states = core, states
+        self._promises = Promises(core, states)
         self.living = 0  # how many missions are on their way through their graphs
         self.done: Future[None] = Future()  # set when the last mission has ended, or was suspended
 
@@ -31,6 +33,9 @@ class Engine:
         # All this lives until the end: the garbage collector need not traverse it each time, neither
         # while the missions start nor afterwards.
         freeze()
+        for mission in missions:
+            if mission.promises:
+                self._promises.start(mission)
         states = [self.new_state(mission) for mission in missions]
         for state in states:
             self.states[state.mission.name] = state
@@ -48,6 +53,8 @@ class Engine:
 
     def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the initial state of a mission."""
+        if mission.promises:
+            self._promises.watch(mission)
         return MissionState(self.core, mission, self._doomed)
 
     def enter(self, state: MissionState, status: Status) -> None:
@@ -57,7 +64,10 @@ class Engine:
         core, mission, key = self.core, state.mission, mission_key(state.mission.index)
         run = Run(mission, state, key)
         run.at, run.status = state.at, status
-        run.task = state.task = task = core.kernel.spawn(core.app.flow(run), key, mission.name)
+        flow = core.app.flow(run)
+        if mission.promises and status is UNEXECUTED:
+            flow = self._promises.in_time(mission, flow)
+        run.task = state.task = task = core.kernel.spawn(flow, key, mission.name)
         task.over = partial(self._ended, state)
         self.living += 1
 
@@ -160,4 +170,5 @@ class Engine:
         state.allocated = state.carrier = state.carries = None
         state.ended = True
         self.core.transitions.end(mission, status, reason)
+        self._promises.ended(mission)
         self.look_for_the_end()

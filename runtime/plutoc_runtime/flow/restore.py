@@ -60,7 +60,7 @@ class Recording:
     def _added(self, event: Event) -> Data:
         """Return what is added to an event that has just happened."""
         match event["event"]:
-            case "mission.created":
+            case "mission.created" | "mission.promised":
                 return {"plan": mission_data(self._app, self._mission(event))}
             case "trip.completed":
                 return {"result": value_data(self._results.results[-1].value)}

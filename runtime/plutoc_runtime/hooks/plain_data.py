@@ -85,6 +85,7 @@ def mission_data(app: App, mission: Mission[Any]) -> Data:
         "index": mission.index,
         "fields": fields_of(app, Entity.MISSION, mission),
         "trips": [trip_data(app, trip) for trip in mission.trips],
+        **({"promises": mission.promises} if mission.promises else {}),
     }
 
 

@@ -41,6 +41,12 @@ DRONE_ALLOCATOR = Block(
             doc="The mission fails if it has waited this long for a drone. None: no limit.",
             least=0.0,
         ),
+        Param(
+            name="fail_late",
+            type=Type.BOOL,
+            default=False,
+            doc="Whether a mission fails that is late and has no drone: its deadline has passed.",
+        ),
     ),
     uses=("priority",),
     named=True,
