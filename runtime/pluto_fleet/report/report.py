@@ -39,6 +39,8 @@ class MissionRow(NamedTuple):
     """From 0."""
     attempts: int
     reason: str
+    late: bool = False
+    """Whether its deadline has passed before its end."""
 
 
 def report(app: App, outcome: SimulationResult, apart: float) -> Iterator[str]:
@@ -61,7 +63,14 @@ def row_of(mission: Mission[Any]) -> MissionRow:
     """Return the row of a mission."""
     done, todo = len(mission.completed_trips), len(mission.trips)
     return MissionRow(
-        mission.name, mission.status, done, todo, mission.round, mission.attempts, mission.reason
+        mission.name,
+        mission.status,
+        done,
+        todo,
+        mission.round,
+        mission.attempts,
+        mission.reason,
+        mission.late,
     )
 
 
@@ -77,7 +86,7 @@ def mission_table(app: App, missions: Iterable[MissionRow]) -> Iterator[str]:
                 f"{mission.done}/{mission.done + mission.todo}",
                 *([str(mission.round + 1)] if rounds else []),
                 str(mission.attempts),
-                mission.reason,
+                "; ".join(filter(None, ("late" * mission.late, mission.reason))),
             )
             for mission in missions
         ],
@@ -207,4 +216,6 @@ def _typed(name: str) -> str:
 def _recorded_row(name: str, record: Record) -> MissionRow:
     status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
     done, todo = len(record["done"]), len(record["todo"])
-    return MissionRow(name, status, done, todo, record["round"], record["attempts"], reason)
+    return MissionRow(
+        name, status, done, todo, record["round"], record["attempts"], reason, record["late"]
+    )

@@ -105,6 +105,7 @@ class Restorer:
         for name in by_index:
             before = self._states.get(name)
             self._states[name] = state = self.restored(name, records[name])
+            self._engine.promises.watch(state.mission)
             had = None if before is None or not before.suspended else before.carrier
             if had not in (None, state.carrier):
                 core.fleet.recover(had)  # it may have had the mission's item
