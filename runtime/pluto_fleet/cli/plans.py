@@ -11,6 +11,7 @@ from ..files.crtp_fleet import fleet_from, missing_categories
 from ..files.fleet import FleetFile, fleet_of, too_fast
 from ..files.missions import missions_of
 from ..files.plan_check import endless, look_alikes, problems
+from ..files.promise_check import impossible
 from ..files.reading import parsed, shortened, text_of
 from ..shared import output
 from ..shared.domain.app import moving
@@ -53,7 +54,9 @@ def load(app: App, options: Options) -> LoadedPlan:
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
     if not options.supervised:  # its supervisor has said so
-        for sentence in look_alikes(missions, fleet.drones):
+        warnings = [*look_alikes(missions, fleet.drones)]
+        warnings += [] if options.command == "check" else impossible(missions, app, fleet)
+        for sentence in warnings:
             output.tell(f"{options.missions}: warning: {sentence}")
     return LoadedPlan(
         app=app,
@@ -105,10 +108,14 @@ def _missions(options: Options) -> Path | None:
 
 
 def check(app: App, options: Options) -> int:
-    """Confirm that the fleet can fly the missions; else loading has raised an error."""
+    """Confirm that the fleet can fly the missions, and keep its promises; else loading has raised an error."""
     plan = load(app, options)
     for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
+    broken = impossible(plan.missions, app, plan.fleet)
+    if broken:
+        output.tell(shortened([f"{options.missions}: {sentence}" for sentence in broken]))
+        return 1
     trips = sum(len(mission.trips) for mission in plan.missions)
     missions, drones = len(plan.missions), len(plan.fleet.drones)
     output.line(

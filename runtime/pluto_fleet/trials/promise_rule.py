@@ -52,12 +52,16 @@ class PromisesAreKept:
     def _begin(self, event: Event) -> None:
         mission = self._of(event)
         if _seconds(event, "t") < mission.opens - _ROUNDED:
-            self._say(f"{at(event)}: {event['mission']} begins before its window, {mission.opens:g} s")
+            self._say(
+                f"{at(event)}: {event['mission']} begins before its window, {mission.opens:g} s"
+            )
         for name in mission.after:
             other = self._promised.get(name)
             if other is None or other.ended != "COMPLETED":
                 stands = "under way" if other is None or other.ended is None else other.ended
-                self._say(f"{at(event)}: {event['mission']} begins, and {name} before it is {stands}")
+                self._say(
+                    f"{at(event)}: {event['mission']} begins, and {name} before it is {stands}"
+                )
 
     def _late(self, event: Event) -> None:
         mission = self._of(event)
@@ -72,7 +76,9 @@ class PromisesAreKept:
         mission.ended = str(event["status"])
         due = mission.deadline
         if due is not None and _seconds(event, "t") > due + _ROUNDED and not mission.late:
-            self._say(f"{at(event)}: {event['mission']} ends, was due at {due:g} s, and is not late")
+            self._say(
+                f"{at(event)}: {event['mission']} ends, was due at {due:g} s, and is not late"
+            )
 
 
 def _seconds(event: Mapping[str, object], key: str) -> float:

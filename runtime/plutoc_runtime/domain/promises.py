@@ -7,6 +7,7 @@ since the mission was started, or a text, a time of day; once it was started, se
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING, Any
 
 from .fields import time_of_day
@@ -41,28 +42,19 @@ def misplaced(
     `known` are missions that were started before.
     """
     places = {mission.name: place for place, mission in enumerate(missions)}
-    after: dict[str, list[str]] = {}
-    for place, mission in enumerate(missions):
-        names = after[mission.name] = [*mission.promises.get("after", ())]
-        for name in names:
-            if name not in places and name not in known:
-                yield place, f"comes after {quoted(name)}, and there is no mission of that name"
-    while after:
-        ready = [name for name, names in after.items() if after.keys().isdisjoint(names)]
-        if not ready:
-            ready = _circle(after)
-            way = ", which comes after ".join(map(quoted, (*ready[1:], ready[0])))
-            yield places[ready[0]], f"comes after {way}: none of them can begin"
-        for name in ready:
-            del after[name]
-
-
-def _circle(after: Mapping[str, Sequence[str]]) -> list[str]:
-    """Return missions of which each comes after the next, and the last after the first."""
-    way = [next(iter(after))]
-    while (name := next(one for one in after[way[-1]] if one in after)) not in way:
-        way.append(name)
-    return way[way.index(name) :]
+    after = {mission.name: mission.promises.get("after", ()) for mission in missions}
+    for name, earlier in after.items():
+        for one in earlier:
+            if one not in places and one not in known:
+                yield places[
+                    name
+                ], f"comes after {quoted(one)}, and there is no mission of that name"
+    try:
+        TopologicalSorter(after).prepare()
+    except CycleError as error:
+        last, *others = reversed(error.args[1])
+        way = ", which comes after ".join(map(quoted, others))
+        yield places[last], f"comes after {way}: none of them can begin"
 
 
 def kept_from(promises: Promises, now: float, of_day: float) -> Promises:
