@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -42,6 +43,8 @@ class LoadedPlan:
 def load(app: App, options: Options) -> LoadedPlan:
     """Return the plan of a command's files; raise `BadInput` if it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
+    if options.start is not None:
+        fleet = replace(fleet, midnight=options.start)
     if options.no_spread or options.dry_run:
         fleet = replace(fleet, motion=fleet.motion.exact)
     app = moving(app, fleet.motion)
@@ -55,7 +58,8 @@ def load(app: App, options: Options) -> LoadedPlan:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
     if not options.supervised:  # its supervisor has said so
         warnings = [*look_alikes(missions, fleet.drones)]
-        warnings += [] if options.command == "check" else impossible(missions, app, fleet)
+        if options.command != "check":
+            warnings += impossible(missions, app, fleet, _of_day(options))
         for sentence in warnings:
             output.tell(f"{options.missions}: warning: {sentence}")
     return LoadedPlan(
@@ -65,6 +69,14 @@ def load(app: App, options: Options) -> LoadedPlan:
         missions_text=missions_text,
         fleet_text=fleet_text,
     )
+
+
+def _of_day(options: Options) -> float:
+    """Return at which time of day what is loaded is to be started."""
+    if options.command == "fly" and not options.dry_run:
+        now = time.localtime()
+        return now.tm_hour * 3600.0 + now.tm_min * 60.0 + now.tm_sec
+    return options.start or 0.0
 
 
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
@@ -112,7 +124,7 @@ def check(app: App, options: Options) -> int:
     plan = load(app, options)
     for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
-    broken = impossible(plan.missions, app, plan.fleet)
+    broken = impossible(plan.missions, plan.app, plan.fleet, options.start)
     if broken:
         output.tell(shortened([f"{options.missions}: {sentence}" for sentence in broken]))
         return 1

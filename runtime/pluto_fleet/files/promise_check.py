@@ -7,14 +7,14 @@ still be late, which `simulate` tells. Faults, charging and drones in each other
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from graphlib import TopologicalSorter
 from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..shared.domain.fields import time_of_day
 from ..shared.domain.model import AfterTrip
-from ..shared.domain.promises import DAY
+from ..shared.domain.promises import DAY, kept_from
 from ..shared.domain.text import counted, duration, quoted
 from ..shared.fleet.reach import chain_of, flight_seconds, stops_of
 
@@ -39,10 +39,19 @@ class _Flight:
     """From the last one until its drone can fly again."""
 
 
-def impossible(missions: Sequence[Mission[Any]], app: App, fleet: FleetFile) -> list[str]:
-    """Return a sentence for each promise that no order of flights can keep."""
+def impossible(
+    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, of_day: float | None = None
+) -> list[str]:
+    """Return a sentence for each promise that no order of flights can keep.
+
+    `of_day`: when they are started, in seconds after midnight; None: that is not known.
+    """
+    if not any(one.promises for one in missions):
+        return []
     bounds = _Bounds(app, fleet)
     flights = {one.name: bounds.flights(one) for one in missions}
+    if of_day is not None:
+        missions = [replace(m, promises=kept_from(m.promises, 0.0, of_day)) for m in missions]
     named = {one.name: one for one in missions}
     order = TopologicalSorter({one.name: one.promises.get("after", ()) for one in missions})
     found, ends = list[str](), dict[str, float]()
@@ -67,22 +76,27 @@ def _too_late(
         for first, again in zip(flight.done, flight.again, strict=True):
             end = max(first, began + again)
     ends[mission.name] = end
-    if (length := _window(promises)) is not None:
-        least = sum(flight.again[-1] for flight in flights)
-        takes, lasts = duration(least), duration(length)
-        said = f"its window lasts {lasts}, and it takes {takes} at the least"
+    takes = duration(end - begins)
+    if (length := _window(promises)) is not None and begins == opens:
+        least = sum(flight.again[-1] for flight in flights) if due is None else end - begins
+        said = f"its window lasts {duration(length)}, and it takes {duration(least)} at the least"
         return said if least > length + _SLACK else None
     if due is None or end <= due + _SLACK:
         return None
-    takes, limit = duration(end - begins), duration(due)
-    if begins == 0.0:
-        return (
-            f"no order keeps its deadline: it takes {takes} at the least, and is due after {limit}"
-        )
-    why = f"its window opens after {duration(opens)}"
-    if begins > opens:
-        why = f"it comes after {quoted(before)}, which ends after {duration(begins)} at the soonest"
-    return f"no order keeps its deadline: {why}; it takes {takes} more at the least, and is due after {limit}"
+    if not begins:
+        return f"it is due after {duration(due)}, and takes {takes} at the least"
+    return (
+        f"it comes after {quoted(before)}, which ends after {duration(begins)} at the soonest; it takes"
+        f" {takes} more at the least, and is due after {duration(due)}"
+    )
+
+
+def _window(promises: Mapping[str, Any]) -> float | None:
+    """Return how long a window lasts; None: it is none."""
+    opens, due = promises.get("opens"), promises.get("deadline")
+    if isinstance(opens, str) and isinstance(due, str):
+        return (time_of_day(due) - time_of_day(opens)) % DAY
+    return due - opens if isinstance(opens, float) and isinstance(due, float) else None
 
 
 def _moments(promises: Mapping[str, Any]) -> tuple[float, float | None]:
@@ -91,14 +105,6 @@ def _moments(promises: Mapping[str, Any]) -> tuple[float, float | None]:
     if isinstance(opens, str) or isinstance(due, str):
         return 0.0, None
     return opens, due
-
-
-def _window(promises: Mapping[str, Any]) -> float | None:
-    """Return how long a window lasts that is said by times of day."""
-    opens, due = promises.get("opens"), promises.get("deadline")
-    if isinstance(opens, str) and isinstance(due, str):
-        return (time_of_day(due) - time_of_day(opens)) % DAY
-    return None
 
 
 def _too_many(
@@ -117,7 +123,7 @@ def _too_many(
                 f"mission {quoted(names[0])}" if len(names) == 1 else counted(len(names), "mission")
             )
             yield (
-                f"no order keeps all deadlines: {who} due after {duration(due)} or sooner"
+                f"no order keeps the deadlines: {who} due after {duration(due)} or sooner"
                 f" take {duration(least)} of flights at the least, and"
                 f" {counted(count, 'drone')} can fly for {duration(count * due)} until then"
             )
