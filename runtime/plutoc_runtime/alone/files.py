@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain import values
 from ..domain.actions import PICK, RELEASE
 from ..domain.airspace import Airspace
+from ..domain.app import needs_library
 from ..domain.errors import BadInput
 from ..domain.fields import Entity, FieldType
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
@@ -72,13 +73,13 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
     top, missions = parsed(path, text_of(path)), list[Any]()
     _table(top, f"{path}", "mission:any?")
     fields, kinds = _fields(app, Entity.MISSION)
-    kinds["new"] = _new("mission")
+    kinds |= {"new": _new("mission"), "area": _library("area", "[areas]"), "each": _library("each")}
     for index, entry in enumerate(_tables(top, f"{path}", "mission", needed=True)):
         name = entry.get("name")
         who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
         data = {"name": f"{index + 1}", **entry}
-        schema = f"name:new trip:any? deadline:moment? window:window? after:after? {fields}"
-        given = _table(data, who, schema, **kinds)
+        schema = "name:new area:area? each:each? trip:any? deadline:moment? window:window?"
+        given = _table(data, who, f"{schema} after:after? {fields}", **kinds)
         try:
             given["promises"] = promised(given)
         except ValueError as error:
@@ -241,6 +242,13 @@ def _one_of(what: str, names: Collection[str], read: Read = values.text) -> Read
         return name
 
     return read_one
+
+
+def _library(what: str, extra: str = "") -> Read:
+    def refuse(_: object) -> object:
+        raise BadInput(needs_library(what, extra))
+
+    return refuse
 
 
 def _new(what: str) -> Read:
