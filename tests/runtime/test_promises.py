@@ -9,10 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pluto_fleet.files.promises import misplaced
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.domain.promises import kept_from, misplaced
 from pluto_fleet.shared.domain.status import FAILED, Status
+from pluto_fleet.shared.flow.promises import kept_from
 
 from . import apps
 from .living import Living, enterable
@@ -238,7 +239,7 @@ def test_an_order_without_a_circle_is_right() -> None:
 
 
 def test_each_mistake_of_an_order_is_told_once() -> None:
-    assert wrong(a=["b"], b=["x"]) == [(1, 'comes after "x", and there is no mission of that name')]
+    assert wrong(a=["b"], b=["x"]) == [(1, 'comes after "x", and there is no such mission')]
     assert wrong(a=["a"], b=["a"]) == [(0, 'comes after "a": none of them can begin')]
     (told,) = wrong(behind=["a"], a=["b"], b=["c"], c=["a"])
     assert told[1] == (

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 from ..files.crtp_fleet import fleet_from, missing_categories
 from ..files.fleet import FleetFile, fleet_of, too_fast
 from ..files.missions import missions_of
+from ..files.missions_text import missions_text
 from ..files.plan_check import endless, look_alikes, problems
 from ..files.promise_check import impossible
-from ..files.reading import parsed, shortened, text_of
+from ..files.reading import parsed, read, shortened, text_of
 from ..shared import output
 from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
@@ -21,7 +22,10 @@ from ..shared.domain.text import counted, printable
 from ..shared.fleet.reach import idle_actions
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..app import App
+    from ..files.reading import MadeOfArea
     from ..shared.domain.model import Mission
     from .options import Options
 
@@ -35,7 +39,9 @@ class LoadedPlan:
     missions: list[Mission[Any]]
     fleet: FleetFile
     missions_text: str = ""
-    """The file's text."""
+    """The file's text; plain missions, if the file has areas or lists."""
+    areas: Sequence[MadeOfArea] = ()
+    """What its areas have become."""
     fleet_text: str | None = None
     """The same; None: there was none."""
 
@@ -48,8 +54,8 @@ def load(app: App, options: Options) -> LoadedPlan:
     if options.no_spread or options.dry_run:
         fleet = replace(fleet, motion=fleet.motion.exact)
     app = moving(app, fleet.motion)
-    missions_text = text_of(options.missions)
-    missions = missions_of(parsed(str(options.missions), missions_text), app, fleet.airspace)
+    document = read(options.missions)
+    missions = missions_of(document, app, fleet.airspace)
     sizes = options.command == "size"  # it says what no fleet can do
     found = [] if sizes else problems(missions, app, fleet, fleet.airspace)
     if (sizes or options.command == "simulate" or options.dry_run) and options.until is None:
@@ -66,7 +72,8 @@ def load(app: App, options: Options) -> LoadedPlan:
         app=app,
         missions=missions,
         fleet=fleet,
-        missions_text=missions_text,
+        missions_text=missions_text(app, missions) if document.is_made else document.text,
+        areas=document.areas,
         fleet_text=fleet_text,
     )
 
@@ -119,6 +126,10 @@ def _missions(options: Options) -> Path | None:
             return None
 
 
+_MOST_AREAS = 50
+"""The most areas of which `check` says what they have become."""
+
+
 def check(app: App, options: Options) -> int:
     """Confirm that the fleet can fly the missions, and keep its promises; else loading has raised an error."""
     plan = load(app, options)
@@ -128,6 +139,10 @@ def check(app: App, options: Options) -> int:
     if broken:
         output.tell(shortened([f"{options.missions}: {sentence}" for sentence in broken]))
         return 1
+    for area in plan.areas[:_MOST_AREAS]:
+        output.line(printable(area.sentence))
+    if (more := len(plan.areas) - _MOST_AREAS) > 0:
+        output.line(f"… and {counted(more, 'more area')}")
     trips = sum(len(mission.trips) for mission in plan.missions)
     missions, drones = len(plan.missions), len(plan.fleet.drones)
     output.line(

@@ -10,17 +10,18 @@ from ..shared.domain import values
 from ..shared.domain.actions import PICK, RELEASE, Action, Plain
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.model import Item, Point, Trip
-from ..shared.domain.promises import misplaced, promised
 from ..shared.domain.text import quoted
 from ..shared.domain.values import wrongly_carried
+from . import areas as areas_of
 from . import errors
+from .lists import each_row
+from .promises import KEYS, misplaced, read_promises
 from .reading import Document, Table, read
 
 if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.model import Mission, Trip
-    from ..shared.domain.promises import Promises
 
 
 ELSEWHERE = {
@@ -30,18 +31,21 @@ ELSEWHERE = {
 """Fields that other apps have: the message says why this app has none."""
 
 
-def only_fields(table: Table, app: App, entity: Entity, basic: Sequence[str]) -> None:
+def only_fields(
+    table: Table, app: App, entity: Entity, basic: Sequence[str], what: str | None = None
+) -> None:
     """Report the keys that are neither basic ones nor fields that the app's graph needs."""
     keys = [*basic, *(field.name for field in app.fields if field.on is entity)]
+    what = what or f"a {entity.value}"
     for key in table.data:
         if key not in keys:
-            table.problem(_unknown(key, keys, entity), key)
+            table.problem(_unknown(key, keys, entity, what), key)
 
 
-def _unknown(key: str, keys: Sequence[str], entity: Entity) -> str:
+def _unknown(key: str, keys: Sequence[str], entity: Entity, what: str) -> str:
     if key in ELSEWHERE[entity]:
-        return errors.no_such_field(key, entity.value, keys)
-    return errors.unknown_key(key, keys, f"a {entity.value} of this app")
+        return errors.no_such_field(key, what, keys)
+    return errors.unknown_key(key, keys, f"{what} of this app")
 
 
 def read_fields(table: Table, app: App, entity: Entity) -> dict[str, Any]:
@@ -59,16 +63,6 @@ def read_fields(table: Table, app: App, entity: Entity) -> dict[str, Any]:
     return given
 
 
-PROMISES: dict[str, values.Read] = {
-    "deadline": values.moment,
-    "window": values.window,
-    "after": values.after,
-}
-"""What a plan may promise of a mission, and how each is read."""
-
-PROMISING = (3, 2)
-"""The first seam whose brains keep promises."""
-
 BASIC = ("name", "action", "target", "source", "parameters", "item")
 NOWHERE: Point = (0.0, 0.0, 0.0)
 """A placeholder for an invalid target: the file is refused in the end."""
@@ -80,11 +74,49 @@ def read_trips(mission: Table, app: App, airspace: Airspace) -> list[Trip]:
     trips: list[tuple[Trip, Table]] = []
     for index, table in enumerate(mission.tables("trip", "mission.trip")):
         trips.append((_trip(table, index, app, airspace, names), table))
-    if mission.data.get("trip", []) == []:
+    if mission.data.get("trip", []) == [] == mission.data.get("area", []):
         mission.problem(mission.document.words.no_trips())
     for place, problem in wrongly_carried([trip for trip, _ in trips]):
         trips[place][1].problem(problem, "item")
-    return [trip for trip, _ in trips]
+    found = [trip for trip, _ in trips]
+    areas: dict[str, Table] = {}
+    for number, table in enumerate(mission.tables("area", "mission.area"), 1):
+        prefix = areas_of.named(table, number, areas)
+        found += _trips_of_area(table, prefix, found, app, airspace, names)
+    return found
+
+
+def _trips_of_area(
+    table: Table,
+    prefix: str,
+    before: Sequence[Trip],
+    app: App,
+    airspace: Airspace,
+    names: dict[str, Table],
+) -> list[Trip]:
+    """Return the trips that an area makes."""
+    only_fields(table, app, Entity.TRIP, areas_of.BASIC, "an area")
+    action = _action(table, app)
+    if action is not None and action.name in (PICK, RELEASE):
+        table.problem(errors.item_in_area(action.name), "action")
+    parameters = _parameters(table, action) if action else {}
+    given = read_fields(table, app, Entity.TRIP)
+    last, trips = before[-1].target if before else None, list[Any]()
+    for count, place in enumerate(areas_of.read_places(table, airspace, last), 1):
+        name = f"{prefix}{count}"
+        other = names.setdefault(name, table)
+        if other is not table:
+            table.problem(errors.makes_another(name, other.line("name")))
+        trip = app.trip(
+            name=name,
+            action=action.name if action else "",
+            target=place,
+            parameters={**parameters},
+            index=len(before) + count - 1,
+            **given,
+        )
+        trips.append(trip)
+    return trips
 
 
 def _trip(table: Table, index: int, app: App, airspace: Airspace, names: dict[str, Table]) -> Trip:
@@ -178,16 +210,13 @@ def read_missions(
     top = Table(document, document.data)
     top.only(("mission",), "a missions file")
     names: dict[str, Table] = {}
-    missions = [
-        _mission(table, index, app, airspace, names)
-        for index, table in enumerate(top.tables("mission", "mission"))
-    ]
+    tables = [*each_row(top)]
+    missions = [_mission(table, index, app, airspace, names) for index, table in enumerate(tables)]
     if document.data.get("mission", []) == []:
         top.problem(errors.none_given("mission"))
-    tables = [*top.tables("mission", "mission")] if document.problems == [] else []
-    for place, said in misplaced(missions, known) if tables else ():
-        tables[place].who = f"mission {quoted(missions[place].name)}"
+    for place, said in misplaced(missions, known) if document.problems == [] else ():
         tables[place].problem(said, "after")
+    document.given = [None if table.row else table.data for table in tables]
     return missions
 
 
@@ -197,25 +226,12 @@ def _mission(
     number = str(index + 1)
     known = table.valid_name("name") or ("name" not in table.data and number)
     table.who = f"mission {quoted(known) if known else number}"
-    only_fields(table, app, Entity.MISSION, ("name", "trip", *PROMISES))
+    if table.row:
+        table.who += f" ({table.row})"
+    only_fields(table, app, Entity.MISSION, ("name", "trip", "area", *KEYS))
     name = table.read("name", values.name) or number
     table.differs("mission", "name", name, names)
     given = read_fields(table, app, Entity.MISSION)
-    promises = _promises(table, app)
+    promises = read_promises(table, app)
     trips = read_trips(table, app, airspace)
     return app.mission(name=name, trips=trips, index=index, promises=promises, **given)
-
-
-def _promises(table: Table, app: App) -> Promises:
-    given: dict[str, Any] = {}
-    for key, convert in PROMISES.items():
-        value = table.read(key, convert)
-        if value is not None:
-            given[key] = value
-            if app.seam < PROMISING:
-                table.problem(errors.no_promises(key, app.name), key)
-    try:
-        return promised(given)
-    except ValueError as error:
-        table.problem(str(error), "window")
-        return {}

@@ -15,10 +15,11 @@ if TYPE_CHECKING:
 
 def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
     """Return the missions file."""
-    return toml_text({"mission": [_mission(app, mission) for mission in missions]})
+    return toml_text({"mission": [mission_table(app, mission) for mission in missions]})
 
 
-def _mission(app: App, mission: Mission[Any]) -> dict[str, Any]:
+def mission_table(app: App, mission: Mission[Any]) -> dict[str, Any]:
+    """Return one mission of a missions file."""
     trips = [_trip(app, trip) for trip in mission.trips]
     fields = {**_promises(mission), **_fields(app, Entity.MISSION, mission)}
     return {"name": mission.name, **fields, "trip": trips}

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 from ..shared.domain.fields import time_of_day
 from ..shared.domain.model import AfterTrip
-from ..shared.domain.promises import DAY, kept_from
 from ..shared.domain.text import counted, duration, quoted
 from ..shared.fleet.reach import chain_of, flight_seconds, stops_of
+from ..shared.flow.promises import DAY, kept_from
 
 if TYPE_CHECKING:
     from ..app import App

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 from ..domain import values
 from ..domain.actions import PICK, RELEASE
 from ..domain.airspace import Airspace
+from ..domain.app import needs_library
 from ..domain.errors import BadInput
 from ..domain.fields import Entity, FieldType
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from ..domain.model import Item
 from ..domain.motion import motion_of
-from ..domain.promises import misplaced, promised
 from ..domain.text import cut_off, number, printable, quoted
 from ..domain.values import Cells, crowded, wrongly_carried
 
@@ -72,21 +72,16 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
     top, missions = parsed(path, text_of(path)), list[Any]()
     _table(top, f"{path}", "mission:any?")
     fields, kinds = _fields(app, Entity.MISSION)
-    kinds["new"] = _new("mission")
+    kinds |= {"new": _new("mission"), "area": _library("area", "[areas]")}
+    kinds |= {key: _library(key) for key in ("each", "deadline", "window", "after")}
     for index, entry in enumerate(_tables(top, f"{path}", "mission", needed=True)):
         name = entry.get("name")
         who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
         data = {"name": f"{index + 1}", **entry}
-        schema = f"name:new trip:any? deadline:moment? window:window? after:after? {fields}"
-        given = _table(data, who, schema, **kinds)
-        try:
-            given["promises"] = promised(given)
-        except ValueError as error:
-            raise BadInput(f"{who}: {error}") from None
+        schema = "name:new area:area? each:each? trip:any? deadline:deadline? window:window?"
+        given = _table(data, who, f"{schema} after:after? {fields}", **kinds)
         trips = _trips(entry, who, app, airspace)
         missions.append(app.mission(**given, index=index, trips=trips))
-    for index, said in misplaced(missions, ()):
-        raise BadInput(f"{path}: mission {quoted(missions[index].name)}: {said}")
     return missions
 
 
@@ -241,6 +236,13 @@ def _one_of(what: str, names: Collection[str], read: Read = values.text) -> Read
         return name
 
     return read_one
+
+
+def _library(what: str, extra: str = "") -> Read:
+    def refuse(_: object) -> object:
+        raise BadInput(needs_library(what, extra))
+
+    return refuse
 
 
 def _new(what: str) -> Read:

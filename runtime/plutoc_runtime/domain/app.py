@@ -43,6 +43,13 @@ class App:
     """The blocks at which an interrupted mission can resume: `flow` can be entered there."""
 
 
+def needs_library(what: str, extra: str = "") -> str:
+    """Say how to install what a package alone cannot do."""
+    said = f'needs pluto-fleet, the library that flies: pip install "pluto-fleet{extra}>='
+    sources = f'Pluto\'s sources: pip install "PLUTO/runtime{extra}")'
+    return f'{what} {said}{".".join(map(str, SEAM))}" (without an index, from {sources}'
+
+
 def moving(app: A, motion: Motion) -> A:
     """Return an app whose drones move so."""
     return replace(app, categories=tuple(replace(one, motion=motion) for one in app.categories))

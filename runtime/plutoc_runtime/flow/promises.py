@@ -1,12 +1,17 @@
-"""When a mission may begin, and when it is late."""
+"""What a plan promises of missions: when they may begin, after which others, and by when they end.
+
+As plain data: `deadline` and `opens` are moments, `after` the names of missions. A moment is a number, seconds
+since the mission was started, or a text, a time of day; once it was started, seconds since the app was.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import MissionFailed
-from ..domain.promises import kept_from
+from ..domain.fields import time_of_day
 from ..domain.status import COMPLETED
 from ..domain.text import quoted
 from ..time.future import Future
@@ -87,3 +92,25 @@ class Promises:
                 became = state.mission.status.value
                 raise MissionFailed(f"it comes after mission {quoted(name)}, which is {became}")
         return some
+
+
+DAY = 86_400.0
+
+
+def kept_from(promises: Mapping[str, Any], now: float, of_day: float) -> Mapping[str, Any]:
+    """Return promises of a mission that starts now, at this time of day, in seconds since the app started.
+
+    A window that is open now has opened, though that was earlier this day.
+    """
+    deadline, opens = promises.get("deadline"), promises.get("opens")
+    found: dict[str, Any] = {**promises}
+    for name, moment in ("deadline", deadline), ("opens", opens):
+        if moment is not None:
+            found[name] = now + _until(moment, of_day)
+    if isinstance(deadline, str) and isinstance(opens, str):
+        found["opens"] = found["deadline"] - _until(deadline, time_of_day(opens))
+    return found
+
+
+def _until(moment: float | str, of_day: float) -> float:
+    return (time_of_day(moment) - of_day) % DAY if isinstance(moment, str) else moment

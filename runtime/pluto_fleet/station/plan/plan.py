@@ -86,10 +86,12 @@ class MissionPlan:
         if drawn != self._missions:  # an identical plan is no conflict
             self._change(drawn)
 
-    def import_toml(self, text: str, revision: object, file: str = NAME) -> None:
-        """Replace the missions that were not launched by those of a file."""
+    def import_toml(
+        self, text: str, revision: object, file: str = NAME, folder: Path | None = None
+    ) -> None:
+        """Replace the missions that were not launched by those of a file; `folder`: where it lies."""
         self._check_current(revision)
-        self._take(shapes_of(text, self._app, self._fleet.airspace, file), revision)
+        self._take(shapes_of(text, self._app, self._fleet.airspace, file, folder), revision)
 
     async def import_file(self, text: str, revision: object, file: str = NAME) -> None:
         """Do the same in a thread, as reading a large file takes seconds."""

@@ -7,6 +7,7 @@ from datetime import time
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import missions_of
+from ...files.missions_text import mission_table
 from ...files.reading import parsed
 from ...files.toml import toml_value
 from ...shared.domain.fields import Entity
@@ -15,6 +16,8 @@ from .problems import as_in_a_file
 from .shape import Shape, fields_of, trips_of
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from ...app import App
     from ...shared.domain.airspace import Airspace
 
@@ -29,12 +32,21 @@ def text_of(app: App, missions: Sequence[Shape]) -> str:
     return "\n".join(line for mission in missions for line in _mission(app, mission))
 
 
-def shapes_of(text: str, app: App, airspace: Airspace, file: str = NAME) -> list[Shape]:
-    """Return the missions of a file, without keys; raise `BadInput` as `check` does."""
+def shapes_of(
+    text: str, app: App, airspace: Airspace, file: str = NAME, folder: Path | None = None
+) -> list[Shape]:
+    """Return the missions of a file, without keys, areas and lists as plain trips and missions.
+
+    `folder`: where it lies, and its lists beside it. Raises `BadInput` as `check` does.
+    """
     document = parsed(file, text)
-    missions_of(document, app, airspace)
-    given: Any = document.data["mission"]  # it has just been checked to be a list of tables
-    return [_shape(mission, str(i), app) for i, mission in enumerate(given, 1)]
+    document.folder = folder
+    missions = missions_of(document, app, airspace)
+    tables: Any = [
+        mission_table(app, mission) if given is None or "area" in given else given
+        for mission, given in zip(missions, document.given, strict=True)
+    ]
+    return [_shape(mission, str(i), app) for i, mission in enumerate(tables, 1)]
 
 
 def _mission(app: App, mission: Shape) -> Iterator[str]:
