@@ -117,13 +117,19 @@ def last_line(outcome: SimulationResult) -> str:
     """Return the whole outcome in one line."""
     trips = trips_data(outcome)
     statuses = [mission.status for mission in outcome.missions]
+    late = sum(mission.late for mission in outcome.missions)
     return in_one_line(
-        statuses, outcome.duration, trips["attempts"], trips["failed"], outcome.crashed
+        statuses, outcome.duration, trips["attempts"], trips["failed"], outcome.crashed, late
     )
 
 
 def in_one_line(
-    statuses: Sequence[Status], seconds: float, flights: int, failed: int, crashed: int = 0
+    statuses: Sequence[Status],
+    seconds: float,
+    flights: int,
+    failed: int,
+    crashed: int = 0,
+    late: int = 0,
 ) -> str:
     """Return a summary of the missions' statuses, the duration and the flights."""
     parts = [f"{statuses.count(Status.COMPLETED)} of {counted(len(statuses), 'mission')} completed"]
@@ -135,6 +141,8 @@ def in_one_line(
             parts.append(f"{count} {what if count > 1 else what.replace('wait ', 'waits ')}")
     if rest:
         parts.append(f"{rest} not finished")
+    if late:
+        parts.append(f"{late} late")
     bad = f", {failed} failed" if failed else ""
     bad += f", {counted(crashed, 'drone')} crashed" if crashed else ""
     return f"{', '.join(parts)} in {duration(seconds)} ({counted(flights, 'flight')}{bad})"
@@ -195,7 +203,8 @@ def report_of(
     lines = [*mission_table(app, rows), ""]
     if drones:
         lines += [*drone_table(drones, {}), ""]
-    lines.append(in_one_line(statuses, ended or records.time, flights, failed))
+    late = sum(row.late for row in rows)
+    lines.append(in_one_line(statuses, ended or records.time, flights, failed, late=late))
     return code_of(statuses), lines
 
 
