@@ -224,9 +224,11 @@ _OTHER_TYPES = {
 """What other languages and people call them."""
 
 
-def unknown_type(source: Source, name: Name) -> Diagnostic:
-    """A parameter of a type that the language does not know."""
-    known = [kind.value for kind in Type]
+_TYPES = tuple(kind.value for kind in Type)
+
+
+def unknown_type(source: Source, name: Name, known: Sequence[str] = _TYPES) -> Diagnostic:
+    """A parameter, a field or a result of a type that the language does not know."""
     other = _OTHER_TYPES.get(name.text.lower())
     measured = UNITS[name.text][0].value if name.text in UNITS else None
     if measured:

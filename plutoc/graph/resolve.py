@@ -10,6 +10,7 @@ from plutoc.diagnostic import Diagnostic, Severity, accept_or_raise
 from plutoc.graph import categories, errors, hooks
 from plutoc.graph.cascades import each_name_once, told_once
 from plutoc.graph.edges import edges
+from plutoc.graph.fields import fields
 from plutoc.graph.model import FIRST_VERSION, Action, Graph, Hook, Node
 from plutoc.graph.nodes import Place, node
 from plutoc.graph.packages import packages_of, unused_packages
@@ -92,6 +93,7 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
             for declared in category_decls
         )
         or (categories.implicit(),),
+        fields=fields(source, statements, nodes, found),
         actions=tuple(actions),
         hooks=tuple(app_hooks),
         nodes=tuple(nodes),

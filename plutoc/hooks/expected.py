@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
+from plutoc.emit.python import python_result
 from plutoc.emit.stubs import Stub, stubs
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
@@ -100,7 +101,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
 
 def _returns(hook: Action | Hook) -> str:
     if isinstance(hook, Action):
-        return "object"
+        return python_result(hook.returns) if hook.returns else "object"
     if hook.kind is HookKind.MODIFIER:
         return "Status" if hook.emits else "None"
     return "Verdict" if hook.kind is HookKind.EVALUATOR else "Drone"

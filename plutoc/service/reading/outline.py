@@ -9,7 +9,7 @@ from plutoc.service.document import Document
 from plutoc.service.symbols import Role
 from plutoc.source import Span
 from plutoc.syntax.fragment import tokens_of
-from plutoc.syntax.tokens import SETTING_KINDS, WORDS, span
+from plutoc.syntax.tokens import SOFT_KINDS, WORDS, span
 from plutoc.syntax.tree import (
     ActionDecl,
     BadStatement,
@@ -21,7 +21,7 @@ from plutoc.syntax.tree import (
 )
 
 _COMMENTS = re.compile(r"(?:^[ \t]*#[^\n]*\n?){2,}", re.MULTILINE)
-_KEYWORDS = SETTING_KINDS | {word.upper() for word in WORDS}
+_KEYWORDS = SOFT_KINDS | {word.upper() for word in WORDS}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,9 +15,14 @@ if TYPE_CHECKING:
 
 
 async def evaluate_mission(
-    run: Run[Any], status: Status, *, hook: Callable[..., object], evaluator: str | None
+    run: Run[Any],
+    status: Status,
+    *,
+    hook: Callable[..., object],
+    evaluator: str | None,
+    own: str | None = None,
 ) -> Status:
-    """Ask the mission's evaluator, and do as its verdict says."""
-    chosen = run.core.app.evaluators[evaluator] if evaluator else hook
+    """Ask the mission's evaluator, and do as its verdict says; `own` is what `hook` is called."""
+    chosen = run.core.app.evaluators[evaluator] if evaluator and evaluator != own else hook
     results = results_for(run.core.results, run.mission)
     return apply(run, chosen, await ask(run, chosen, run.mission, results))
