@@ -19,6 +19,7 @@ from plutoc.emit.python import (
     items,
     literal,
     names,
+    python_result,
     shadows,
 )
 from plutoc.emit.render import render
@@ -64,7 +65,9 @@ def model_file(graph: Graph) -> str:
     return render(
         "model.py",
         app=graph.name,
-        imports=import_lines(_imports(fields)),
+        imports=import_lines([*_imports(fields), *_imports_of_results(graph)]),
+        result=_generic("Result", graph),
+        results=_generic("Results", graph),
         mission=_attributes(fields, Entity.MISSION),
         trip=_attributes(fields, Entity.TRIP),
         fields=[_field(field) for field in fields],
@@ -94,6 +97,26 @@ def _imports(fields: tuple[Field, ...]) -> list[Import]:
         alias = builtins_alias(taken)
         imports.append(Import(module="builtins", alias=None if alias == "builtins" else alias))
     return imports
+
+
+def values_of(graph: Graph) -> tuple[str, ...]:
+    """Return the Python types of what actions give; none, where one of the app's own does not say."""
+    if not graph.actions or any(action.returns is None for action in graph.actions):
+        return ()
+    own = (python_result(action.returns) for action in graph.actions if action.returns)
+    return tuple(dict.fromkeys(("float", "Photo", *own, "None")))
+
+
+def _generic(name: str, graph: Graph) -> str:
+    values = " | ".join(values_of(graph))
+    return f"Typed{name}[Mission, Trip, {values}]" if values else f"model.{name}[Mission, Trip]"
+
+
+def _imports_of_results(graph: Graph) -> tuple[Import, ...]:
+    if not values_of(graph):
+        return ()
+    typed = names("._runtime.hooks.typed_results", "TypedResult", "TypedResults")
+    return (*names("._runtime.domain.model", "Photo"), *typed)
 
 
 def _attributes(fields: tuple[Field, ...], entity: Entity) -> list[Attribute]:

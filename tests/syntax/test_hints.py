@@ -59,7 +59,7 @@ SAID = [
     ("a = K  b = L", "every statement begins on a line of its own"),
     ("category a x, y", "write `can` before it"),
     ("evaluator a, b", "write `evaluator` on a line of its own for each of them"),
-    ("evaluator a()", "remove the brackets: what a hook gets is clear from its being an evaluator"),
+    ("policy a()", "remove the brackets: what a policy gets is clear from its being one"),
     ("version 1.2.0", 'it stands in quotes, as in `version "1.2.0"`'),
     ("version", 'it stands in quotes, as in `version "1.2.0"`'),
     ('version: "1"', 'it stands in quotes, as in `version "1.2.0"`'),
