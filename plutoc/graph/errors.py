@@ -231,7 +231,9 @@ def unknown_type(source: Source, name: Name, known: Sequence[str] = _TYPES) -> D
     """A parameter, a field or a result of a type that the language does not know."""
     other = _OTHER_TYPES.get(name.text.lower())
     measured = UNITS[name.text][0].value if name.text in UNITS else None
-    if measured:
+    if name.text.lower() in ("none", "nothing", "void", "null"):
+        help = "where there is nothing to say, leave the type out"
+    elif measured:
         help = f"`{name.text}` is a unit: the type is `{measured}`"
     elif other:
         help = f"did you mean `{other}`?"
@@ -246,14 +248,20 @@ def unknown_type(source: Source, name: Name, known: Sequence[str] = _TYPES) -> D
     )
 
 
-def unknown_repeat(source: Source, name: Name, known: Sequence[str]) -> Diagnostic:
+def unknown_repeat(
+    source: Source, name: Name, known: Sequence[str], types: Sequence[str]
+) -> Diagnostic:
     """A last word of an action that is none of the three."""
     return error(
         "P1027",
         f"whether an action may be repeated is said by {either(known)}, not `{name.text}`",
         source,
         name.span,
-        help=meant(name.text, known),
+        help=(
+            f"what it gives stands behind an arrow: `-> {name.text}`"
+            if name.text in types
+            else meant(name.text, known)
+        ),
     )
 
 

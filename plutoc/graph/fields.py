@@ -73,10 +73,9 @@ def _of(
 def _check_free(
     on: Entity, source: Source, name: Name, nodes: Sequence[Node], found: list[Diagnostic]
 ) -> None:
-    if name.text in TAKEN[on]:
-        found.append(errors.taken_field(source, name, on))
-        return
     for node in nodes:
         if any(need.on is on and need.name == name.text for need in node.block.needs):
             found.append(errors.field_of_a_block(source, name, on, node))
             return
+    if name.text in TAKEN[on]:
+        found.append(errors.taken_field(source, name, on))

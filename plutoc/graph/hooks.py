@@ -34,7 +34,7 @@ def action(source: Source, declared: tree.ActionDecl, found: list[Diagnostic]) -
     """Resolve an action of the app's own."""
     repeat = declared.repeat
     if repeat is not None and repeat.text not in REPEATS:
-        found.append(errors.unknown_repeat(source, repeat, REPEATS))
+        found.append(errors.unknown_repeat(source, repeat, REPEATS, RETURNS))
     returns = declared.returns
     if returns is not None and returns.text not in RETURNS:
         found.append(errors.unknown_type(source, returns, RETURNS))

@@ -37,6 +37,8 @@ class Expected:
     """The statuses that a modifier declares; None for any other hook."""
     may_wait: bool
     """It may be an `async def`."""
+    result: str | None = None
+    """The type that an action declares to return; None for any other hook."""
     span: Span
     """Where the app declares it."""
     first_line: str
@@ -93,6 +95,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
         returns=_returns(hook),
         emits=_emits(hook),
         may_wait=kind is not HookKind.POLICY,
+        result=python_result(hook.returns) if isinstance(hook, Action) and hook.returns else None,
         span=hook.span,
         first_line=first_line,
         stub="\n    ".join([first_line, *draft.lines]),
