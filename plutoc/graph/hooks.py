@@ -118,9 +118,10 @@ def parameters(
     resolved = []
     for parameter in declared:
         name = parameter.name
-        _check_name(source, name, role, found, what)
         before = first.setdefault(name.text.lower(), parameter)
-        if before is not parameter:
+        if before is parameter:
+            _check_name(source, name, role, found, what)
+        else:
             same = before.name.text == name.text
             found.append(
                 errors.declared_twice(source, name, what, before.name, what)
