@@ -31,7 +31,7 @@ def without_a_value(
         for parameter in one.parameters
     }
     for hook in hooks:
-        where = next((node for node in nodes if _may_be_chosen(hook, node)), None)
+        where = next((node for node in nodes if may_be_chosen(hook, node)), None)
         for one in hook.parameters if where and hook.name not in partial else ():
             if where and one.default is None:
                 span = spans[hook.span, one.name]
@@ -39,7 +39,7 @@ def without_a_value(
                 yield value_errors.chosen_without_a_value(source, span, hook, one, where, default)
 
 
-def _may_be_chosen(hook: Hook, node: Node) -> bool:
+def may_be_chosen(hook: Hook, node: Node) -> bool:
     """Return whether a mission can choose a hook at a block that has another one."""
     if node.hook is None or node.hook.name == hook.name:
         return False
