@@ -29,9 +29,7 @@ def own_fields(both: Both) -> Iterator[Change]:
     yield from (messages.field_removed(one) for one in gone if one not in [o for o, _ in renamed])
 
 
-def _renamed(
-    gone: Sequence[AppField], come: Sequence[AppField]
-) -> list[tuple[AppField, AppField]]:
+def _renamed(gone: Sequence[AppField], come: Sequence[AppField]) -> list[tuple[AppField, AppField]]:
     found: list[tuple[AppField, AppField]] = []
     left = list(come)
     for was in gone:

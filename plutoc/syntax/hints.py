@@ -186,7 +186,9 @@ def role_of_a_name(before: Sequence[Token]) -> str:
         return "a block"
     if (kind == EQUAL and j == 1) or (kind == "DOT" and j == 3):
         return "a kind of block"
-    return {"WHEN": "a status", "EMITS": "a status", "CAN": "an action", "HAS": "a field"}.get(kind, "a name")
+    return {"WHEN": "a status", "EMITS": "a status", "CAN": "an action", "HAS": "a field"}.get(
+        kind, "a name"
+    )
 
 
 def follows_a_comma(source: Source, token: Token) -> bool:

@@ -56,9 +56,7 @@ def field_default_changed(old: AppField, new: AppField) -> Change:
         )
     else:
         before = "it had to have one" if old.default is None else _default(old)
-        sentence = (
-            f"where a {on} has no `{new.name}`, it is now {_default(new)}; before, {before}"
-        )
+        sentence = f"where a {on} has no `{new.name}`, it is now {_default(new)}; before, {before}"
     facts = (old.default, new.default)
     return told("field_default_changed", sentence, facts, old.span, new.span)
 
