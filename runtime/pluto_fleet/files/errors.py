@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from ..shared.domain.text import number, quoted
+
+if TYPE_CHECKING:
+    from ..shared.domain.fields import Field
 
 
 def listed(words: Iterable[str]) -> str:
@@ -32,6 +36,10 @@ def and_more(count: int) -> str:
 
 def missing(key: str) -> str:
     return f"has no {key}"
+
+
+def field_missing(field: Field) -> str:
+    return f"{missing(field.name)}{field.hint}"
 
 
 def unknown_key(key: str, keys: Sequence[str], what: str) -> str:

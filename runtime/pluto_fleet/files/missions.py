@@ -49,10 +49,14 @@ def _unknown(key: str, keys: Sequence[str], entity: Entity, what: str) -> str:
 
 
 def read_fields(table: Table, app: App, entity: Entity) -> dict[str, Any]:
-    """Return the fields beyond the basic ones."""
+    """Return the fields beyond the basic ones, and report those that must be there and are not."""
     given: dict[str, Any] = {}
     for field in app.fields:
-        if field.on is not entity or field.name not in table.data:
+        if field.on is not entity:
+            continue
+        if field.name not in table.data:
+            if field.hint:
+                table.problem(table.document.words.field_missing(field), field.name)
             continue
         value = table.read(field.name, values.FIELD[field.type])
         if value is not None:

@@ -175,7 +175,7 @@ def area(value: object) -> tuple[Corner, ...]:
     return tuple(corners)
 
 
-PARAMETER: dict[Type, Read] = {
+PARAMETER: dict[FieldType | Type, Read] = {
     Type.INT: integer,
     Type.FLOAT: real,
     Type.BOOL: boolean,
@@ -204,7 +204,8 @@ def parameters(action: Action, given: Mapping[str, object]) -> dict[str, Any]:
     return found
 
 
-FIELD: dict[FieldType, Read] = {
+FIELD: dict[FieldType | Type, Read] = {
+    **PARAMETER,
     FieldType.TIME: TIME,
     FieldType.INT: integer,
     FieldType.ROUNDS: rounds,

@@ -126,7 +126,8 @@ class Restorer:
         """Return a mission's state as its record has it."""
         core, known = self._core, self._states.get(name)
         index = record.get("index", len(self._states))
-        mission = known.mission if known else core.app.mission(name=name, trips=[], index=index)
+        given = {"name": name, "trips": [], "index": index, **record.get("fields", {})}
+        mission = known.mission if known else core.app.mission(**given)
         self._trips[name] = trips = update(core.app, mission, record)
         for trip in trips.values():
             trip.now = core.kernel.time
