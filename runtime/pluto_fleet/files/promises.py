@@ -33,7 +33,8 @@ def moment(value: object) -> float | str:
     try:
         return _FROM_START(value)
     except ValueError as error:
-        raise ValueError(f'{error}; or a time of day, like "08:30"') from None
+        hint = '; or a time of day, like "08:30"' if isinstance(value, str) else ""
+        raise ValueError(f"{error}{hint}") from None
 
 
 def window(value: object) -> tuple[float | str, float | str]:
