@@ -221,7 +221,8 @@ function typed(field, id, change) {
   const input = h("input", {
     id, type: dayTime ? "time" : "text", maxlength: 500, autocomplete: "off", spellcheck: "false",
     inputmode: numeric && "decimal",
-    placeholder: usual || (unit && `such as 3 ${field.type === "time" ? "min" : unit}`),
+    placeholder: field.hint
+      ?? (usual || (unit && `such as 3 ${field.type === "time" ? "min" : unit}`)),
     oninput: heard(true), onchange: heard(false),
     onblur: () => input.validity.badInput && heard(false)(),
   });
