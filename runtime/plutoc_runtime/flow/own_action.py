@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 
 from ..domain.actions import Action
 from ..domain.errors import ANY_ERROR, ActionFailed, Failure, FlightFailed, HookFault
-from ..domain.fields import Entity
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.text import LONGEST_REASON, bounded, text_of
-from ..hooks.calls import Hook, ProtectedFacts, call_hook, changed, fault_of, trace_of, wrong_own
+from ..hooks.calls import Hook, ProtectedFacts, call_hook, changed, fault_of, trace_of
 from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.plain_data import keepable
 from ..time.future import Future
@@ -76,9 +75,7 @@ class OwnAction(Action):
                 live.release()
         if fact:
             raise changed(hook, "trip", fact)
-        if (wrong := wrong_own(core.app.fields, Entity.TRIP, trip)) is not None:
-            raise HookFault(f"hook {self.name} left a trip that cannot go on: its {wrong}")
-        keep(core, hook, mission)
+        keep(core, hook, mission, trip)
         return value
 
     async def was_done(self, state: MissionState, flight: Flight) -> bool | None:
