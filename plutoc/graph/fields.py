@@ -22,7 +22,7 @@ TAKEN: Mapping[Entity, frozenset[str]] = {
     Entity.MISSION: _attributes(Mission)
     | {"trip", "area", "list", "deadline", "window", "after", "late"}
     | {"key", "launched", "ended"},
-    Entity.TRIP: _attributes(Trip) | {"priority", "key"},
+    Entity.TRIP: _attributes(Trip) | {"priority", "key", "x", "y", "z"},
 }
 """What a mission or a trip has anyway: its attributes, what plans say of it, and the station."""
 
