@@ -33,7 +33,9 @@ def promised(given: dict[str, Any]) -> Promises:
     return {name: value for name, value in found.items() if value not in (None, [])}
 
 
-def misplaced(missions: Sequence[Mission[Any]], known: Collection[str]) -> Iterator[tuple[int, str]]:
+def misplaced(
+    missions: Sequence[Mission[Any]], known: Collection[str]
+) -> Iterator[tuple[int, str]]:
     """Yield what is wrong with the order of missions, each with the index of one: no such mission, a circle.
 
     `known` are missions that were started before.

@@ -181,7 +181,9 @@ def window(value: object) -> tuple[float | str, float | str]:
         opens, closes = map(moment, value)
     except ValueError as error:
         raise ValueError(f"has an element that {error}") from None
-    if opens == closes or (isinstance(opens, float) and isinstance(closes, float) and closes < opens):
+    if opens == closes or (
+        isinstance(opens, float) and isinstance(closes, float) and closes < opens
+    ):
         raise ValueError("has no time between its two")
     return opens, closes
 

@@ -53,9 +53,7 @@ class Promises:
         if mission.name in self._ends:
             self._ends.pop(mission.name).set(None)
 
-    async def in_time(
-        self, mission: Mission[Any], flow: Coroutine[Any, Any, Status]
-    ) -> Status:
+    async def in_time(self, mission: Mission[Any], flow: Coroutine[Any, Any, Status]) -> Status:
         """Run a mission's flow once all that it comes after has completed, and its window has opened."""
         try:
             await self._may_begin(mission)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from math import inf
+from math import dist, inf
 from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import Failure, FlightFailed
 from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
+from .beside import places_above, places_around
 from .reservations import Reservation, ahead, are_near, meets, nearest
 from .wait_queue import HOVERS, Elder, Obstacle, Wait, WaitQueue
 from .ways import Ground, Section, sections
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from ...jobs.controls import Controls, FleetDrone
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Point
+    from .wait_queue import Beside
 
 AGAIN = 0.5
 """Seconds between two looks at the waiting drones that are due, even if none has reported to have passed."""
@@ -27,6 +29,8 @@ TOGETHER = 0.1
 """Seconds within which requests count as simultaneous: those of one instant reach a gateway one by one."""
 ELDER = 20.0
 """Seconds after which later requests may not even cross where a drone wants to fly."""
+NEARER = 4.0
+"""Seconds that a drone flies longer rather than act one step, by which drones are kept apart, farther from its target."""
 OVERSHOOT, STOPPING = 0.6, 2.0
 """How far a real drone overshoots when it stops, in metres, and for how long."""
 SWAY = 0.05
@@ -85,19 +89,31 @@ class Traffic:
 
     # A drone's section
 
-    def clear(self, section: Section, ways: Ways | None = None) -> Section | None:
-        """Reserve a section for a drone, or an alternative; return None if it must wait."""
+    def clear(
+        self, section: Section, ways: Ways | None = None, beside: Beside | None = None
+    ) -> Section | None:
+        """Reserve a section for a drone, or an alternative; return None if it must wait.
+
+        With `beside` it may end beside its target, if another drone has taken that.
+        """
         if not self._has_room(section):
             return None
         now = self._kernel.now
         for way in self._ways(section, ways):
             if self._blocker(way) is None and not (self._waiting and self._elder(way, now)):
                 return self._give(way)
-        return None
+        way_beside = self._beside(section, now, beside)
+        return None if way_beside is None else self._give(way_beside)
 
-    async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
+    async def cleared(
+        self,
+        section: Section,
+        since: float,
+        ways: Ways | None = None,
+        beside: Beside | None = None,
+    ) -> Section:
         """Wait for a section, and return it; it may only lead out of the way."""
-        wait = Wait(section, since, tuple(self._ways(section, ways)))
+        wait = Wait(section, since, tuple(self._ways(section, ways)), beside)
         self._waiting.add(wait)
         if self._timer is None:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
@@ -196,6 +212,10 @@ class Traffic:
 
     def _serve(self, wait: Wait) -> None:
         section = self._found(wait)
+        if section is None and wait.beside is not None:
+            section = self._beside(wait.section, wait.since, wait.beside)
+            if section is None and self._is_taken(wait.section, wait.since):
+                wait.due = self._kernel.now  # a place may become free at any time
         if section is None and self._should_land(wait):
             ways = self.ground.ways_down(wait.section.drone)
             section = next((way for way in ways if self._blocker(way) is None), None)
@@ -265,6 +285,51 @@ class Traffic:
         """Return what was in the way of a drone's own section, not of an alternative, at the last check."""
         first = wait.obstacles[0]
         return None if first is None else self._claims.get(first.claim.drone)
+
+    # Beside a target
+
+    def _beside(self, section: Section, since: float, beside: Beside | None) -> Section | None:
+        """Return a free section to a place beside the target, if another drone has taken that."""
+        if beside is None or not self._has_room(section) or not self._is_taken(section, since):
+            return None
+        target, airspace, best, least = section.points[-1], self._airspace, None, inf
+        around = places_around(target, self.level, airspace)
+        free = [place for place in around if not self._rests_near(place, section.drone)]
+        for place in free or places_above(target, self.level, airspace):
+            way = beside(place)
+            for one in () if way is None else sections(way, self.level, airspace):
+                cost = self._cost_beside(one, target)
+                if cost < least and self._blocker(one) is None and not self._elder(one, since):
+                    best, least = one, cost
+        return best
+
+    def _cost_beside(self, way: Section, target: Point) -> float:
+        """Return the seconds of a way, and those that it may take longer to end nearer to its target."""
+        category = self._drones[way.drone].category
+        points = way.points[1 if way.stands else 0 :]
+        stages = category.motion.stages(points, category.speed, way.stands, False)
+        far = dist(way.points[-1], target) / self.level
+        return sum(map(sum, (stage[1:] for stage in stages))) + NEARER * far
+
+    def _is_taken(self, section: Section, since: float) -> bool:
+        """Whether another drone hovers at a section's end or will, or an older one waits for it."""
+        end, drone = section.points[-1], section.drone
+        return self._rests_near(end, drone) or any(
+            wait.since < since - TOGETHER
+            and wait.section.drone != drone
+            and dist(wait.section.points[-1], end) < self.limit
+            for wait in self._waiting
+        )
+
+    def _rests_near(self, place: Point, drone: str) -> bool:
+        """Whether a drone other than this one hovers too near to a place, or flies there to hover."""
+        return any(
+            other != drone
+            and not claim.fails
+            and claim.points[-1][2] > 0.0
+            and dist(claim.points[-1], place) < self.limit
+            for other, claim in self._claims.items()
+        )
 
     # Reservations
 
