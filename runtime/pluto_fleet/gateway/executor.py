@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..jobs.flown import is_beside
 from ..jobs.job import motors_cut
-from ..shared.domain.actions import PICK, RELEASE
 from ..shared.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from ..shared.fleet.reach import docked, flight_seconds
 from ..shared.time.kernel import FLEET, Kernel, Task
 from .envelope import Envelope
 from .ledger import CutMotors
+from .traffic.beside import may_be_beside
 from .traffic.way_back import way_back, way_from
 from .traffic.ways import Section
 
@@ -43,11 +43,6 @@ _HOVERS_ON = (Failure.REFUSED, Failure.ACTION)
 
 def _nothing() -> None:
     """Does nothing: the flight has begun already."""
-
-
-def _may_be_beside(job: Job) -> bool:
-    """Whether a job's action may be done beside its target: an item lies just there."""
-    return job.action not in (PICK, RELEASE)
 
 
 class Executor:
@@ -110,7 +105,7 @@ class Executor:
             seconds = flight_seconds(category, airspace, here, job.stops, job.seconds)
             controls.begins(drone, job, seconds)
 
-        beside = partial(self._to_beside, drone, job.stops) if _may_be_beside(job) else None
+        beside = partial(self._to_beside, drone, job.stops) if may_be_beside(job) else None
         way = await self.travels(drone, partial(self._to, drone, job.stops), begins, beside=beside)
         if way.target is not None and self._hear is not None:
             self._hear(is_beside(job, way.target, controls.telemetry[drone].location))

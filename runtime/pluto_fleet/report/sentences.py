@@ -41,8 +41,8 @@ def _completed(event: Event) -> str:
 
 
 def _beside(event: Event) -> str:
-    x, y, z = event["at"]  # type: ignore[misc]
-    where = f"{place((x, y))} at a height of {number(z)} m"
+    at: Any = event["at"]
+    where = f"{place(at)} at a height of {number(at[2])} m"
     return (
         f"trip {event['trip']} is done at {where}: another drone is at its place ({event['drone']})"
     )

@@ -7,12 +7,14 @@ of them, or all are taken, are there places above it.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import cos, pi, sin
+from math import atan2, cos, pi, sin
 from typing import TYPE_CHECKING
 
+from ...shared.domain.actions import PICK, RELEASE
 from .legs import leg_problem
 
 if TYPE_CHECKING:
+    from ...jobs.job import Job
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Point
 
@@ -21,23 +23,35 @@ FURTHEST = 2
 _PARTS = 4
 """In how many rings that distance is divided: where only the edge of a place is taken, a nearer one will do."""
 _PLACES = 12
-"""On each ring; every second one is as far from the next as from the target."""
+"""On each ring, but for the one that keeps drones just apart from one at the target: six have room there."""
 _ABOVE = 2
 """How many places there are above the target."""
 
 
-def places_around(target: Point, step: float, airspace: Airspace) -> list[Point]:
-    """Return the places around a target, the nearest first.
+def may_be_beside(job: Job) -> bool:
+    """Whether a job's action may be done beside its target: an item lies, or is wanted, just there."""
+    return job.action not in (PICK, RELEASE)
 
-    On the ring on which drones keep apart from one at the target, every second place comes first: six find room there.
+
+def best_angle(way: tuple[Point, ...], holders: tuple[Point, ...] | None) -> float:
+    """Return in which direction from a target a place is reached at best, by the way to the target.
+
+    `holders`: the way of the drone that flies there to have it. Square to that a place is out of its way.
     """
+    (ax, ay, _), (bx, by, _) = (holders or way)[-2:]
+    return atan2(by - ay, bx - ax) + (pi / 2 if holders else pi)
+
+
+def places_around(target: Point, step: float, airspace: Airspace, angle: float) -> list[Point]:
+    """Return the places around a target, the nearest first; on each ring one is in this direction."""
     found: list[Point] = []
     x, y, z = target
     for ring in range(1, FURTHEST * _PARTS + 1):
         radius = ring * step / _PARTS
-        for number in (*range(0, _PLACES, 2), *range(1, _PLACES, 2)):
-            angle = 2 * pi * number / _PLACES
-            place = (x + radius * cos(angle), y + radius * sin(angle), z)
+        places = _PLACES // 2 if ring == _PARTS else _PLACES
+        for number in range(places):
+            turned = angle + 2 * pi * number / places
+            place = (x + radius * cos(turned), y + radius * sin(turned), z)
             if _is_permitted(airspace, target, place):
                 found.append(place)
     return found
