@@ -125,7 +125,14 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     _chance(size)
     _jobs(size)
     add_size(size, typed(time_from))
-    _files(command("check", "Say whether the fleet can fly the missions; nothing flies."))
+    check = command("check", "Say whether the fleet can fly the missions; nothing flies.")
+    _files(check)
+    check.add_argument(
+        "--write",
+        metavar="P.toml",
+        type=Path,
+        help="write the missions into a new file, with plain trips instead of areas and lists",
+    )
     fly = command("fly", "Fly the missions in real time.")
     _files(fly)
     how_it_flies(fly)
