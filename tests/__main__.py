@@ -35,6 +35,7 @@ CAMPAIGNS = {
     "python -m tests.kill.misbehaving --times 3": "let hooks misbehave in real flights under a supervisor",
     "python -m tests.flights_crazyflie.campaign": "let each fault happen to a simulated Crazyflie, some twenty minutes",
     "python -m tests.flights_crazyflie.examples": "fly every example with such Crazyflies, some ten minutes",
+    "python -m tests.areas --areas 1000": "cover random areas, half a minute: is anything left out, or forbidden?",
     "python -m tests.calibrating --cases 100": "fit journals of drones whose motion is known: is it told right?",
     "python -m tests.prediction": "hold what is promised of a plan against simulated Crazyflies, some ten minutes",
     "python -m tests.prediction.phases": "what each phase of a Crazyflie's flight takes besides its trajectory, some ten minutes",

@@ -131,6 +131,12 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     check = command("check", "Say whether the fleet can fly the missions; nothing flies.")
     _files(check)
     _start(check, "check", "what is promised by a time of day is not checked")
+    check.add_argument(
+        "--write",
+        metavar="P.toml",
+        type=Path,
+        help="write the missions into a new file, with plain trips instead of areas and lists",
+    )
     fly = command("fly", "Fly the missions in real time.")
     _files(fly)
     how_it_flies(fly)

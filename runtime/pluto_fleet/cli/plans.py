@@ -38,12 +38,19 @@ class LoadedPlan:
     """Its drones move as the fleet's."""
     missions: list[Mission[Any]]
     fleet: FleetFile
-    missions_text: str = ""
-    """The file's text; plain missions, if the file has areas or lists."""
-    areas: Sequence[MadeOfArea] = ()
-    """What its areas have become."""
-    fleet_text: str | None = None
-    """The same; None: there was none."""
+    file_text: str | None
+    """The text of the missions file; None: it makes missions or trips of lists or areas."""
+    fleet_text: str | None
+    """The text of the fleet file; None: there was none."""
+    areas: Sequence[MadeOfArea]
+    """What the areas of the missions file have become."""
+
+    @property
+    def missions_text(self) -> str:
+        """A missions file with these missions: without what lies beside the one that was read."""
+        if self.file_text is None:
+            return missions_text(self.app, self.missions)
+        return self.file_text
 
 
 def load(app: App, options: Options) -> LoadedPlan:
@@ -72,7 +79,7 @@ def load(app: App, options: Options) -> LoadedPlan:
         app=app,
         missions=missions,
         fleet=fleet,
-        missions_text=missions_text(app, missions) if document.is_made else document.text,
+        file_text=None if document.is_made else document.text,
         areas=document.areas,
         fleet_text=fleet_text,
     )
@@ -132,6 +139,8 @@ _MOST_AREAS = 50
 
 def check(app: App, options: Options) -> int:
     """Confirm that the fleet can fly the missions, and keep its promises; else loading has raised an error."""
+    if options.write is not None and os.path.lexists(options.write):
+        raise BadInput(f"{options.write}: it is there already, and is not replaced")
     plan = load(app, options)
     for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
@@ -143,6 +152,8 @@ def check(app: App, options: Options) -> int:
         output.line(printable(area.sentence))
     if (more := len(plan.areas) - _MOST_AREAS) > 0:
         output.line(f"… and {counted(more, 'more area')}")
+    if options.write is not None:
+        _write(options.write, plan.missions_text)
     trips = sum(len(mission.trips) for mission in plan.missions)
     missions, drones = len(plan.missions), len(plan.fleet.drones)
     output.line(
@@ -150,3 +161,13 @@ def check(app: App, options: Options) -> int:
         f"a fleet of {counted(drones, 'drone')} can fly them"
     )
     return 0
+
+
+def _write(path: Path, text: str) -> None:
+    """Write missions into a new file."""
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise BadInput(f"{path}: the missions cannot be written: {why}") from None

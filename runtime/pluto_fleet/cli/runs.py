@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..process.text import in_shell
 from ..process.workers import WorkerDied, cores, in_workers
-from ..report.report import exit_code, last_line, table
+from ..report.report import exit_code, last_line, simulation_data, table
 from ..shared import output
-from ..shared.alone.simulate import outcome_data, trips_data
+from ..shared.alone.simulate import trips_data
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import COMPLETED
 from ..shared.domain.text import (
@@ -66,7 +66,7 @@ def often(
         figures = run_of(seed, outcome, items)
         code = BROKEN if figures.violations else exit_code(outcome)
         if options.json:
-            return _Run(figures, code, "", outcome_data(app.name, seed, outcome))
+            return _Run(figures, code, "", simulation_data(app.name, seed, outcome))
         why = f"; given up: {printable(outcome.given_up)}" if outcome.given_up else ""
         return _Run(figures, code, f"seed {seed}: {last_line(outcome)}{why}", None)
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from ..shared.domain.text import number, quoted
+from .filled import Filled, is_number
 
 if TYPE_CHECKING:
     from ..shared.domain.fields import Field
@@ -147,9 +148,21 @@ def no_shapely() -> str:
 # Lists
 
 
-def of_columns(columns: Sequence[str]) -> str:
-    names = " and ".join(map(quoted, columns))
-    return f" (column{'s' * (len(columns) > 1)} {names})" if columns else ""
+def of_cells(cells: Sequence[Filled]) -> str:
+    """Say from which columns a value comes; of several, from those that are no numbers, if any are not."""
+    odd = [cell for cell in cells if not is_number(cell)] or cells
+    columns = [*dict.fromkeys(column for cell in odd for column in cell.columns)]
+    if not columns:
+        return ""
+    said = f"column{'s' * (len(columns) > 1)} {' and '.join(map(quoted, columns))}"
+    if len(odd) == 1 < len(cells):
+        said += f": {quoted(odd[0])}"
+    comma = next(
+        (cell for cell in odd if is_number(cell.replace(",", ".", 1)) and "," in cell), None
+    )
+    if comma is not None:
+        said += f"; a number has a point: {comma.replace(',', '.')}"
+    return f" ({said})"
 
 
 def no_folder(name: str) -> str:

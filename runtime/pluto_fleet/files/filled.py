@@ -63,16 +63,22 @@ def _filled(template: str, row: Mapping[str, str]) -> str:
     return found
 
 
-def columns_in(value: object) -> list[str]:
-    """Return the columns whose values are in a value."""
-    inner: Sequence[object] = ()
+def cells_in(value: object) -> list[Filled]:
+    """Return the texts in a value into which values of a row were put."""
     if isinstance(value, Filled):
-        return [*value.columns]
+        return [value]
+    inner: Sequence[object] = ()
     if isinstance(value, list):
         inner = value
     elif isinstance(value, dict):
         inner = [*value.values()]
-    return [*dict.fromkeys(column for one in inner for column in columns_in(one))]
+    return [cell for one in inner for cell in cells_in(one)]
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is written like a number."""
+    plain = text.strip()
+    return len(plain) <= _LONGEST and _NUMBER.fullmatch(plain) is not None
 
 
 def as_numbers(value: object) -> object:
@@ -82,6 +88,6 @@ def as_numbers(value: object) -> object:
     if not isinstance(value, Filled):
         return value
     text = value.strip()
-    if len(text) <= _LONGEST and _NUMBER.fullmatch(text):
+    if is_number(text):
         return float(text) if set(text) & set(".eE") else int(text)
     return _WORDS.get(text.lower(), value)

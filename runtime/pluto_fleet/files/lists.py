@@ -51,25 +51,26 @@ def _of_rows(table: Table) -> Iterator[Table]:
         table.problem(errors.no_folder(list_), "each")
         return
     try:
-        rows = _rows(table.document.folder / list_)
+        rows, odd = _rows(table.document.folder / list_)
     except _Unusable as wrong:
-        table.problem(f"each {quoted(list_)} {wrong}", "each")
+        odd, rows = [f"{wrong}"], []
+    for wrong_row in odd:
+        table.problem(f"each {quoted(list_)} {wrong_row}", "each")
+    if not rows or odd:
         return
     if _are_known(table, template, [*rows[0][1]]):
         if len(rows) > 1 and "name" in template and not [*columns_of(template["name"])]:
             table.problem(errors.same_for_all(template["name"], [*rows[0][1]]), "name")
             return
         for number, row in rows:
-            data = filled(template, row)
-            assert isinstance(data, dict)
-            row_of = f"{list_}, row {number}"
-            yield Table(table.document, data, table.place, "", row_of)
+            data = {key: filled(value, row) for key, value in template.items()}
+            yield Table(table.document, data, table.place, row=f"{list_}, row {number}")
 
 
 def _beside(value: object) -> str:
     """Read the path of a list."""
-    name: str = values.name(value)
-    parts = PurePosixPath(name.replace("\\", "/")).parts
+    name: str = values.name(value).replace("\\", "/")
+    parts = PurePosixPath(name).parts
     if ".." in parts or parts[:1] == ("/",) or PureWindowsPath(name).drive:
         raise ValueError(
             "lies elsewhere: a list is in the folder of its missions file, or in one below"
@@ -95,13 +96,17 @@ def _key(path: TomlPath) -> str:
 # The file
 
 
-def _rows(path: Path) -> list[Row]:
-    """Return the rows of a list that have values, at least one; raise `_Unusable`."""
+def _rows(path: Path) -> tuple[list[Row], list[str]]:
+    """Return the rows of a list that have values, at least one, and what is wrong with others.
+
+    Raises `_Unusable` if it cannot be read as a whole.
+    """
     text = _text(path)
     if not text.strip():
         raise _Unusable("is empty: its first line names the columns")
     lines = csv.reader(StringIO(text, newline=""), delimiter=_delimiter(text), strict=True)
     rows: list[Row] = []
+    odd: list[str] = []
     columns: list[str] = []
     number = 0
     try:
@@ -113,15 +118,15 @@ def _rows(path: Path) -> list[Row]:
                 columns = _columns(stripped)
                 continue
             if len(cells) != len(columns):
-                raise _Unusable(errors.other_width(number, len(cells), len(columns)))
-            rows.append((number, dict(zip(columns, stripped, strict=True))))
+                odd.append(errors.other_width(number, len(cells), len(columns)))
+            rows.append((number, dict(zip(columns, stripped, strict=False))))
             if len(rows) > MOST_ROWS:
                 raise _Unusable(errors.too_many_rows(MOST_ROWS))
     except csv.Error as error:
         raise _Unusable(f"cannot be read in row {number + 1}: {error}") from None
     if not rows:
         raise _Unusable("has no row below the one that names its columns")
-    return rows
+    return rows, odd
 
 
 def _text(path: Path) -> str:

@@ -15,7 +15,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, number, percent
 from ..shared.domain.values import name, point, shown
 from . import errors
-from .filled import as_numbers, columns_in
+from .filled import as_numbers, cells_in
 from .toml import TomlLines, TomlPath, line_of, places
 from .toml_advice import advice
 
@@ -202,10 +202,10 @@ class Table:
         """
         place = (*self.place, *inside)
         if self.row:
-            columns = columns_in(self._value(inside))
-            if not columns and self.document.has_problem(text, place):
+            cells = cells_in(self._value(inside))
+            if not cells and self.document.has_problem(text, place):
                 return  # it does not depend on the row
-            text += errors.of_columns(columns)
+            text += errors.of_cells(cells)
         self.document.problem(text, place, self.who, (*self.place, near) if near else place)
 
     def _value(self, inside: Sequence[str | int]) -> object:

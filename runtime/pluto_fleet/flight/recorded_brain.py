@@ -10,13 +10,14 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..jobs.flown import FLEW
+from ..jobs.flown import BESIDE, FLEW
 from ..jobs.reports import reported_result
 from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.status import Status
 from ..shared.flow.standing import fleet_data, update
 from ..shared.time.kernel import FLEET, Kernel
+from .acts_beside import acts_beside
 from .driver import Driver
 from .mission_status import aside, in_order
 from .orders import Dispatcher, Order, outcome
@@ -135,6 +136,11 @@ class RecordedBrain:
 
     def flown(self, command: Flown) -> None:
         """Record how a command went that a drone has flown: nothing follows from it."""
+        if command["what"] == BESIDE:
+            event = acts_beside(self.brain, command)
+            if event is not None:
+                self.take(event)
+            return
         self.recorder.measure({"t": round(self.kernel.now, 6), "event": FLEW, **command})
 
     def interrupted(self, mission: str, flight: Record) -> None:

@@ -262,7 +262,7 @@ class Gateway:
                 max_airborne=max_airborne,
             )
         self.navigation = Executor(
-            kernel, controls, drones, airspace, self.traffic, ledger, leaving
+            kernel, controls, drones, airspace, self.traffic, ledger, leaving, self._flown
         )
         self.envelope = Envelope(airspace)
         self.drones, self._airspace = tuple(drones), airspace

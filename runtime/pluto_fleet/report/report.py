@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..flight.mission_status import ANSWERS, aside, count_flights, in_order, waiting
+from ..jobs.flown import ACTS_BESIDE
 from ..process.text import in_shell
-from ..shared.alone.simulate import trips_data
+from ..shared.alone.simulate import outcome_data, trips_data
 from ..shared.domain.fields import FieldType
 from ..shared.domain.status import Status
 from ..shared.domain.text import (
@@ -111,6 +112,16 @@ def drone_table(drones: Sequence[Drone], flown: Mapping[str, float]) -> Iterator
         ],
         right=(2, 3, 4) if flown else (2, 3),
     )
+
+
+def simulation_data(name: str, seed: int, outcome: SimulationResult) -> dict[str, object]:
+    """Return the object that `simulate --json` prints."""
+    beside = [
+        {key: value for key, value in event.items() if key != "event"}
+        for event in outcome.events
+        if event["event"] == ACTS_BESIDE
+    ]
+    return {**outcome_data(name, seed, outcome), **({"beside": beside} if beside else {})}
 
 
 def last_line(outcome: SimulationResult) -> str:

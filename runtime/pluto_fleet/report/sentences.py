@@ -6,8 +6,8 @@ import time
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..jobs.flown import FLEW
-from ..shared.domain.text import duration, printable
+from ..jobs.flown import ACTS_BESIDE, FLEW
+from ..shared.domain.text import duration, number, place, printable
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -38,6 +38,14 @@ def _launched(event: Event) -> str:
 
 def _completed(event: Event) -> str:
     return f"trip {event['trip']} completed ({event['drone']})"
+
+
+def _beside(event: Event) -> str:
+    at: Any = event["at"]
+    where = f"{place(at)} at a height of {number(at[2])} m"
+    return (
+        f"trip {event['trip']} is done at {where}: another drone is at its place ({event['drone']})"
+    )
 
 
 def _failed(event: Event) -> str:
@@ -73,6 +81,7 @@ _HOW = {"rtl": "all fly home", "land": "all land"}
 _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "trip.launched": _launched,
     "trip.completed": _completed,
+    ACTS_BESIDE: _beside,
     "trip.failed": _failed,
     "mission.late": lambda _: "is late: its deadline has passed",
     "mission.repeated": lambda event: f"round {int(str(event['round'])) + 1} begins",
