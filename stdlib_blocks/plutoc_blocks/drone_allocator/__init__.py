@@ -4,6 +4,7 @@ from plutoc.block import Block, Choice, HookKind, Param, emits, same
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.fleet.batch_optimal import batch_optimal
+from plutoc_runtime.fleet.least_makespan import least_makespan
 from plutoc_runtime.fleet.own_policy import own_policy
 from plutoc_runtime.fleet.policies import first, least_used, nearest
 
@@ -28,6 +29,7 @@ DRONE_ALLOCATOR = Block(
                 "first": first,
                 "least_used": least_used,
                 "batch_optimal": batch_optimal,
+                "least_makespan": least_makespan,
             },
             default="nearest",
             doc="How one of several drones is chosen. The first three choose for trip after trip; "

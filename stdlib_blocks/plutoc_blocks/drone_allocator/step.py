@@ -44,7 +44,7 @@ def allocate_drone(
     if drone is None:
         drone, why = state.carrier, "carries the mission's item"
     if drone is None:
-        request = core.queue.enter(mission.trips, policy, priority)
+        request = core.queue.enter(mission, policy, priority)
         try:
             if allocate_within is not None:
                 yield from _no_longer_than(run, request, allocate_within)
