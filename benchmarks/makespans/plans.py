@@ -174,9 +174,11 @@ def _mission(kind: Kind, chance: Random, number: int) -> str:
         if "slow" in kind.categories:
             acts = [("take_photo", "")]
         acts *= chance.randint(*kind.trips)
-        places = places[:1] if len(acts) == 1 else places + [
-            _somewhere(kind, chance) for _ in range(len(acts) - len(places))
-        ]
+        places = (
+            places[:1]
+            if len(acts) == 1
+            else places + [_somewhere(kind, chance) for _ in range(len(acts) - len(places))]
+        )
     for part, ((action, more), (x, y)) in enumerate(zip(acts, places, strict=False)):
         lines += ["[[mission.trip]]", f'name = "m{number}.{part}"', f'action = "{action}"']
         lines += [f"target = [{x}, {y}]", f"priority = {priority}", *filter(None, [more])]

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from .assignment import assign
-from .needs import Batch, Request
+from .batch import Batch
+from .needs import Request
 
 if TYPE_CHECKING:
     from ..domain.model import Drone

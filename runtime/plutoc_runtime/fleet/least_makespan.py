@@ -9,13 +9,14 @@ makes it longer by the time to charge what it lacks.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import hypot
+from math import hypot, inf
 from typing import TYPE_CHECKING
 
 from ..domain.model import Drone, Point
 from ..domain.status import DroneStatus
+from .batch import Batch
 from .durations import busy, ends, pace
-from .needs import Batch, Request
+from .needs import Request
 
 if TYPE_CHECKING:
     from .policies import Choice
@@ -23,9 +24,8 @@ if TYPE_CHECKING:
 
 MOST = 100
 """Of more requests than these each drone flies the nearest: where so many are left nothing need be planned."""
-_BALANCE = 0.3
-"""What a second of the end of a route counts beside a second of all routes together."""
-_WORTH = 0.5  # seconds by which the last route must end sooner
+PASSES = 4
+"""How often all stops are inserted anew, at most."""
 _PLANNED = 0.85
 """The share of a battery's rest that is planned with: the way home is not."""
 _FLIES = (DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.RETURNING, DroneStatus.CHARGING)
@@ -60,7 +60,7 @@ class _Route:
         self.stops: list[Request] = []
 
     def begin(self, drone: Drone, start: float, now: float, place: Point) -> None:
-        kind, self.drone, self.start, self.place = drone.category, drone, start, place
+        kind, self.drone, self.waits, self.place = drone.category, drone, start - now, place
         left = (drone.battery_level - kind.reserve) * kind.endurance * _PLANNED
         self.lasts = left - (start - now if drone.status is DroneStatus.BUSY else 0.0)
         self.slower = kind.charge_time / kind.endurance
@@ -75,8 +75,12 @@ class _Route:
         return seconds
 
     def end(self, seconds: float) -> float:
-        """Return when the drone is through, if its stops take so long."""
-        return self.start + seconds + max(0.0, seconds - self.lasts) * self.slower
+        """Return in how many seconds the drone is through, if its stops take so long."""
+        return self.waits + seconds + max(0.0, seconds - self.lasts) * self.slower
+
+    def cost(self, seconds: float) -> float:
+        """Return the square of its end: the less all these together, the sooner the last ends, and all."""
+        return self.end(seconds) ** 2
 
     def with_one_more(self, one: Request) -> Iterator[tuple[float, int]]:
         """Yield the seconds with one more stop, at each place."""
@@ -121,7 +125,7 @@ class _Plan:
                 start, place = until.get(drone, (now, drone.location))
                 if drone in queue.low:
                     start = queue.low[drone][0]
-                if start <= now or start == _NEVER or drone in free:
+                if start <= now or start == inf or drone in free:
                     start, place = now, drone.location
                 route.stops = [one for one in route.stops if one in waiting]
                 waiting.difference_update(route.stops)
@@ -133,52 +137,35 @@ class _Plan:
         for one in fresh:
             self._insert(one)
         if fresh or any(not routes[drone].stops for drone in free):
-            for _ in range(2 * len(fresh) + 10):
-                if not self._shortened():
-                    break
+            self._improve()
 
-    def _insert(self, one: Request) -> None:
-        best = None
+    def _insert(self, one: Request) -> _Route | None:
+        """Insert a stop where it costs least, and return the route; None: no drone can ever fly it."""
+        least, best = inf, None
         for route in self.routes.values():
             if one.ever(route.drone):
-                before = route.end(route.seconds)
+                before = route.cost(route.seconds)
                 for seconds, place in route.with_one_more(one):
-                    end = route.end(seconds)
-                    cost = end - before + _BALANCE * end
-                    if best is None or cost < best[0]:
-                        best = cost, route, seconds, place
-        if best is not None:
-            _, route, route.seconds, place = best
-            route.stops.insert(place, one)
-
-    def _shortened(self) -> bool:
-        """Move a stop of the route that ends last, if it, or the other, then ends sooner than that."""
-        loaded = [route for route in self.routes.values() if route.stops]
-        if not loaded:
-            return False
-        last = max(loaded, key=lambda route: route.end(route.seconds))
-        stops, whole = last.stops, last.seconds
-        least, best = last.end(whole) - _WORTH, None
-        for number, one in enumerate(stops):
-            last.stops = stops[:number] + stops[number + 1 :]
-            last.seconds = rest = last.flown(last.stops)
-            rest_ends = last.end(rest)
-            for route in self.routes.values():
-                if one.ever(route.drone):
-                    for seconds, place in route.with_one_more(one):
-                        end = route.end(seconds)
-                        if route is not last:
-                            end = max(end, rest_ends)
-                        if end < least:
-                            least, best = end, (number, rest, route, seconds, place)
-        last.stops, last.seconds = stops, whole
+                    if (cost := route.cost(seconds) - before) < least:
+                        least, best = cost, (route, seconds, place)
         if best is None:
-            return False
-        number, last.seconds, route, seconds, place = best
-        one = stops.pop(number)
+            return None
+        route, route.seconds, place = best
         route.stops.insert(place, one)
-        route.seconds = seconds
-        return True
+        return route
+
+    def _improve(self) -> None:
+        """Take each stop out, and insert it anew, until nothing is better that way."""
+        for _ in range(PASSES):
+            moved = False
+            for route in self.routes.values():
+                for one in route.stops[:]:
+                    place = route.stops.index(one)
+                    del route.stops[place]
+                    route.seconds = route.flown(route.stops)
+                    moved |= self._insert(one) is not route or route.stops[place] is not one
+            if not moved:
+                return
 
     def next(self, free: Sequence[Drone]) -> dict[Drone, Request]:
         """Return the next stop of each drone; without one, what it would have done before its own drone is there."""
@@ -201,7 +188,7 @@ class _Plan:
         for route in self.routes.values():
             for number, one in enumerate(route.stops if route is not own else ()):
                 kind = drone.category
-                mine = own.start + busy(kind, one) + drone.distance(one.goal) * pace(kind, one)
+                mine = own.waits + busy(kind, one) + drone.distance(one.goal) * pace(kind, one)
                 if mine < route.end(route.flown(route.stops[: number + 1])):
                     found.append((mine, len(found), route, one))
         return next(((route, one) for *_, route, one in sorted(found) if one.able(drone)), None)
@@ -209,6 +196,3 @@ class _Plan:
 
 def _metres(here: Point, there: Point) -> float:
     return hypot(here[0] - there[0], here[1] - there[1])
-
-
-_NEVER = float("inf")

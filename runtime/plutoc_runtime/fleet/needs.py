@@ -2,54 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import update_wrapper
+from collections.abc import Sequence
 from heapq import heappop, heappush, heapreplace
 from math import hypot, inf
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from ..time.future import Future
 from .reach import MORE, Reach, chain_of, miss_of
 
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Mission, Point
-    from .policies import Choice, OneByOne
-
-AllAtOnce = Callable[[Sequence["Request"], Sequence["Drone"], Any], Sequence["Choice | None"]]
-"""Chooses a different free drone, or None, for each request, in the order of their arrival; the last
-argument is the queue."""
-
-
-class Batch:
-    """Decorates a policy that chooses for all waiting trips of one priority at once."""
-
-    def __init__(self, policy: AllAtOnce) -> None:
-        self.choose = policy
-        update_wrapper(self, policy)
-
-
-Policy: TypeAlias = "OneByOne | Batch"
+    from .policies import Policy
 
 
 class Request(Future["Drone"]):
     """A mission's request for a drone; as a future it is set to the drone that it gets."""
 
     __slots__ = (
-        *("bounds", "_levels", "reach", "trips", "goal", "mission", "policy", "rank", "since"),
-        *("trip", "why"),
+        *("_levels", "bounds", "goal", "mission", "policy", "rank", "reach", "since", "trip"),
+        *("trips", "why"),
     )
 
     def __init__(
-        self,
-        reach: Reach,
-        mission: Mission[Any],
-        policy: Policy,
-        rank: tuple[int, int],
-        since: float = 0.0,
+        self, reach: Reach, mission: Mission[Any], policy: Policy, rank: tuple[int, int]
     ) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
-        self.mission, self.trips, self.since = mission, mission.trips, since
+        self.mission, self.trips, self.since = mission, mission.trips, 0.0
         self.trip = trip = mission.trips[0]
         # the rank: its priority, and minus the number of its arrival; the highest is served first
         self.policy, self.rank = policy, rank

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Trip
@@ -15,6 +15,9 @@ Choice = tuple["Drone", str]  # the drone that gets a trip, and why it was chose
 
 OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
 """Chooses one of the free drones, in the fleet's order, for a trip, or None."""
+
+Policy = Callable[..., Any]  # such a one, or a `Batch`, which chooses for all that wait
+
 
 def lowest(
     free: Sequence[Drone], able: Able, rank: Callable[[Drone], float]

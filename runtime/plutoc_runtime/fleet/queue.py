@@ -17,13 +17,12 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import HookFault, MissionFailed
 from ..domain.status import IN_THE_AIR, DroneStatus
 from ..time.kernel import FLEET, EventKind, Kernel, Timer
-from .needs import Batch, Needs, Policy, Request
-from .policies import nearest
+from .needs import Needs, Request
 from .reach import Reach, docked
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
-    from .policies import Choice
+    from .policies import Choice, Policy
 
 _FREE, _BUSY, _LOST = DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.LOST
 
@@ -38,16 +37,15 @@ class Queue:
     ) -> None:
         self.kernel, self._reach, reach.homes = kernel, reach, [one.home for one in drones]
         self.drones, self._max_airborne = drones, max_airborne
-        self._waiting: list[Request] = []  # sorted by rank, the last is served first
+        self.requests: list[Request] = []  # sorted by rank, the last is served first
         self._fresh: list[Request] = []  # the requests that have not been looked at yet
         self._arrived: list[Request] = []  # those that wait, and some that have; see `Needs`
         self._needs: dict[Drone, Needs] = {}
         self._arrivals = 0
-        self._ready: list[Drone] = []  # while it is served: those that may be chosen, in order
+        self.ready: list[Drone] = []  # while it is served: those that may be chosen, in order
         self.low: dict[Drone, tuple[float, float]] = {}
         """The other free drones: too low for every request so far, until when, and what level they need."""
-        self.plans: dict[object, Any] = {}
-        """What policies remember from one serving to the next."""
+        self.plans: dict[object, Any] = {}  # what policies remember from one serving to the next
         self._one_is_lost = False  # since the requests were last checked
         self._recheck, self._recheck_at = Timer(int), inf
         self.served: Callable[[], None] = lambda: None
@@ -56,12 +54,13 @@ class Queue:
     def enter(self, mission: Mission[Any], policy: Policy, priority: int) -> Request:
         """Request a drone for a mission's next trip; it is given at the end of this instant or later."""
         self._arrivals = number = self._arrivals - 1
-        rank, waiting = (+priority, number), self._waiting  # raises in its mission, if that is odd
-        request = Request(self._reach, mission, policy, rank, self.kernel.now)
+        rank, waiting = (+priority, number), self.requests  # raises in its mission, if that is odd
+        request = Request(self._reach, mission, policy, rank)
         if waiting and waiting[0].rank > rank:  # most that enter
             waiting.insert(0, request)
         else:
             insort(waiting, request, key=_by_rank)
+        request.since = self.kernel.now
         self._fresh.append(request)
         self.kernel.at_the_end = self._serve
         return request
@@ -80,22 +79,22 @@ class Queue:
 
     def changed(self) -> None:
         """Serve the queue at the end of this instant."""
-        if self._waiting:
+        if self.requests:
             self.kernel.at_the_end = self._serve
 
     def prioritise(self, trip: Trip, priority: int) -> None:
         """Change the priority of the request for this trip."""
-        for request in self._waiting:
+        for request in self.requests:
             if request.trip is trip:
                 request.rank = priority, request.rank[1]
-                self._waiting.sort(key=_by_rank)
+                self.requests.sort(key=_by_rank)
                 self.changed()
                 return
 
     @property
     def waiting(self) -> bool:
         """Whether any request waits."""
-        return bool(self._waiting)
+        return bool(self.requests)
 
     def summary(self) -> str:
         """Return a summary of what the drones are doing: why a mission waits."""
@@ -116,24 +115,23 @@ class Queue:
 
     def waiters(self) -> Iterator[Request]:
         """Yield the waiting requests."""
-        return reversed(self._waiting)
+        return reversed(self.requests)
 
     # Serving
 
     def _serve(self) -> None:
         self._arrived += self._fresh
-        if not self._needs or len(self._arrived) > 1_000 + 8 * len(self._waiting):
-            self._arrived, self._needs = self._waiting[:], {}
+        if not self._needs or len(self._arrived) > 1_000 + 8 * len(self.requests):
+            self._arrived, self._needs = self.requests[:], {}
         if self.low and (self._fresh or self.kernel.now >= self._recheck_at):
             self._put_back_the_charged()
         low = self.low
-        self._ready = [one for one in self.drones if one.status is _FREE and one not in low]
-        if self._ready:
-            self._keep_one_for_the_oldest()
+        self.ready = [one for one in self.drones if one.status is _FREE and one not in low]
+        if self.ready:
             self._share_out()
-        if self._waiting:
+        if self.requests:
             self._refuse_what_cannot_be()
-            if self._ready and self.room:
+            if self.ready and self.room:
                 self._put_aside_the_low()
             if low:
                 untils = [until for until, _ in low.values()]
@@ -143,64 +141,43 @@ class Queue:
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        below, ready = len(self._waiting), self._ready
+        below, ready = len(self.requests), self.ready
         for place in self._places():
             if not ready or (self._max_airborne is not None and not self.room):
                 break
             if place >= below:
                 continue  # it was served with others of its policy
-            request = self._waiting[place]
-            policy = request.policy
-            if isinstance(policy, Batch):
-                if not self._is_old(request):
-                    below = self._share_among(place, policy)
-                    continue
-                policy = nearest
+            request = self.requests[place]
+            if share := getattr(request.policy, "share", None):
+                below = share(self, place)
+                continue
             try:
-                choice = policy(request.trip, ready, request.able)
+                choice = request.policy(request.trip, ready, request.able)
             except HookFault as fault:
                 self.refuse(request, fault)
             else:
-                self._give(place, choice)
+                self.give(place, choice)
 
     def _places(self) -> Iterator[int]:
         """Yield the places of requests in turn; after one in vain, of those for which a ready drone suffices."""
-        place, ready, before = len(self._waiting), self._ready, inf
+        place, ready, before = len(self.requests), self.ready, inf
         while place and (now := len(ready)) < before:
             place, before = place - 1, now
             yield place
         suited = set[Request]()
         for drone in ready if place else ():
             some = self._needs_of(drone).up_to(drone.battery_level, _MANY)
-            suited.update(some if len(some) <= _MANY else self._waiting)
+            suited.update(some if len(some) <= _MANY else self.requests)
         for other in sorted(map(self._place, suited), reverse=True):
             if other < place:
                 yield other
 
-    def _share_among(self, place: int, policy: Batch) -> int:
-        """Serve together the request at this place and all around it of the same policy and priority.
-
-        Return the place of the first of them.
-        """
-        waiting, priority = self._waiting, self._waiting[place].rank[0]
-
-        def alike(place: int) -> bool:
-            return waiting[place].policy is policy and waiting[place].rank[0] == priority
-
-        first = next((n + 1 for n in range(place - 1, -1, -1) if not alike(n)), 0)
-        end = next((n for n in range(place + 1, len(waiting)) if not alike(n)), len(waiting))
-        places = range(end - 1, first - 1, -1)
-        offers = [waiting[each] for each in places]
-        for each, choice in zip(places, policy.choose(offers, self._ready, self), strict=True):
-            if self.room:
-                self._give(each, choice)
-        return first
-
-    def _give(self, place: int, choice: Choice | None) -> None:
+    def give(self, place: int, choice: Choice | None) -> None:
+        """Give the request at this place a drone, if one was chosen."""
         if choice is not None:
-            request = self._waiting.pop(place)
+            request = self.requests.pop(place)
             drone, request.why = choice
-            self._ready.remove(drone)
+            self.ready.remove(drone)
             drone.status = _BUSY  # at once: no other request may have it
             request.set(drone)
 
@@ -210,13 +187,13 @@ class Queue:
         request.fail(error)
 
     def _drop(self, request: Request) -> None:
-        del self._waiting[self._place(request)]
+        del self.requests[self._place(request)]
 
     def _place(self, request: Request) -> int:
-        place = bisect_left(self._waiting, request.rank, key=_by_rank)
-        if place < len(self._waiting) and self._waiting[place] is request:
+        place = bisect_left(self.requests, request.rank, key=_by_rank)
+        if place < len(self.requests) and self.requests[place] is request:
             return place
-        return self._waiting.index(request)  # a hook has left a priority that compares with none
+        return self.requests.index(request)  # a hook has left a priority that compares with none
 
     def _refuse_what_cannot_be(self) -> None:
         """Refuse requests that no drone can serve: new ones, and all after the loss of a drone."""
@@ -250,7 +227,7 @@ class Queue:
 
     def _put_back_the_charged(self) -> None:
         """Make drones ready again that have charged, or that suffice for a new request."""
-        now, usual = self.kernel.now, self._waiting[0].rank[0] if self._waiting else 0
+        now, usual = self.kernel.now, self.requests[0].rank[0] if self.requests else 0
         urgent = [request for request in self._fresh if request.rank[0] > usual]
         for drone, (until, wanted) in list(self.low.items()):
             if until <= now or any(request.able(drone) for request in urgent):
@@ -260,34 +237,21 @@ class Queue:
                 if (least := needs.least(wanted)) < wanted and drone.battery_level >= least:
                     del self.low[drone]
                 elif least < wanted:
-                    self.low[drone] = min(until, self._charged(drone, least)), least
+                    self.low[drone] = min(until, self.charged(drone, least)), least
 
     def _put_aside_the_low(self) -> None:
         """Put drones aside that are too low for every request; a docked one until it has charged for its share.
 
         A drone that suffices and was not chosen (by a policy, or as no more may fly) stays ready.
         """
-        share = -(-len(self._waiting) // len(self.drones))  # trips for each drone
-        for drone in self._ready:
+        share = -(-len(self.requests) // len(self.drones))  # trips for each drone
+        for drone in self.ready:
             least, reserve = self._needs_of(drone).least(), drone.category.reserve
             if drone.battery_level < least:
                 level = max(least, min(1.0, reserve + share * (least - reserve)))
-                self.low[drone] = self._charged(drone, level), least
+                self.low[drone] = self.charged(drone, level), least
 
-    def _is_old(self, request: Request) -> bool:
-        return self.kernel.now - request.since >= OLD
-
-    def _keep_one_for_the_oldest(self) -> None:
-        """Put a drone aside until it suffices for a trip that has waited long: near ones keep it low."""
-        if not self._waiting or not self._is_old(oldest := self._waiting[-1]):
-            return
-        fit = [drone for drone in self._ready if oldest.ever(drone)]
-        if fit and not any(map(oldest.able, fit)) and (0.0 not in dict(self.low.values()).values()):
-            drone = max(fit, key=lambda one: one.battery_level)
-            self.low[drone] = self._charged(drone, oldest.level(drone)), 0.0
-            self._ready.remove(drone)
-
-    def _charged(self, drone: Drone, level: float) -> float:
+    def charged(self, drone: Drone, level: float) -> float:
         """Return when a drone has this level where it stands; infinite: it never will."""
         if level == inf or not docked(drone.location, drone.home):
             return inf
@@ -301,5 +265,4 @@ class Queue:
                 self._recheck = self.kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
 
 
-OLD = 1_800.0  # seconds after which a trip goes before all younger ones of its priority
 _MANY = 30  # for more requests it is not worth while to find out for which a drone suffices
