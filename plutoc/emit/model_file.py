@@ -18,6 +18,7 @@ from plutoc.emit.python import (
     shadows,
 )
 from plutoc.emit.render import render
+from plutoc.emit.stubs import has_policies
 from plutoc.graph import model as graph_model
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import Graph
@@ -57,7 +58,8 @@ def model_file(graph: Graph) -> str:
     return render(
         "model.py",
         app=graph.name,
-        imports=import_lines(_imports(fields)),
+        imports=import_lines(_imports(fields, has_policies(graph))),
+        policies=has_policies(graph),
         mission=_attributes(fields, Entity.MISSION),
         trip=_attributes(fields, Entity.TRIP),
         fields=[_field(field) for field in fields],
@@ -68,7 +70,7 @@ def model_file(graph: Graph) -> str:
     )
 
 
-def _imports(fields: tuple[Field, ...]) -> list[Import]:
+def _imports(fields: tuple[Field, ...], policies: bool) -> list[Import]:
     imports = [
         *names("dataclasses", "dataclass"),
         *names("._runtime.domain", "model"),
@@ -77,6 +79,8 @@ def _imports(fields: tuple[Field, ...]) -> list[Import]:
     ]
     if fields:
         imports += names("._runtime.domain.fields", "Entity", "FieldType")
+    if policies:
+        imports += names("._runtime.fleet", "own_batch")
     taken = {field.name for field in fields}
     if shadows(taken, (python_type(field) for field in fields)):
         alias = builtins_alias(taken)

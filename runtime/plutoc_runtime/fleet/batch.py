@@ -25,10 +25,11 @@ OLD = 1_800.0
 
 
 class Batch:
-    """Decorates such a policy."""
+    """Decorates such a policy, or makes one `of` a hook, which itself sees to it that none waits for ever."""
 
-    def __init__(self, policy: AllAtOnce, ages: bool = True) -> None:
-        self._policy, self._ages = policy, ages
+    def __init__(self, policy: AllAtOnce, of: object = None) -> None:
+        self._policy, self._ages = policy, of is None
+        self.asks = policy if of is None else of
         update_wrapper(self, policy)
 
     def __call__(
@@ -51,7 +52,8 @@ class Batch:
 
         def alike(place: int) -> bool:
             one = waiting[place]
-            return one.policy is self and one.rank[0] == oldest.rank[0]
+            same = getattr(one.policy, "asks", None) is self.asks
+            return same and one.rank[0] == oldest.rank[0]
 
         first = next((n + 1 for n in range(place - 1, -1, -1) if not alike(n)), 0)
         end = next((n for n in range(place + 1, len(waiting)) if not alike(n)), len(waiting))
