@@ -1,6 +1,6 @@
 """What does it cost to choose drones, and how does that grow with the fleet and with the queue?
 
-`python benchmarks/allocation.py` prints three tables. *A choice*: microseconds in
+`python benchmarks/choosing.py` prints three tables. *A choice*: microseconds in
 which one of the free drones is chosen, by policy and by how many they are.
 *All at once*: milliseconds in which `batch_optimal` shares drones out. *The queue*: whole plans, of
 which most missions wait; seconds of CPU, and how much more a mission costs than in the first plan.
@@ -26,7 +26,7 @@ from math import sqrt
 from pathlib import Path
 from random import Random
 from resource import RUSAGE_CHILDREN, getrusage
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from measuring.options import at_least_one
 from plutoc_runtime.domain.model import Category, Drone, Point, Trip
@@ -43,6 +43,7 @@ PLANS = (100, 400, 1_000)
 TRIPS, DRONES = 6, 50
 QUEUES = (
     *((policy, policy, "100 h") for policy in ("first", "least_used", "nearest", "batch_optimal")),
+    ("least_makespan", "least_makespan", "100 h"),
     ("nearest, charging", "nearest", "420 s"),
 )
 """What it is called, the policy, and how long a battery lasts."""
@@ -78,6 +79,17 @@ class Standing:
     battery_level: float = 1.0
     landed: bool = True
     silence: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Waits:
+    """What `batch_optimal` asks of a trip that waits."""
+
+    goal: Point
+
+    def able(self, drone: Drone) -> bool:
+        """Accept every drone."""
+        return True
 
 
 POLICIES: Mapping[str, OneByOne] = {"nearest": nearest, "first": first, "least_used": least_used}
@@ -137,9 +149,10 @@ def shares(rounds: int, sizes: Sequence[tuple[int, int]]) -> Iterator[tuple[int,
     """Give trips, drones, and the milliseconds in which drones are shared out."""
     for waiting, free in sizes:
         drones = fleet(free)
-        offers = [(trip, anyone) for trip in trips(waiting, max(waiting, free))]
+        offers: Any = [Waits(goal=one.target) for one in trips(waiting, max(waiting, free))]
+        nothing: Any = None  # it asks no queue
         (seconds,) = least(
-            rounds if waiting * free < 1e6 else 1, partial(batch_optimal, offers, drones)
+            rounds if waiting * free < 1e6 else 1, partial(batch_optimal, offers, drones, nothing)
         )
         yield waiting, free, seconds * 1e3
 

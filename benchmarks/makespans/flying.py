@@ -7,6 +7,8 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
+from itertools import product
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,16 +31,23 @@ FOLLOWS = "follow_routes"
 """The hook by which drones fly what was planned for them."""
 HOOK = '''"""Drones that fly the routes that were planned for them, and nothing else."""
 
-ROUTES = {{}}
+ROUTES, GIVEN, STRICT = {{}}, set(), True
 
 
-def {name}(trip, candidates):
-    """Give a drone the trip that is next on its route."""
-    for drone in candidates:
-        route = ROUTES.get(drone.id, ())
-        if drone.trips < len(route) and route[drone.trips] == trip.name:
-            return drone
-    return None
+def {name}(waiting, drones, now):
+    """Give each drone what is next on its route: of those that wait, or, strictly, of all."""
+    there, pairs = {{one.trip.name: one for one in waiting}}, []
+    for drone in drones:
+        left = [name for name in ROUTES.get(drone.id, ()) if name not in GIVEN]
+        left = left[:1] if STRICT else left
+        able = (there[name] for name in left if name in there)
+        one = next((one for one in able if drone in one.drones), None)
+        if one is not None:
+            pairs.append((one, drone))
+            mission = [one.trip.name, *(trip.name for trip in one.mission.trips)]
+            carried = 2 if one.trip.action == "pick_item" else 1
+            GIVEN.update(mission[:1], mission[1:1 + carried])
+    return pairs
 '''
 A_DAY = 86_400.0
 
@@ -82,19 +91,26 @@ class Apps:
         fleet = load_fleet(files[1], app)
         return Loaded(app=app, fleet=fleet, missions=load_missions(files[0], app, fleet.airspace))
 
-    def flown(self, plan: Plan, policy: str, after_trip: str) -> SimulationResult:
-        """Fly a plan, with durations as they are expected."""
-        return self.loaded(plan, policy, after_trip).fly()
+    def flown(self, plan: Plan, policy: str, after_trip: str) -> float:
+        """Fly a plan, with durations as they are expected, and return its makespan."""
+        flown = self.loaded(plan, policy, after_trip).fly()
+        if not flown.completed:
+            raise SystemExit(f"plan {plan.name} is not flown to its end with {policy}")
+        return flown.duration
 
-    def followed(self, plan: Plan, routes: Routes, after_trip: str) -> SimulationResult | None:
-        """Fly routes; None: they cannot be flown to their end."""
-        loaded = self.loaded(plan, FOLLOWS, after_trip)
-        hooks: Any = import_module(f"makespans_{FOLLOWS}.hooks")
-        hooks.ROUTES = routes
-        try:
-            return loaded.fly()
-        except BadInput:  # each waits for another
-            return None
+    def followed(self, plan: Plan, routes: Routes) -> float:
+        """Fly routes, and return the makespan; infinite: they cannot be flown to their end."""
+        least = inf
+        for after_trip, strict in product(("stay", "next"), (True, False)):
+            loaded = self.loaded(plan, FOLLOWS, after_trip)
+            hooks: Any = import_module(f"makespans_{FOLLOWS}.hooks")
+            hooks.ROUTES, hooks.GIVEN, hooks.STRICT = routes, set(), strict
+            try:
+                flown = loaded.fly()
+            except BadInput:  # each waits for another
+                continue
+            least = min(least, flown.duration if flown.completed else inf)
+        return least
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -144,7 +144,6 @@ def drawn(kind: Kind, chance: Random, name: str) -> Plan:
 
 
 def _homes(kind: Kind, chance: Random, count: int) -> Sequence[Place]:
-    width, depth = kind.size
     if kind.docks == "row":
         return [(round(_EDGE + n * _BETWEEN, 2), _EDGE) for n in range(count)]
     found: list[Place] = []
@@ -157,29 +156,24 @@ def _homes(kind: Kind, chance: Random, count: int) -> Sequence[Place]:
 
 def _somewhere(kind: Kind, chance: Random) -> Place:
     width, depth = kind.size
-    return round(chance.uniform(_EDGE, width - _EDGE), 1), round(
-        chance.uniform(_EDGE, depth - _EDGE), 1
-    )
+    x, y = chance.uniform(_EDGE, width - _EDGE), chance.uniform(_EDGE, depth - _EDGE)
+    return round(x, 1), round(y, 1)
 
 
 def _mission(kind: Kind, chance: Random, number: int) -> str:
     lines = [f'[[mission]]\nname = "m{number}"']
     priority = chance.choice(kind.priorities)
-    places = [_somewhere(kind, chance) for _ in range(max(2, chance.randint(*kind.trips)))]
-    if chance.random() < kind.carried:
-        item = f'item = {{ name = "i{number}", mass = "8 g" }}'
-        acts = [("pick_item", item), ("release_item", item)]
-    else:
-        acts = [(chance.choice(("take_photo", "take_photo", "measure")), "")]
-        if "slow" in kind.categories:
-            acts = [("take_photo", "")]
-        acts *= chance.randint(*kind.trips)
-        places = (
-            places[:1]
-            if len(acts) == 1
-            else places + [_somewhere(kind, chance) for _ in range(len(acts) - len(places))]
-        )
-    for part, ((action, more), (x, y)) in enumerate(zip(acts, places, strict=False)):
+    for part, (action, more) in enumerate(_actions(kind, chance, number)):
+        x, y = _somewhere(kind, chance)
         lines += ["[[mission.trip]]", f'name = "m{number}.{part}"', f'action = "{action}"']
         lines += [f"target = [{x}, {y}]", f"priority = {priority}", *filter(None, [more])]
     return "\n".join(lines) + "\n"
+
+
+def _actions(kind: Kind, chance: Random, number: int) -> list[tuple[str, str]]:
+    """Return what is done on each trip of a mission, and with which item."""
+    if chance.random() < kind.carried:
+        item = f'item = {{ name = "i{number}", mass = "8 g" }}'
+        return [("pick_item", item), ("release_item", item)]
+    one = "take_photo" if "slow" in kind.categories else chance.choice(("take_photo", "measure"))
+    return [(one, "")] * chance.randint(*kind.trips)

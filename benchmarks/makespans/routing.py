@@ -12,9 +12,8 @@ bound: it counts once it was flown.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain, pairwise
 from math import inf
 from statistics import mean
 from typing import TYPE_CHECKING, Any
@@ -71,6 +70,11 @@ class Routing:
         }
         """By category: from the end of each client to the end of each, in seconds."""
 
+    @property
+    def has_missions_of_several(self) -> bool:
+        """Whether a mission has several chains, whose order the solver may not know."""
+        return any(len(client.chains) > 1 for client in self.clients)
+
     def _clients(self, whole: bool) -> Iterator[Client]:
         for mission in self._loaded.missions:
             chains, trips = list[Sequence[Any]](), mission.trips
@@ -109,7 +113,7 @@ class Routing:
         tight = self._charges(within)
         for place, client in zip(places, self.clients, strict=True):
             model.add_client(place, delivery=[self._drains(client)] if tight else [])
-        for number, (name, kind, home) in enumerate(self.drones):
+        for number, (name, kind, _) in enumerate(self.drones):
             docks = model.add_location(number, 2), model.add_location(number, 3)
             profile = model.add_profile(name=name)
             start = model.add_depot(docks[0])

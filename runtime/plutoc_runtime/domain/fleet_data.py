@@ -62,7 +62,7 @@ class FleetData:
 
     airspace: Airspace
     drones: Sequence[DroneData]
-    after_trip: AfterTrip = AfterTrip.HOME
+    after_trip: AfterTrip = AfterTrip.NEXT
     max_airborne: int | None = None
     motion: Motion = STRAIGHT
     world: WorldData | None = None  # None: a simulation makes up a world from its seed

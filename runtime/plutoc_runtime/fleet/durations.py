@@ -22,15 +22,18 @@ def pace(category: Category, request: Request) -> float:
     return category.endurance * request.bounds[category][1]
 
 
+def upright(category: Category, request: Request) -> float:
+    """Return about how many seconds take-off, action and landing take."""
+    return category.endurance * (request.bounds[category][0] - category.reserve)
+
+
 def busy(category: Category, request: Request) -> float:
     """Return about how many seconds a flight takes beside the way to where it begins.
 
-    That is take-off, action and landing; from a pick on all that follows up to its release.
+    From a pick on that is all that follows up to its release.
     """
-    upright, a_metre = request.bounds[category][:2]
-    chain, here = chain_of(request.trips), request.goal
-    way = 0.0
+    chain, here, way = chain_of(request.trips), request.goal, 0.0
     for trip in chain:
         there = trip.target
         way, here = way + hypot(here[0] - there[0], here[1] - there[1]), there
-    return category.endurance * (len(chain) * (upright - category.reserve) + way * a_metre)
+    return len(chain) * upright(category, request) + way * pace(category, request)
