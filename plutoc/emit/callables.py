@@ -19,6 +19,8 @@ RESERVED = frozenset(
         *("APP", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
         *(
             "OwnAction",
+            "Photo",
+            "TypedAction",
             "Run",
             "Status",
             "Trip",

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from textwrap import wrap
 
 from plutoc.check.model import Checked
-from plutoc.emit.model_file import fields_of
+from plutoc.emit.model_file import all_fields
 from plutoc.emit.python import (
     LINE_LENGTH,
     PYTHON,
@@ -55,7 +55,7 @@ def stub(checked: Checked, name: str) -> str:
 
 
 def _offers(what: str, basics: str, graph: Graph, entity: Entity) -> list[str]:
-    own = [f", `{field.name}`" for field in fields_of(graph) if field.on is entity]
+    own = [f", `{field.name}`" for field in all_fields(graph) if field.on is entity]
     return wrap(
         f"A {what} offers {basics}{''.join(own)}.",
         LINE_LENGTH,

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
+from plutoc.emit.model_file import values_of
 from plutoc.emit.python import Import, call, import_lines, items, literal, names, status_tuple
 from plutoc.emit.render import formatted, render
 from plutoc.emit.stubs import arriving_at, in_order
@@ -62,7 +63,7 @@ class HookTest:
 
 def testing_file(graph: Graph) -> str:
     """Return the text of `testing.py`, not yet formatted."""
-    return render("testing.py", app=graph.name)
+    return render("testing.py", app=graph.name, typed=bool(values_of(graph)))
 
 
 def fixtures_file(graph: Graph) -> str:

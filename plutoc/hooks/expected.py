@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
+from plutoc.emit.python import python_result
 from plutoc.emit.stubs import Stub, stubs
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
@@ -36,6 +37,8 @@ class Expected:
     """The statuses that a modifier declares; None for any other hook."""
     may_wait: bool
     """It may be an `async def`."""
+    result: str | None = None
+    """The type that an action declares to return; None for any other hook."""
     span: Span
     """Where the app declares it."""
     first_line: str
@@ -92,6 +95,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
         returns=_returns(hook),
         emits=_emits(hook),
         may_wait=kind is not HookKind.POLICY,
+        result=python_result(hook.returns) if isinstance(hook, Action) and hook.returns else None,
         span=hook.span,
         first_line=first_line,
         stub="\n    ".join([first_line, *draft.lines]),
@@ -100,7 +104,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
 
 def _returns(hook: Action | Hook) -> str:
     if isinstance(hook, Action):
-        return "object"
+        return python_result(hook.returns) if hook.returns else "object"
     if hook.kind is HookKind.MODIFIER:
         return "Status" if hook.emits else "None"
     return "Verdict" if hook.kind is HookKind.EVALUATOR else "Drone"

@@ -55,7 +55,8 @@ def of_types(
         place = at.on(node_span(at.hooks, annotation))
         written = shortened(at.hooks.quote(place.span), _LONGEST)
         if name is None:
-            if arrives not in allowed:
+            fits = {arrives, "int"} if arrives == "float" else {arrives}
+            if not (allowed <= fits if at.hook.result else arrives in allowed):
                 yield errors.wrong_return(place, written, arrives)
         elif not allowed & {arrives, *_TAKES.get(arrives, ())}:
             yield errors.wrong_annotation(place, name, written, arrives)

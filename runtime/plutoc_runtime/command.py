@@ -29,7 +29,7 @@ _SEAM = ".".join(map(str, SEAM))
 
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
 _EXTRAS |= dict.fromkeys(("size", "fly", "resume", "journal", "tell", "decide", "--runs"), "")
-_EXTRAS |= dict.fromkeys(("gateway", "crtp", "--jobs"), "")
+_EXTRAS |= dict.fromkeys(("gateway", "crtp", "--jobs", "--start"), "")
 """What needs the library, and with which of its extras."""
 _WORDS = [*_EXTRAS, "check", "simulate", "--version"]
 _WORDS += ["--fleet", "--seed", "--no-spread", "--fail", "--until", "--trace", "--json"]

@@ -102,6 +102,14 @@ export function rewrite(name, text) {
   return edit([...renamed, { do: "Rewrite", name: now, text }]);
 }
 
+// A field is called `mission.patient`; under another name it is renamed everywhere first.
+export function rewriteField(name, text) {
+  const [on, called] = name.split(".");
+  const now = /^\s*(\w+)/.exec(text)?.[1] ?? called;
+  const renamed = now === called ? [] : [{ do: "Rename", name, new: now }];
+  return edit([...renamed, { do: "Rewrite", name: `${on}.${now}`, text }]);
+}
+
 export const removeDeclaration = (name) => edit([{ do: "RemoveDeclaration", name }]);
 
 export async function removeSelected() {

@@ -30,7 +30,7 @@ def complete(document: Document, text: str, offset: int) -> tuple[Item, ...]:
     if _is_said(text, start):
         return ()
     types = types_of(document.graph)
-    place = around(text, offset, types, _passed(document.graph))
+    place = around(text, offset, types, passed_to(document.graph))
     found = _found(document, text, start, place, types)
     prefix = text[start:offset].lower()
     end = offset
@@ -109,7 +109,7 @@ def hover(document: Document, text: str, offset: int) -> Hover | None:
     if word is None or _is_said(text, start):
         return None
     types = types_of(document.graph)
-    place = around(text, offset, types, _passed(document.graph))
+    place = around(text, offset, types, passed_to(document.graph))
     said = _said(document, text, start, word[0], place, types)
     return Hover(markdown=said, span=Span(start, start + len(word[0]))) if said else None
 
@@ -126,7 +126,7 @@ def _said(
         owner = place.type_of(chain_before(text, start - 1))
         member = place.member(owner, word)
         return _of_member(owner.removeprefix("type "), member) if member else ""
-    if word in _passed(document.graph):
+    if word in passed_to(document.graph):
         return of_hook(document, word)
     if word in types:
         return _code(f"class {word}") + f"\n\n{types[word].doc}"
@@ -144,7 +144,7 @@ def _code(text: str) -> str:
     return f"```python\n{text}\n```"
 
 
-def _passed(graph: Graph) -> dict[str, tuple[str, ...]]:
+def passed_to(graph: Graph) -> dict[str, tuple[str, ...]]:
     """Return what each hook gets by position."""
     found = {hook.name: PASSED[hook.kind] for hook in graph.hooks}
     return found | {action.name: PASSED[HookKind.ACTION] for action in graph.actions}

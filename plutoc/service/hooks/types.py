@@ -9,7 +9,7 @@ from functools import cache
 from inspect import cleandoc
 from pkgutil import get_data
 
-from plutoc.emit.model_file import fields_of, python_type
+from plutoc.emit.model_file import all_fields, python_type
 from plutoc.emit.modules import EmbedError
 from plutoc.emit.stubs import EXPORTS
 from plutoc.graph.model import Graph
@@ -48,7 +48,7 @@ def types_of(graph: Graph) -> Mapping[str, HookType]:
     """Return the types that an app's package exports, with the fields that its graph brings in."""
     found = dict(_types())
     try:
-        own = fields_of(graph)
+        own = all_fields(graph)
     except EmbedError:  # two blocks disagree, which is told elsewhere
         own = ()
     for name, entity in (("Mission", Entity.MISSION), ("Trip", Entity.TRIP)):

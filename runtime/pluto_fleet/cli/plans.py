@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from ..files.fleet import FleetFile, fleet_of, too_fast
 from ..files.missions import missions_of
 from ..files.missions_text import missions_text
 from ..files.plan_check import endless, look_alikes, problems
+from ..files.promise_check import impossible
 from ..files.reading import parsed, read, shortened, text_of
 from ..shared import output
 from ..shared.domain.app import moving
@@ -54,6 +56,8 @@ class LoadedPlan:
 def load(app: App, options: Options) -> LoadedPlan:
     """Return the plan of a command's files; raise `BadInput` if it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
+    if options.start is not None:
+        fleet = replace(fleet, midnight=options.start)
     if options.no_spread or options.dry_run:
         fleet = replace(fleet, motion=fleet.motion.exact)
     app = moving(app, fleet.motion)
@@ -66,7 +70,10 @@ def load(app: App, options: Options) -> LoadedPlan:
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
     if not options.supervised:  # its supervisor has said so
-        for sentence in look_alikes(missions, fleet.drones):
+        warnings = [*look_alikes(missions, fleet.drones)]
+        if options.command != "check":
+            warnings += impossible(missions, app, fleet, _of_day(options))
+        for sentence in warnings:
             output.tell(f"{options.missions}: warning: {sentence}")
     return LoadedPlan(
         app=app,
@@ -76,6 +83,14 @@ def load(app: App, options: Options) -> LoadedPlan:
         areas=document.areas,
         fleet_text=fleet_text,
     )
+
+
+def _of_day(options: Options) -> float:
+    """Return at which time of day what is loaded is to be started."""
+    if options.command == "fly" and not options.dry_run:
+        now = time.localtime()
+        return now.tm_hour * 3600.0 + now.tm_min * 60.0 + now.tm_sec
+    return options.start or 0.0
 
 
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
@@ -123,12 +138,16 @@ _MOST_AREAS = 50
 
 
 def check(app: App, options: Options) -> int:
-    """Confirm that the fleet can fly the missions; else loading has raised an error."""
+    """Confirm that the fleet can fly the missions, and keep its promises; else loading has raised an error."""
     if options.write is not None and os.path.lexists(options.write):
         raise BadInput(f"{options.write}: it is there already, and is not replaced")
     plan = load(app, options)
     for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
+    broken = impossible(plan.missions, plan.app, plan.fleet, options.start)
+    if broken:
+        output.tell(shortened([f"{options.missions}: {sentence}" for sentence in broken]))
+        return 1
     for area in plan.areas[:_MOST_AREAS]:
         output.line(printable(area.sentence))
     if (more := len(plan.areas) - _MOST_AREAS) > 0:

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from ..shared.domain.text import number, quoted
 from .filled import Filled, is_number
+
+if TYPE_CHECKING:
+    from ..shared.domain.fields import Field
 
 
 def listed(words: Iterable[str]) -> str:
@@ -33,6 +37,10 @@ def and_more(count: int) -> str:
 
 def missing(key: str) -> str:
     return f"has no {key}"
+
+
+def field_missing(field: Field) -> str:
+    return f"{missing(field.name)}{field.hint}"
 
 
 def unknown_key(key: str, keys: Sequence[str], what: str) -> str:

@@ -10,19 +10,18 @@ from ..shared.domain import values
 from ..shared.domain.actions import PICK, RELEASE, Action, Plain
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.model import Item, Point, Trip
-from ..shared.domain.promises import misplaced, promised
 from ..shared.domain.text import quoted
 from ..shared.domain.values import wrongly_carried
 from . import areas as areas_of
 from . import errors
 from .lists import each_row
+from .promises import KEYS, misplaced, read_promises
 from .reading import Document, Table, read
 
 if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.model import Mission, Trip
-    from ..shared.domain.promises import Promises
 
 
 ELSEWHERE = {
@@ -50,10 +49,14 @@ def _unknown(key: str, keys: Sequence[str], entity: Entity, what: str) -> str:
 
 
 def read_fields(table: Table, app: App, entity: Entity) -> dict[str, Any]:
-    """Return the fields beyond the basic ones."""
+    """Return the fields beyond the basic ones, and report those that must be there and are not."""
     given: dict[str, Any] = {}
     for field in app.fields:
-        if field.on is not entity or field.name not in table.data:
+        if field.on is not entity:
+            continue
+        if field.name not in table.data:
+            if field.hint:
+                table.problem(table.document.words.field_missing(field), field.name)
             continue
         value = table.read(field.name, values.FIELD[field.type])
         if value is not None:
@@ -63,16 +66,6 @@ def read_fields(table: Table, app: App, entity: Entity) -> dict[str, Any]:
                 table.problem(said, field.name)
     return given
 
-
-PROMISES: dict[str, values.Read] = {
-    "deadline": values.moment,
-    "window": values.window,
-    "after": values.after,
-}
-"""What a plan may promise of a mission, and how each is read."""
-
-PROMISING = (3, 2)
-"""The first seam whose brains keep promises."""
 
 BASIC = ("name", "action", "target", "source", "parameters", "item")
 NOWHERE: Point = (0.0, 0.0, 0.0)
@@ -239,25 +232,10 @@ def _mission(
     table.who = f"mission {quoted(known) if known else number}"
     if table.row:
         table.who += f" ({table.row})"
-    only_fields(table, app, Entity.MISSION, ("name", "trip", "area", *PROMISES))
+    only_fields(table, app, Entity.MISSION, ("name", "trip", "area", *KEYS))
     name = table.read("name", values.name) or number
     table.differs("mission", "name", name, names)
     given = read_fields(table, app, Entity.MISSION)
-    promises = _promises(table, app)
+    promises = read_promises(table, app)
     trips = read_trips(table, app, airspace)
     return app.mission(name=name, trips=trips, index=index, promises=promises, **given)
-
-
-def _promises(table: Table, app: App) -> Promises:
-    given: dict[str, Any] = {}
-    for key, convert in PROMISES.items():
-        value = table.read(key, convert)
-        if value is not None:
-            given[key] = value
-            if app.seam < PROMISING:
-                table.problem(errors.no_promises(key, app.name), key)
-    try:
-        return promised(given)
-    except ValueError as error:
-        table.problem(str(error), "window")
-        return {}

@@ -21,6 +21,7 @@ from .toml_advice import advice
 
 if TYPE_CHECKING:
     from ..shared.domain.airspace import Airspace
+    from ..shared.domain.fields import Field
     from ..shared.domain.model import Point
     from .toml import TomlPath
 
@@ -33,6 +34,8 @@ class Wording:
     """What a key is called."""
     missing: Callable[[str], str]
     """A key that must be there is not."""
+    field_missing: Callable[[Field], str]
+    """A field of the app's own must be filled in and is not."""
     no_trips: Callable[[], str]
     item_missing: Callable[[str], str]
     """An action that needs an item has none."""
@@ -41,6 +44,7 @@ class Wording:
 IN_A_FILE = Wording(
     called=str,
     missing=errors.missing,
+    field_missing=errors.field_missing,
     no_trips=errors.no_trips,
     item_missing=errors.item_missing,
 )

@@ -83,6 +83,7 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "trip.completed": _completed,
     ACTS_BESIDE: _beside,
     "trip.failed": _failed,
+    "mission.late": lambda _: "is late: its deadline has passed",
     "mission.repeated": lambda event: f"round {int(str(event['round'])) + 1} begins",
     "mission.extended": _extended,
     "mission.ended": _ended,
@@ -150,6 +151,14 @@ def _created(event: Fact) -> str:
     return f"has trips {', '.join(str(trip) for trip in event['trips'])}"
 
 
+def _promised(event: Fact) -> str:
+    after = ", ".join(str(name) for name in event.get("after", ()))
+    told = [f"begins after {after}"] if after else []
+    told += [f"begins at {duration(event['opens'])} at the soonest"] if "opens" in event else []
+    told += [f"is due at {duration(event['deadline'])}"] if "deadline" in event else []
+    return ", ".join(told)
+
+
 def _changed(event: Fact) -> str:
     trips = ", ".join(str(trip["name"]) for trip in event["todo"]) or "none"
     return f"was changed by the app's own code; trips to do: {trips}"
@@ -176,6 +185,7 @@ def _drone(what: str) -> Callable[[Fact], str]:
 _JOURNAL_SENTENCES: Mapping[str, Callable[[Fact], str | None]] = {
     "brain.began": lambda event: "the app begins" if event["epoch"] == 1 else "the app goes on",
     "mission.created": _created,
+    "mission.promised": _promised,
     "mission.changed": _changed,
     "mission.modified": _modified,
     "mission.judged": lambda event: f"was judged and found wanting: {event['reason']}",

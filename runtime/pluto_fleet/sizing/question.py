@@ -71,8 +71,11 @@ class Question:
         )
         batteries = most_charging(self.swapped, fleet, outcome.events) if self.swapped else ()
         seconds = outcome.duration - self.begin
-        if outcome.completed:
+        late = [one.name for one in outcome.missions if one.late]
+        if outcome.completed and not late:
             return Run(True, seconds, batteries=batteries)
+        if outcome.completed:
+            return Run(False, seconds, late[0], "", batteries)
         return Run(False, seconds, *_failure(outcome), batteries)
 
 

@@ -185,7 +185,10 @@ def _in_words(value: object) -> object:
 
 _VERDICTS = {"mission.judged": "not accepted", "mission.extended": "more to do"}
 
-_BAD = ("trip.failed", "mission.judged", "mission.uncertain", "mission.held", "drone.lost")
+_BAD = (
+    *("trip.failed", "mission.judged", "mission.late", "mission.uncertain", "mission.held"),
+    "drone.lost",
+)
 
 
 def _kind(event: Event) -> str:

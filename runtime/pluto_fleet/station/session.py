@@ -238,7 +238,14 @@ class FlightSession:
             for name, record in in_order(life.records):
                 found = where.get(name)
                 if found is not None and found["lives"] and aside(record) is None:
-                    row = rows.living_row(name, record, found, app.resumes, priority, now, why)
+                    first = [
+                        one
+                        for one in record["promises"].get("after", ())
+                        if not life.records.missions[one]["ended"]
+                    ]
+                    row = rows.living_row(
+                        name, record, found, app.resumes, priority, now, why, first
+                    )
                 else:
                     row = rows.recorded_row(name, record, lives=True)
                 changed |= put(name, row, number)

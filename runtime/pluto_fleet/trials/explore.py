@@ -53,6 +53,23 @@ def random_missions(app: App, fleet: FleetFile, seed: int) -> list[Mission[Any]]
     return missions
 
 
+def promising(missions: Sequence[Mission[Any]], seed: int) -> tuple[Mission[Any], ...]:
+    """Promise something of some missions, by a seed: windows, deadlines, what they come after."""
+    rng, names = Random(f"{seed}/promises"), list[str]()
+    kept: list[Mission[Any]] = []
+    for mission in missions:
+        promises: dict[str, object] = {}
+        if rng.random() < 0.3:
+            promises["opens"] = rng.choice(_TIMES)
+        if rng.random() < 0.3:
+            promises["deadline"] = rng.choice((10.0, 40.0, 40.5, 200.0))
+        if names and rng.random() < 0.3:
+            promises["after"] = rng.sample(names, rng.randrange(1, 1 + len(names)))
+        kept.append(replace(mission, promises=promises))
+        names.append(mission.name)
+    return tuple(kept)
+
+
 class _Generator:
     def __init__(self, app: App, fleet: FleetFile, rng: Random) -> None:
         self.app, self.fleet, self.rng = app, fleet, rng
@@ -223,8 +240,8 @@ def small_case(
 ) -> Case:
     """Return a small case for `everywhere`; every other one has no random faults."""
     weather = FAIR if seed % 2 == 0 else random_weather(Random(f"{seed}/weather"))
-    flown = missions or random_missions(app, fleet, seed)
-    return Case(seed=seed, missions=tuple(flown), fleet=fleet, weather=weather)
+    flown = tuple(missions) or promising(random_missions(app, fleet, seed), seed)
+    return Case(seed=seed, missions=flown, fleet=fleet, weather=weather)
 
 
 def random_case(
@@ -243,7 +260,7 @@ def random_case(
             row = max(0, row - _BEYOND // 2)  # another strike soon after, or during recovery
     return Case(
         seed=seed,
-        missions=tuple(missions or random_missions(app, fleet, seed)),
+        missions=promising(missions or random_missions(app, fleet, seed), seed),
         fleet=fleet,
         weather=random_weather(rng),
         strikes=tuple(strikes),

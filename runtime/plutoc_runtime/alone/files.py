@@ -19,7 +19,6 @@ from ..domain.fields import Entity, FieldType
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from ..domain.model import Item
 from ..domain.motion import motion_of
-from ..domain.promises import misplaced, promised
 from ..domain.text import cut_off, number, printable, quoted
 from ..domain.values import Cells, crowded, wrongly_carried
 
@@ -32,7 +31,6 @@ if TYPE_CHECKING:
     from ..domain.values import Read
 
 LARGEST = 1 << 20  # bytes: a plan is written by people, and anything larger is another file
-
 MOST = 100  # parts of one key: `tomllib` copies for each all before it; a plan's have two
 
 _PART = r"""(?:[A-Za-z0-9_-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
@@ -72,27 +70,22 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
     """Return the missions of a file, each of the app's own class."""
     top, missions = parsed(path, text_of(path)), list[Any]()
     _table(top, f"{path}", "mission:any?")
-    fields, kinds = _fields(app, Entity.MISSION)
-    kinds |= {"new": _new("mission"), "area": _library("area", "[areas]"), "each": _library("each")}
+    fields, kinds, hints = _fields(app, Entity.MISSION)
+    kinds |= {"new": _new("mission"), "area": _library("area", "[areas]")}
+    kinds |= {key: _library(key) for key in ("each", "deadline", "window", "after")}
     for index, entry in enumerate(_tables(top, f"{path}", "mission", needed=True)):
         name = entry.get("name")
         who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
         data = {"name": f"{index + 1}", **entry}
-        schema = "name:new area:area? each:each? trip:any? deadline:moment? window:window?"
-        given = _table(data, who, f"{schema} after:after? {fields}", **kinds)
-        try:
-            given["promises"] = promised(given)
-        except ValueError as error:
-            raise BadInput(f"{who}: {error}") from None
+        schema = "name:new area:area? each:each? trip:any? deadline:deadline? window:window?"
+        given = _table(data, who, f"{schema} after:after? {fields}", hints, **kinds)
         trips = _trips(entry, who, app, airspace)
         missions.append(app.mission(**given, index=index, trips=trips))
-    for index, said in misplaced(missions, ()):
-        raise BadInput(f"{path}: mission {quoted(missions[index].name)}: {said}")
     return missions
 
 
-def _table(data: Any, who: str, schema: str, /, **kinds: Read) -> dict[str, Any]:
-    """Return the values of a table: `key:kind` for each, with `?` if it may be missing.
+def _table(data: Any, who: str, schema: str, hints: Any = None, /, **kinds: Read) -> dict[str, Any]:
+    """Return the values of a table: `key:kind` for each, with `?` if it may be missing, else a hint.
 
     A kind is one of these, or a reader in `values`; any other is read elsewhere, or never.
     """
@@ -105,7 +98,7 @@ def _table(data: Any, who: str, schema: str, /, **kinds: Read) -> dict[str, Any]
             raise BadInput(f"{who}: unknown key {quoted(key)}; there may be: {there_are}")
     for key, kind in keys.items():
         if key not in data and not kind.endswith("?"):
-            raise BadInput(f"{who}: has no {key}")
+            raise BadInput(f"{who}: has no {key}{(hints or {}).get(key, '')}")
         name = kind.rstrip("?")
         if key in data and (read := kinds.get(name) or getattr(values, name, None)):
             found[key] = _read(data, who, key, read)
@@ -179,13 +172,13 @@ def _world(data: Any, who: str) -> WorldData:
 
 
 def _trips(mission: dict[str, Any], who: str, app: App, airspace: Airspace) -> list[Trip]:
-    trips, (fields, kinds) = list[Any](), _fields(app, Entity.TRIP)
+    trips, (fields, kinds, hints) = list[Any](), _fields(app, Entity.TRIP)
     schema = "name:new action:action target:target source:source? parameters:any? item:any?"
     kinds |= {key: _point(key, airspace, airspace.cruise_height) for key in ("target", "source")}
     kinds |= {"new": _new("trip"), "action": _one_of("action", app.actions)}
     for index, entry in enumerate(_tables(mission, who, "mission.trip", needed=True)):
         called, data = f"{who}, trip {index + 1}", {"name": f"{index + 1}", **entry}
-        given = _table(data, called, f"{schema} {fields}", **kinds)
+        given = _table(data, called, f"{schema} {fields}", hints, **kinds)
         action = app.actions[given["action"]]
         given["parameters"] = _parameters(entry.get("parameters", {}), called, action)
         given["item"] = _item(entry.get("item"), called, action.name)
@@ -215,12 +208,13 @@ def _item(data: Any, who: str, action: str) -> Item | None:
     return Item(**given) if given else None
 
 
-def _fields(app: App, on: Entity) -> tuple[str, dict[str, Read]]:
-    """Return the schema of the fields that the app's graph needs, and how they are read."""
+def _fields(app: App, on: Entity) -> tuple[str, dict[str, Read], dict[str, str]]:
+    """Return the schema of the app's fields, how they are read, and what to write where needed."""
     evaluator = _one_of("evaluator", app.evaluators, values.name)
     readers = {**values.FIELD, FieldType.EVALUATOR: evaluator}
     kinds = {one.name: readers[one.type] for one in app.fields if one.on is on}
-    return " ".join(f"{name}:{name}?" for name in kinds), kinds
+    hints = {one.name: one.hint for one in app.fields if one.on is on}
+    return " ".join(f"{name}:{name}{'?' * (not hints[name])}" for name in kinds), kinds, hints
 
 
 def _point(key: str, airspace: Airspace, height: float) -> Read:

@@ -65,4 +65,5 @@ class FleetData:
     after_trip: AfterTrip = AfterTrip.HOME
     max_airborne: int | None = None
     motion: Motion = STRAIGHT
+    midnight: float = 0.0  # seconds from midnight to the start of a simulation
     world: WorldData | None = None  # None: a simulation makes up a world from its seed

@@ -126,8 +126,6 @@ RADIUS = Quantity(Type.LENGTH, 0.01, 100_000.0)  # of something that is seen or 
 MASS = Quantity(Type.MASS, 0.0, 1000.0)  # of an item
 TIME = Quantity(Type.TIME, 0.001, LARGEST, or_none=True)  # a delay, a limit, between two rounds
 
-_FROM_NOW = Quantity(Type.TIME, 0.0, LARGEST)  # until a promise is due
-
 _OVERHEAD = Quantity(Type.TIME, 0.0, 600.0)
 _SPREAD, _TAPER = Quantity(Type.PERCENT, 0.0, 0.3), Quantity(Type.PERCENT, 0.0, 0.5)
 _FACTOR = Quantity(Type.PERCENT, 0.1, 10.0)
@@ -162,40 +160,6 @@ size, corner, point = numbers(2, each=SIDE), numbers(2), numbers(2, 3)
 """Of a map; [x, y]; [x, y] or [x, y, z]."""
 
 
-def moment(value: object) -> float | str:
-    """Read a time of day as a text, or how much time from the start on."""
-    if isinstance(value, time) or (isinstance(value, str) and ":" in value):
-        time_of_day(value)
-        return f"{value:%H:%M:%S}" if isinstance(value, time) else value
-    try:
-        return _FROM_NOW(value)
-    except ValueError as error:
-        raise ValueError(f'{error}; or a time of day, like "08:30"') from None
-
-
-def window(value: object) -> tuple[float | str, float | str]:
-    """Read when something may begin, and when it is to have ended."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise ValueError('is not a list of two times, like ["08:00", "08:30"]')
-    try:
-        opens, closes = map(moment, value)
-    except ValueError as error:
-        raise ValueError(f"has an element that {error}") from None
-    if opens == closes or (
-        isinstance(opens, float) and isinstance(closes, float) and closes < opens
-    ):
-        raise ValueError("has no time between its two")
-    return opens, closes
-
-
-def after(value: object) -> list[str]:
-    """Read the name of a mission, or of several."""
-    names = value if isinstance(value, list) else [value]
-    if not all(isinstance(one, str) for one in names):
-        raise ValueError('is not a list of missions, like ["Mission 1"]')
-    return [*dict.fromkeys(names)]
-
-
 def area(value: object) -> tuple[Corner, ...]:
     """Read the corners of a no-fly area."""
     if not isinstance(value, list) or len(value) < 3:
@@ -211,7 +175,7 @@ def area(value: object) -> tuple[Corner, ...]:
     return tuple(corners)
 
 
-PARAMETER: dict[Type, Read] = {
+PARAMETER: dict[FieldType | Type, Read] = {
     Type.INT: integer,
     Type.FLOAT: real,
     Type.BOOL: boolean,
@@ -240,7 +204,8 @@ def parameters(action: Action, given: Mapping[str, object]) -> dict[str, Any]:
     return found
 
 
-FIELD: dict[FieldType, Read] = {
+FIELD: dict[FieldType | Type, Read] = {
+    **PARAMETER,
     FieldType.TIME: TIME,
     FieldType.INT: integer,
     FieldType.ROUNDS: rounds,

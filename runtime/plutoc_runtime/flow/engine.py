@@ -24,7 +24,7 @@ class Engine:
 
     def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
         self.core, self.states = core, states
-        self._promises = Promises(core, states)
+        self.promises = Promises(core, states)
         self.living = 0  # how many missions are on their way through their graphs
         self.done: Future[None] = Future()  # set when the last mission has ended, or was suspended
 
@@ -33,12 +33,11 @@ class Engine:
         # All this lives until the end: the garbage collector need not traverse it each time, neither
         # while the missions start nor afterwards.
         freeze()
-        for mission in missions:
-            if mission.promises:
-                self._promises.start(mission)
         states = [self.new_state(mission) for mission in missions]
         for state in states:
             self.states[state.mission.name] = state
+            if state.mission.promises:
+                self.promises.start(state.mission)
             self.enter(state, UNEXECUTED)
         freeze()
 
@@ -53,8 +52,6 @@ class Engine:
 
     def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the initial state of a mission."""
-        if mission.promises:
-            self._promises.watch(mission)
         return MissionState(self.core, mission, self._doomed)
 
     def enter(self, state: MissionState, status: Status) -> None:
@@ -64,9 +61,8 @@ class Engine:
         core, mission, key = self.core, state.mission, mission_key(state.mission.index)
         run = Run(mission, state, key)
         run.at, run.status = state.at, status
-        flow = core.app.flow(run)
-        if mission.promises and status is UNEXECUTED:
-            flow = self._promises.in_time(mission, flow)
+        waits = mission.promises and status is UNEXECUTED
+        flow = self.promises.in_time(run) if waits else core.app.flow(run)
         run.task = state.task = task = core.kernel.spawn(flow, key, mission.name)
         task.over = partial(self._ended, state)
         self.living += 1
@@ -170,5 +166,5 @@ class Engine:
         state.allocated = state.carrier = state.carries = None
         state.ended = True
         self.core.transitions.end(mission, status, reason)
-        self._promises.ended(mission)
+        self.promises.ended(mission)
         self.look_for_the_end()

@@ -71,7 +71,12 @@ def _listed(who: str, field: str, value: object) -> Sequence[Any]:
     for kind in (tuple, list):
         if issubclass(type(value), kind):
             return tuple(kind.__iter__(cast("Any", value)))
-    raise HookFault(f"{who} must give `{field}` as a tuple, not as {class_of(value)}")
+    try:
+        if issubclass(type(value), Sequence) and not issubclass(type(value), (str, bytes)):
+            return tuple(cast("Sequence[Any]", value))
+    except ANY_ERROR as error:
+        unless_by_a_person(error)
+    raise HookFault(f"{who} must give `{field}` as a list or a tuple, not as {class_of(value)}")
 
 
 def _once_each(trips: Sequence[Any]) -> list[Any]:

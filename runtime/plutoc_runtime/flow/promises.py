@@ -1,12 +1,17 @@
-"""When a mission may begin, and when it is late."""
+"""What a plan promises of missions: when they may begin, after which others, and by when they end.
+
+As plain data: `deadline` and `opens` are moments, `after` the names of missions. A moment is a number, seconds
+since the mission was started, or a text, a time of day; once it was started, seconds since the app was.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Coroutine
+from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import MissionFailed
-from ..domain.promises import kept_from
+from ..domain.fields import time_of_day
 from ..domain.status import COMPLETED
 from ..domain.text import quoted
 from ..time.future import Future
@@ -16,6 +21,7 @@ if TYPE_CHECKING:
     from ..domain.model import Mission
     from ..domain.status import Status
     from .mission import Core, MissionState
+    from .run import Run
 
 
 class Promises:
@@ -32,35 +38,35 @@ class Promises:
         mission.promises = kept_from(mission.promises, clock.now, clock.time_of_day)
         if self._core.trace.live:
             self._core.trace.note("mission.promised", mission=mission.name, **mission.promises)
+        self.watch(mission)
 
     def watch(self, mission: Mission[Any]) -> None:
         """Notice when a mission is late."""
         mission.deadline = deadline = mission.promises.get("deadline")
+        kernel, key = self._core.kernel, mission_key(mission.index)
+        if deadline is None or mission.late:
+            return
+        if deadline < kernel.now:
+            self._look(mission)  # it passed while the app did not run
+        else:  # what ends at that very instant has ended before
+            kernel.at(deadline, EventKind.ALLOCATE, key, partial(self._look, mission))
 
-        def look() -> None:
-            state = self._states.get(mission.name)
-            if state is not None and not (mission.late or state.ended):
-                mission.late = True
-                if self._core.trace.live:
-                    self._core.trace.note("mission.late", mission=mission.name, deadline=deadline)
-
-        if deadline is not None and not mission.late:
-            # what ends at that very instant has ended before
-            self._core.kernel.at(deadline, EventKind.ALLOCATE, mission_key(mission.index), look)
+    def _look(self, mission: Mission[Any]) -> None:
+        if not (mission.late or self._states[mission.name].ended):
+            mission.late = True
+            if self._core.trace.live:
+                facts = {"mission": mission.name, "deadline": mission.deadline}
+                self._core.trace.note("mission.late", **facts)
 
     def ended(self, mission: Mission[Any]) -> None:
         """Called when a mission has ended, in any way."""
         if mission.name in self._ends:
             self._ends.pop(mission.name).set(None)
 
-    async def in_time(self, mission: Mission[Any], flow: Coroutine[Any, Any, Status]) -> Status:
+    async def in_time(self, run: Run[Any]) -> Status:
         """Run a mission's flow once all that it comes after has completed, and its window has opened."""
-        try:
-            await self._may_begin(mission)
-        except BaseException:
-            flow.close()
-            raise
-        return await flow
+        await self._may_begin(run.mission)
+        return await self._core.app.flow(run)
 
     async def _may_begin(self, mission: Mission[Any]) -> None:
         while some := self._under_way(mission):
@@ -86,3 +92,25 @@ class Promises:
                 became = state.mission.status.value
                 raise MissionFailed(f"it comes after mission {quoted(name)}, which is {became}")
         return some
+
+
+DAY = 86_400.0
+
+
+def kept_from(promises: Mapping[str, Any], now: float, of_day: float) -> Mapping[str, Any]:
+    """Return promises of a mission that starts now, at this time of day, in seconds since the app started.
+
+    A window that is open now has opened, though that was earlier this day.
+    """
+    deadline, opens = promises.get("deadline"), promises.get("opens")
+    found: dict[str, Any] = {**promises}
+    for name, moment in ("deadline", deadline), ("opens", opens):
+        if moment is not None:
+            found[name] = now + _until(moment, of_day)
+    if isinstance(deadline, str) and isinstance(opens, str):
+        found["opens"] = found["deadline"] - _until(deadline, time_of_day(opens))
+    return found
+
+
+def _until(moment: float | str, of_day: float) -> float:
+    return (time_of_day(moment) - of_day) % DAY if isinstance(moment, str) else moment

@@ -157,6 +157,7 @@ def fleet_data(fleet: FleetData) -> Data:
         "after_trip": fleet.after_trip.value,
         "max_airborne": fleet.max_airborne,
         "motion": asdict(fleet.motion),
+        "midnight": fleet.midnight,
     }
 
 

@@ -64,9 +64,7 @@ def allocate_drone(
     return status
 
 
-async def _in_time(
-    run: Run[Any], request: Request, deadline: float, within: float | None
-) -> None:
+async def _in_time(run: Run[Any], request: Request, deadline: float, within: float | None) -> None:
     """Wait until the mission is late, but not longer than any mission waits here."""
     kernel = run.core.kernel
     if within is not None and kernel.now + within < deadline:

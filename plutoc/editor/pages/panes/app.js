@@ -2,7 +2,7 @@
 
 import { choose } from "../dialogs/chooser.js";
 import { button, h, icon, keyed } from "../dom.js";
-import { declare, removeDeclaration, rewrite, setArgument, setTitle } from "../operations.js";
+import { declare, removeDeclaration, rewrite, rewriteField, setArgument, setTitle } from "../operations.js";
 import { app } from "../state.js";
 import { fieldOf } from "./fields.js";
 import { openHook } from "./hooks.js";
@@ -13,6 +13,8 @@ const NEW = [
   { id: "modifier", label: "A modifier", detail: "called for every mission that passes", text: (name) => `modifier ${name}` },
   { id: "action", label: "An action", detail: "what a drone does at its target", text: (name) => `action ${name}` },
   { id: "policy", label: "A policy", detail: "chooses the drone", text: (name) => `policy ${name}` },
+  { id: "mission", label: "A field of missions", detail: "filled in by users, read by hooks", text: (name) => `mission has ${name}: text = ""` },
+  { id: "trip", label: "A field of trips", detail: "filled in by users, read by hooks", text: (name) => `trip has ${name}: text = ""` },
 ];
 
 export function appPanel() {
@@ -22,16 +24,19 @@ export function appPanel() {
     onkeydown: (event) => { if (event.key === "Escape") title.value = app.view.title; },
   });
   const categories = h("div", { class: "declarations" });
+  const fields = h("div", { class: "declarations" });
   const hooks = h("div", { class: "declarations" });
   const element = h("div", { class: "panel" },
     h("div", { class: "panel-top" }, title,
       button("Declare", () => declareNew(), { kind: "small", sign: "plus", title: "A category of drones, or code of your own" })),
-    h("h3", {}, "Drones"), categories, h("h3", {}, "Code of your own"), hooks);
+    h("h3", {}, "Drones"), categories, h("h3", {}, "Fields of missions and trips"), fields, h("h3", {}, "Code of your own"), hooks);
 
   function update() {
     if (document.activeElement !== title) title.value = app.view.title;
     keyed(categories, app.view.categories, (one) => one.name, categoryOf, (item, one) => item.update(one));
     if (!app.view.categories.length) categories.replaceChildren(h("p", { class: "hint" }, "Any drone does everything. Declare a category to say what drones can do and carry."));
+    keyed(fields, app.view.fields, (one) => one.name, fieldRow, (item, one) => item.update(one));
+    if (!app.view.fields.length) fields.replaceChildren(h("p", { class: "hint" }, "None but those that blocks bring. Declare one to have users fill in what your code reads."));
     keyed(hooks, app.view.hooks, (one) => one.name, hookOf, (item, one) => item.update(one));
     if (!app.view.hooks.length) hooks.replaceChildren(h("p", { class: "hint" }, "None. A MissionModifier or a MissionEvaluator calls a function of yours; adding one declares it."));
   }
@@ -41,10 +46,10 @@ export function appPanel() {
 }
 
 // A declaration as one line of Pluto text, which can be changed.
-function line(one) {
+function line(one, change = rewrite) {
   const input = h("input", {
     type: "text", class: "mono", spellcheck: "false", autocomplete: "off", "aria-label": `The declaration of ${one.name}`,
-    onchange: () => { if (input.value.trim() !== input.dataset.text) rewrite(one.name, input.value.trim()); },
+    onchange: () => { if (input.value.trim() !== input.dataset.text) change(one.name, input.value.trim()); },
     onkeydown: (event) => { if (event.key === "Escape") input.value = input.dataset.text; },
   });
   const update = ({ text }) => {
@@ -71,6 +76,13 @@ function categoryOf(one) {
   return item;
 }
 
+function fieldRow(one) {
+  const text = line(one, rewriteField);
+  const item = h("div", { class: "declaration" }, h("div", { class: "row" }, h("code", { class: "hint" }, `${one.on} has`), text.input, remove(one)));
+  item.update = (next) => text.update(next);
+  return item;
+}
+
 function hookOf(one) {
   const text = line(one);
   const code = button("", () => openHook(one.name), { kind: "small", sign: "code" });
@@ -88,7 +100,10 @@ async function declareNew() {
   const one = NEW.find((other) => other.id === id);
   if (!one) return;
   const taken = new Set([...app.nodes.keys(), ...app.view.hooks.map(({ name }) => name), ...app.view.categories.map(({ name }) => name)]);
-  let name = `my_${id}`;
-  for (let n = 2; taken.has(name); n += 1) name = `my_${id}_${n}`;
+  const isField = id === "mission" || id === "trip";
+  for (const field of app.view.fields) if (field.on === id) taken.add(field.name.split(".")[1]);
+  const first = isField ? "note" : `my_${id}`;
+  let name = first;
+  for (let n = 2; taken.has(name); n += 1) name = `${first}_${n}`;
   await declare(one.text(name));
 }

@@ -1,7 +1,8 @@
 // The lists of the Monitor: missions, what happens, and what it brought.
 
 import {
-  clock, fill, h, icon, inWords, keyed, many, plain, put, seconds, set, shown, svg,
+  clock, fill, h, icon, inWords, keyed, many, plain, put, seconds, set, shown, since,
+  svg,
 } from "./dom.js";
 import { mapPicture } from "./floor.js";
 
@@ -263,7 +264,7 @@ function details(context, name) {
 function missionRow(context, name, chosen) {
   const { retries, rounds } = context.app;
   const span = (kind) => h("span", { class: kind });
-  const [number, why, trip, drone] = ["token", "why", "", ""].map(span);
+  const [number, why, trip, drone, due] = ["token", "why", "", "", "chip due"].map(span);
   const stands = standing();
   const charge = battery();
   const bar = h("i");
@@ -272,7 +273,7 @@ function missionRow(context, name, chosen) {
     onclick: () => chosen.set(chosen.name === name ? null : name),
   }, h("span", { class: "arrow" }), number, h("span", { class: "called" }, name));
   const cells = [
-    [opener], [stands, why], [trip, h("span", { class: "track" }, bar)], [drone, " ", charge],
+    [opener], [stands, due, why], [trip, h("span", { class: "track" }, bar)], [drone, " ", charge],
     ...(retries ? [[""]] : []), ...(rounds ? [[""]] : []),
   ].map((inside) => h("div", { class: "cell", role: "cell" }, inside));
   const line = h("div", { class: "mission-row", role: "row", "data-mission": name }, cells);
@@ -303,9 +304,12 @@ function missionRow(context, name, chosen) {
   element.charge = ({ drones }) => charge.show(drones.get(element.row.drone)?.battery ?? null);
   // What changes with the time alone.
   element.tick = ({ state: { time } }) => {
-    const { status, reason, wait, until } = element.row;
+    const { status, reason, wait, until, due: at, late } = element.row;
     const because = reason || (status === "PAUSED" ? "" : wait);
     put(why, `${because}${until > time ? ` (${seconds(until - time)})` : ""}`);
+    set(due, "class", `chip due ${late ? "bad" : ""}`);
+    put(due, late ? "Late" : `due in ${since(Math.max(0, at - time))}`);
+    shown(due, late || (at !== null && !ended(element.row)));
   };
   element.open = (yes) => {
     set(opener, "aria-expanded", String(yes));

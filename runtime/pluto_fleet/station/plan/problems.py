@@ -42,6 +42,7 @@ def on_a_screen(app: App) -> Wording:
     return Wording(
         called=lambda key: called.get(key, key),
         missing=lambda key: _MISSING.get(key, f"has no {called.get(key, key)} yet"),
+        field_missing=lambda field: f"{field.label} is not filled in yet",
         no_trips=lambda: "has no trips yet: drag an action onto the floor plan",
         item_missing=lambda action: f"{action} needs an item: give its name and its mass",
     )
