@@ -72,7 +72,7 @@ def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ..
 
 def test_the_program_says_its_version(program: tuple[str, ...]) -> None:
     done = subprocess.run([*program, "--version"], capture_output=True, text=True, check=True)
-    assert done.stdout.endswith("\nextras: not installed: crazyflie, plot, station\n")
+    assert done.stdout.endswith("\nextras: not installed: areas, crazyflie, plot, station\n")
 
 
 def test_the_gateway_flies_from_its_settings_alone(
