@@ -17,6 +17,7 @@ name = "North"
 safe_time = "3 min"
 repeat = 2
 at = "08:00"
+deadline = "20 h"
 evaluator = "find_blooms"
   [[mission.trip]]
   name = "A"
@@ -33,6 +34,13 @@ evaluator = "find_blooms"
   [[mission.trip]]
   action = "release_item"
   item = { name = "pills", mass = "4 g" }
+  target = [6.0, 3.0]
+[[mission]]
+name = "South"
+window = ["08:00", "20 h"]
+after = ["North"]
+  [[mission.trip]]
+  action = "take_photo"
   target = [6.0, 3.0]
 """
 FLEET = """
