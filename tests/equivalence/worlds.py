@@ -102,7 +102,8 @@ class World:
 
 def _mission(app: App, place: int, mission: MissionPlan) -> Mission[Any]:
     trips = [_trip(app, number, trip) for number, trip in enumerate(mission.trips)]
-    return app.mission(name=mission.name, index=place, trips=trips, **mission.fields)
+    fields: Mapping[str, Any] = mission.fields
+    return app.mission(name=mission.name, index=place, trips=trips, **fields)
 
 
 def _trip(app: App, place: int, trip: TripPlan) -> Trip:

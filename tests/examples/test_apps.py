@@ -23,10 +23,12 @@ SEEDS = range(10)
 @pytest.fixture(scope="session")
 def apps(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Example]:
     """Return the examples that these tests look into."""
-    names = ("aerial_mapping", "alfalfa", "drugs_distribution_retry", "night_round")
-    names += ("object_finder", "pm10")
+    names = (
+        *("aerial_mapping", "alfalfa", "drugs_distribution_retry", "night_round"),
+        *("object_finder", "pm10", "warehouse_item_finder"),
+    )
     folder = tmp_path_factory.mktemp("apps")
-    return {name: built(name, folder) for name in (*names, "warehouse_item_finder")}
+    return {name: built(name, folder) for name in names}
 
 
 def events(trace: Sequence[Event], kind: str, **facts: object) -> list[Event]:

@@ -210,7 +210,7 @@ def the_past_is_forgiven(patch: pytest.MonkeyPatch) -> None:
 
 def it_is_late_again(patch: pytest.MonkeyPatch) -> None:
     """A mission that goes on does not know that it was late."""
-    really = restore.update
+    really = standing.update
 
     def update(app: Any, mission: Any, record: Any) -> Any:
         return really(app, mission, {**record, "late": False})
