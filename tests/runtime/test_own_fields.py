@@ -11,12 +11,14 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet import api
 from pluto_fleet.app import App, described
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.missions_text import missions_text
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.trials.explore import random_missions
 from tests.flying import compiled_file
 from tests.runtime.living import Living
@@ -332,3 +334,19 @@ def test_a_field_with_a_default_may_come_in_between(wards: Made, tmp_path: Path)
     assert life.run() == ["COMPLETED"]
     mission: Any = life.life.missions[0]
     assert mission.ward == "A"
+
+
+def test_a_script_is_told_what_it_has_left_out(wards: Made) -> None:
+    """Before anything flies."""
+    trip = wards.app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers="two")
+    mission = wards.app.mission(name="one", trips=[trip])
+    with pytest.raises(BadInput) as refused:
+        api.simulate(wards.app, [mission])
+    assert str(refused.value).split("\n") == [
+        'mission "one": has no patient',
+        'mission "one", trip a: layers must be a whole number, not "two"',
+    ]
+    trip = wards.app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers=2)
+    assert api.simulate(
+        wards.app, [wards.app.mission(name="one", trips=[trip], patient="A")]
+    ).completed
