@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from math import isfinite, log10
 from typing import TYPE_CHECKING, Any, cast
 
@@ -95,8 +96,10 @@ def trip_of(
     app.actions[data["action"]]
     index = data.get("index", index)
     name, target = data.get("name", f"{index + 1}"), point_of(data["target"])
-    fields = known_fields(app, Entity.TRIP, data)
-    trip = app.trip(name=name, action=data["action"], target=target, index=index, **fields)
+    make: Callable[..., Trip] = app.trip
+    if "fields" in data:
+        make = partial(make, **known_fields(app, Entity.TRIP, data))
+    trip = make(name=name, action=data["action"], target=target, index=index)
     trip.status = status
     if not _LEAST.issuperset(data):  # most new trips have no more
         source = data.get("source")
