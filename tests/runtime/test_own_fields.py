@@ -259,7 +259,7 @@ def test_a_wrong_value_that_an_action_leaves_is_told(
 )
 def test_a_wrong_value_that_a_modifier_leaves_is_told(tmp_path: Path, line: str, said: str) -> None:
     app = made(tmp_path, hooks=HOOKS.replace("mission.patient = mission.patient.upper()", line))
-    reason = "modifier count_layers left a mission that cannot go on: "
+    reason = "hook count_layers left a mission that cannot go on: its "
     assert app.fly().reason == reason + said
 
 
@@ -350,3 +350,24 @@ def test_a_script_is_told_what_it_has_left_out(wards: Made) -> None:
     assert api.simulate(
         wards.app, [wards.app.mission(name="one", trips=[trip], patient="A")]
     ).completed
+
+
+def test_a_new_trip_with_a_wrong_value_is_told_of_its_evaluator(tmp_path: Path) -> None:
+    """And one without what must be filled in cannot be made."""
+    for more, said in (
+        (
+            "layers=1.5",
+            "evaluator strict adds a trip that cannot be flown: layers must be a whole number",
+        ),
+        (
+            "note=''",
+            "hook strict raised TypeError: Trip.__init__() missing 1 required keyword-only",
+        ),
+    ):
+        made_of = f'Trip(name="b", action="measure", target=(1, 2, 1), {more})'
+        hooks = HOOKS.replace(
+            "    values = [", f"    return Verdict(add=[{made_of}])\n    values = ["
+        )
+        folder = tmp_path / more[:4]
+        folder.mkdir()
+        assert made(folder, hooks=hooks).fly().reason.startswith(said)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
+from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite, log10
 from typing import TYPE_CHECKING, Any, cast
 
@@ -96,10 +95,8 @@ def trip_of(
     app.actions[data["action"]]
     index = data.get("index", index)
     name, target = data.get("name", f"{index + 1}"), point_of(data["target"])
-    make: Callable[..., Trip] = app.trip
-    if "fields" in data:
-        make = partial(make, **known_fields(app, Entity.TRIP, data))
-    trip = make(name=name, action=data["action"], target=target, index=index)
+    fields = known_fields(app, Entity.TRIP, data) if "fields" in data else {}
+    trip = app.trip(name=name, action=data["action"], target=target, index=index, **fields)
     trip.status = status
     if not _LEAST.issuperset(data):  # most new trips have no more
         source = data.get("source")
