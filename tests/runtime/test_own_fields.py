@@ -11,12 +11,14 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet import api
 from pluto_fleet.app import App, described
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.missions_text import missions_text
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.trials.explore import random_missions
 from tests.flying import compiled_file
 from tests.runtime.living import Living
@@ -257,7 +259,7 @@ def test_a_wrong_value_that_an_action_leaves_is_told(
 )
 def test_a_wrong_value_that_a_modifier_leaves_is_told(tmp_path: Path, line: str, said: str) -> None:
     app = made(tmp_path, hooks=HOOKS.replace("mission.patient = mission.patient.upper()", line))
-    reason = "modifier count_layers left a mission that cannot go on: "
+    reason = "hook count_layers left a mission that cannot go on: its "
     assert app.fly().reason == reason + said
 
 
@@ -332,3 +334,40 @@ def test_a_field_with_a_default_may_come_in_between(wards: Made, tmp_path: Path)
     assert life.run() == ["COMPLETED"]
     mission: Any = life.life.missions[0]
     assert mission.ward == "A"
+
+
+def test_a_script_is_told_what_it_has_left_out(wards: Made) -> None:
+    """Before anything flies."""
+    trip = wards.app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers="two")
+    mission = wards.app.mission(name="one", trips=[trip])
+    with pytest.raises(BadInput) as refused:
+        api.simulate(wards.app, [mission])
+    assert str(refused.value).split("\n") == [
+        'mission "one": has no patient',
+        'mission "one", trip a: layers must be a whole number, not "two"',
+    ]
+    trip = wards.app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers=2)
+    assert api.simulate(
+        wards.app, [wards.app.mission(name="one", trips=[trip], patient="A")]
+    ).completed
+
+
+def test_a_new_trip_with_a_wrong_value_is_told_of_its_evaluator(tmp_path: Path) -> None:
+    """And one without what must be filled in cannot be made."""
+    for more, said in (
+        (
+            "layers=1.5",
+            "evaluator strict adds a trip that cannot be flown: layers must be a whole number",
+        ),
+        (
+            "note=''",
+            "hook strict raised TypeError: Trip.__init__() missing 1 required keyword-only",
+        ),
+    ):
+        made_of = f'Trip(name="b", action="measure", target=(1, 2, 1), {more})'
+        hooks = HOOKS.replace(
+            "    values = [", f"    return Verdict(add=[{made_of}])\n    values = ["
+        )
+        folder = tmp_path / more[:4]
+        folder.mkdir()
+        assert made(folder, hooks=hooks).fly().reason.startswith(said)

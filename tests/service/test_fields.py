@@ -10,6 +10,7 @@ from plutoc.service.document import Document
 from plutoc.service.editing.edit import CannotEdit, edit
 from plutoc.service.editing.operations import Declare, Operation, RemoveDeclaration, Rename, Rewrite
 from plutoc.service.hooks.help import complete as complete_in_hooks
+from plutoc.service.hooks.help import hover as hover_in_hooks
 from plutoc.service.picture.view import view
 from plutoc.service.reading.hover import hover
 from plutoc.service.reading.outline import outline
@@ -153,6 +154,14 @@ def test_hooks_are_helped_with_them() -> None:
     code = "def find_blooms(mission, results, *, least):\n    mission."
     labels = {one.label for one in complete_in_hooks(document(), code, len(code))}
     assert {"owner", "margin"} <= labels and "depth" not in labels
+
+
+def test_hooks_are_told_what_results_can_be() -> None:
+    code = (
+        "def find_blooms(mission: Mission, results: Results, *, least):\n    results.new[0].value"
+    )
+    found = hover_in_hooks(document(), code, len(code))
+    assert found is not None and "float | Photo | None" in found.markdown
 
 
 def test_the_view_has_them_as_written() -> None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from inspect import cleandoc
 from pkgutil import get_data
 
-from plutoc.emit.model_file import all_fields, python_type
+from plutoc.emit.model_file import all_fields, python_type, values_of
 from plutoc.emit.modules import EmbedError
 from plutoc.emit.stubs import EXPORTS
 from plutoc.graph.model import Graph
@@ -59,6 +59,13 @@ def types_of(graph: Graph) -> Mapping[str, HookType]:
         )
         plain = found[name]
         found[name] = HookType(name=name, doc=plain.doc, members=plain.members + added)
+    if values := values_of(graph):
+        plain = found["Result"]
+        members = (
+            replace(one, type=" | ".join(values)) if one.name == "value" else one
+            for one in plain.members
+        )
+        found["Result"] = HookType(name="Result", doc=plain.doc, members=tuple(members))
     return found
 
 

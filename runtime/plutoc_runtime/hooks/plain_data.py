@@ -96,7 +96,7 @@ def trip_of(
     app.actions[data["action"]]
     index = data.get("index", index)
     name, target = data.get("name", f"{index + 1}"), point_of(data["target"])
-    fields = known_fields(app, Entity.TRIP, data)
+    fields = known_fields(app, Entity.TRIP, data) if "fields" in data else {}
     trip = app.trip(name=name, action=data["action"], target=target, index=index, **fields)
     trip.status = status
     if not _LEAST.issuperset(data):  # most new trips have no more

@@ -36,8 +36,13 @@ def test_a_page_learns_of_them_with_their_types_and_units(tmp_path: Path) -> Non
     fields: Any = described(OWN, config)["fields"]
     by_name = {one["name"]: one for on in ("mission", "trip") for one in fields[on]}
     assert by_name["patient"] == {
-        "name": "patient", "type": "text", "label": "Patient", "default": None,
-        "own": True, "needed": True, "units": [],
+        "name": "patient",
+        "type": "text",
+        "label": "Patient",
+        "default": None,
+        "own": True,
+        "needed": True,
+        "units": [],
     }
     assert by_name["margin"]["units"] == ["ms", "s", "min", "h"]
     assert (by_name["margin"]["default"], by_name["margin"]["needed"]) == (600.0, False)
