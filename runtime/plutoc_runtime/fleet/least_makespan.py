@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from ..domain.model import Category, Drone, Point
 from ..domain.status import DroneStatus
+from ..time.kernel import FLEET, EventKind, Timer
 from .batch import Batch
 from .durations import busy, ends, pace
 from .needs import Request
@@ -42,6 +43,10 @@ def least_makespan(
     else:
         plan.renew(requests, free, queue, until)
         chosen = plan.next(free)
+        if plan.again < inf:  # the other may be late, and nothing else happens
+            plan.timer.cancel()
+            when = queue.kernel.now + plan.again
+            plan.timer = queue.kernel.at(when, EventKind.CLOCK, FLEET, queue.changed)
     why = f"planned so that the last of {len(requests)} waiting trips ends soonest"
     given = dict[Request, "Choice"]()
     for drone, stop in chosen.items():
@@ -119,6 +124,8 @@ class _Plan:
 
     def __init__(self) -> None:
         self.routes: dict[Drone, _Route] = {}
+        self.again = inf  # in how many seconds a drone that waits for another may fly for it
+        self.timer = Timer(int)
 
     def renew(
         self,
@@ -181,7 +188,8 @@ class _Plan:
                     changed |= {route: None, other: None}
 
     def next(self, free: Sequence[Drone]) -> dict[Drone, _Stop]:
-        """Return the next stop of each drone; without one, one that it reaches before its own drone."""
+        """Return the next stop of each drone; without one, one that it has flown before its own drone."""
+        self.again = inf
         chosen, idle = dict[Drone, _Stop](), list[_Route]()
         for route in map(self.routes.__getitem__, free):
             able = (stop for stop in route.stops if stop.one.able(route.drone))
@@ -191,19 +199,22 @@ class _Plan:
             else:
                 idle.append(route)
                 route.waits = inf  # it must be charged for what it has
-        for route in idle if any(route.stops for route in self.routes.values()) else ():
-            sooner = sorted(self._sooner(route.drone), key=lambda found: found[:2])
-            for *_, other, stop in sooner:
-                if stop.one.able(route.drone):
-                    chosen[route.drone] = stop
-                    other.stops.remove(stop)
-                    break
+        for drone in [route.drone for route in idle] if any(self._loaded()) else ():
+            for mine, _, other, stop in sorted(self._flown_by(drone), key=lambda found: found[:2]):
+                if stop.one.able(drone):
+                    its = other.end(other.flown(other.stops[: other.stops.index(stop) + 1]))
+                    if mine < its:
+                        chosen[drone] = stop
+                        other.stops.remove(stop)
+                        break
+                    self.again = min(self.again, mine)
         return chosen
 
-    def _sooner(self, drone: Drone) -> Iterator[tuple[float, int, _Route, _Stop]]:
-        """Yield the stops that a free drone would have flown before their own."""
-        for number, route in enumerate(self.routes.values()):
-            for place, stop in enumerate(route.stops):
-                mine = stop.seconds(drone.category, drone.location)
-                if mine < route.end(route.flown(route.stops[: place + 1])):
-                    yield mine, number, route, stop
+    def _loaded(self) -> Iterator[_Route]:
+        return (route for route in self.routes.values() if route.stops)
+
+    def _flown_by(self, drone: Drone) -> Iterator[tuple[float, int, _Route, _Stop]]:
+        """Yield all stops, and in how many seconds a free drone would have flown each."""
+        for route in self._loaded():
+            for stop in route.stops:
+                yield stop.seconds(drone.category, drone.location), -stop.one.rank[1], route, stop
