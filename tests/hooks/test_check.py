@@ -7,8 +7,9 @@ import ast
 import pytest
 
 from plutoc.check.model import Checked
-from plutoc.compile import analyse, check_hooks
+from plutoc.compile import analyse, check_hooks, policies_for_all
 from plutoc.diagnostic import Rejected
+from plutoc.emit.hooks_tests import hooks_test
 from plutoc.hooks.add import with_stubs
 from plutoc.source import Source
 
@@ -208,3 +209,14 @@ def test_help_for_a_policy_that_chooses_for_all_shows_that_shape(crop: Checked) 
         "(waiting: Sequence[Waiting], drones: Sequence[Drone], now: float) -> Assignment"
         in found.help
     )
+
+
+def test_the_test_of_such_a_policy_is_written_for_its_shape(crop: Checked) -> None:
+    """It is written once, when there may be a hooks.py already."""
+    hooks = Source(
+        "hooks.py", GOOD.replace("by_battery(trip, candidates)", "by_battery(all, free, at)")
+    )
+    assert policies_for_all(crop, Source("hooks.py", GOOD)) == frozenset()
+    assert policies_for_all(crop, hooks) == {"by_battery"}
+    assert "hooks.by_battery, waiting, [drone], 0.0" in hooks_test(crop, frozenset({"by_battery"}))
+    assert "hooks.by_battery, trip, [drone]" in hooks_test(crop)

@@ -40,6 +40,10 @@ class Waiting(NamedTuple, Generic[M, T]):
     deadline: float | None = None
     """When its mission is to have ended, in seconds since the app started."""
 
+    def __hash__(self) -> int:
+        """Hash by identity: its drones may be a list."""
+        return object.__hash__(self)
+
 
 class Again(NamedTuple):
     """An assignment after which a policy is asked again, even if nothing changes until then."""
