@@ -69,7 +69,8 @@ def chooses_for_all(hook: Callable[..., object]) -> bool:
     """Return whether a policy is `(waiting, drones, now)`: it has three parameters without a default."""
     if type(hook) is FunctionType and not hasattr(hook, "__wrapped__"):
         return hook.__code__.co_argcount - len(hook.__defaults__ or ()) == 3
-    from inspect import signature  # it takes long to load, and few hooks are anything else
+    # it takes long to load, and few hooks are anything else
+    from inspect import signature
 
     try:
         given = signature(hook).parameters.values()
