@@ -116,7 +116,7 @@ class _Plan:
     def renew(self, requests: Sequence[Request], free: Sequence[Drone], queue: Queue) -> None:
         """Bring the routes up to date: what waits no more is gone, and what is new is inserted."""
         now, new, before, self.routes = queue.kernel.now, set(requests), self.routes, {}
-        until: _Until = queue.plans["until"]
+        until, ready = queue.plans["until"], set(free)
         for drone in queue.drones:
             if drone.status in _FLIES:
                 self.routes[drone] = route = before.get(drone) or _Route(drone)
@@ -128,7 +128,7 @@ class _Plan:
                 route.stops = [stop for stop in route.stops if stop.one in new]
                 new.difference_update(stop.one for stop in route.stops)
                 # one that is late will take as long again as it is late by now, for all one knows
-                route.begin(0.0 if drone in free else abs(then - now), place)
+                route.begin(0.0 if drone in ready else abs(then - now), place)
         fresh = [_Stop(one) for one in requests if one in new]
         places = [route.place for route in self.routes.values()]
         fresh.sort(key=lambda stop: -min(_metres(place, stop.goal) for place in places))
@@ -184,7 +184,7 @@ class _Plan:
             for mine, _, other, stop in sorted(self._flown_by(drone), key=lambda found: found[:2]):
                 if stop.one.able(drone):
                     its = other.end(other.flown(other.stops[: other.stops.index(stop) + 1]))
-                    if mine < its:
+                    if mine < its or stop.one.hurries:
                         chosen[drone] = stop
                         other.stops.remove(stop)
                         break

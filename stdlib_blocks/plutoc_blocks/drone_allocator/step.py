@@ -45,6 +45,7 @@ def allocate_drone(
         drone, why = state.carrier, "carries the mission's item"
     if drone is None:
         request = core.queue.enter(mission, policy, priority)
+        request.hurries = allocate_within is not None
         try:
             if allocate_within is not None:
                 yield from _no_longer_than(run, request, allocate_within)

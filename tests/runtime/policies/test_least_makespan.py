@@ -91,6 +91,19 @@ def test_of_very_many_those_that_came_first_are_planned(monkeypatch: pytest.Monk
     assert order == ["m1", "m3", "m2", "m4", "m5"]
 
 
+def test_who_waits_for_a_limited_time_gets_any_drone_that_is_free() -> None:
+    """And none of those that are near and busy."""
+
+    def ends(within: float | None) -> list[str]:
+        app = apps.app(apps.flow(policy=least_makespan, within=within))
+        missions = [apps.mission(f"m{n}", apps.trip("A", 15.0 + 0.1 * n)) for n in range(2)]
+        homes = (14.0, 0.5, 0.0), (0.5, 0.5, 0.0)
+        outcome = apps.fly(app, *missions, on=apps.fleet(*homes, after=AfterTrip.NEXT))
+        return [mission.status.name for mission in outcome.missions]
+
+    assert ends(0.0) == ends(None) == ["COMPLETED"] * 2
+
+
 def test_a_drone_that_is_busy_for_long_keeps_no_trip_waiting() -> None:
     """It is near, and late, and nobody knows for how long: the other flies."""
 
