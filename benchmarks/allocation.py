@@ -87,12 +87,12 @@ def table(rows: Mapping[str, Row], say: Callable[[str], None]) -> dict[str, obje
     }
     say(f"{'column':26}{'median':>8}{'worst':>8}")
     for column, found in ratios.items():
-        say(f"{column:26}{median(found):8.2f}{max(found):8.2f}")
+        say(f"{column:26}{shown(median(found)):>8}{shown(max(found)):>8}")
     usual = BEFORE, "nearest, next", "batch_optimal, next", DEFAULTS, ROUTED
-    shown = [column for column in usual if column in ratios]
-    say(f"\n{'plan':18}{'best, s':>8}" + "".join(f"{column:>21}" for column in shown))
+    columns = [column for column in usual if column in ratios]
+    say(f"\n{'plan':18}{'best, s':>8}" + "".join(f"{column:>21}" for column in columns))
     for place, (name, seconds) in enumerate(best.items()):
-        cells = (f"{ratios[column][place]:21.2f}" for column in shown)
+        cells = (f"{shown(ratios[column][place]):>21}" for column in columns)
         say(f"{name:18}{seconds:8.0f}" + "".join(cells))
     return {
         "ratios": {
@@ -101,6 +101,11 @@ def table(rows: Mapping[str, Row], say: Callable[[str], None]) -> dict[str, obje
         },
         "makespans_s": {name: dict(row) for name, row in rows.items()},
     }
+
+
+def shown(ratio: float) -> str:
+    """Return a ratio for people."""
+    return "never" if ratio == inf else f"{ratio:.2f}"
 
 
 def all_rows(chosen: Sequence[Plan], seconds: float) -> Iterator[tuple[str, Row]]:

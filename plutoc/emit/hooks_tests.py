@@ -81,11 +81,12 @@ def fixtures_file(graph: Graph) -> str:
     return formatted(render("conftest.py", app=graph.name))
 
 
-def hooks_test(checked: Checked) -> str:
-    """Return the text of `tests/test_hooks.py`."""
+def hooks_test(checked: Checked, for_all: frozenset[str] = frozenset()) -> str:
+    """Return the text of `tests/test_hooks.py`; `for_all`: policies that choose for all that wait."""
     graph = checked.graph
     made = {action.name: _action(action, graph) for action in graph.actions}
     made |= {hook.name: _hook(hook, checked) for hook in graph.hooks}
+    made |= {hook.name: _for_all(hook) for hook in graph.hooks if hook.name in for_all}
     tests = [made[name] for name in in_order(graph)]
     modifiers = [hook.name for hook in graph.hooks if hook.kind is HookKind.MODIFIER]
     return formatted(
@@ -147,6 +148,21 @@ def _hook(hook: Hook, checked: Checked) -> HookTest:
             )
         case _:
             return _modifier(hook, checked)
+
+
+def _for_all(hook: Hook) -> HookTest:
+    made = "Waiting(mission=mission, trip=mission.current, drones=[drone])"
+    return HookTest(
+        name=hook.name,
+        fixtures=("kit", "mission", "drone"),
+        doc="It gives the drone to the trip that waits, or lets it wait.",
+        lines=[
+            f"waiting = [{made}]",
+            f"assignment = {_called(hook, 'waiting', '[drone]', '0.0')}",
+            "assert assignment is not None",
+        ],
+        uses=("Waiting",),
+    )
 
 
 def _evaluator(hook: Hook, graph: Graph) -> HookTest:

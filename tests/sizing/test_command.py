@@ -19,6 +19,7 @@ FLEET = """
 [motion]
 legs = "straight"
 [fleet]
+after_trip = "home"
 apart = 0
 [[drone]]
 id = "cf1"

@@ -42,13 +42,16 @@ class Mutant:
 
 def free_in_flight(patch: pytest.MonkeyPatch) -> None:
     """A drone is free as soon as its trip is over, and flies home free."""
-    really = Fleet.send_home
 
-    def send_home(self: Fleet, drone: Any) -> None:
-        really(self, drone)
-        self._become(drone, DroneStatus.FREE)
+    def freed(really: Callable[[Fleet, Any], None]) -> Callable[[Fleet, Any], None]:
+        def send(self: Fleet, drone: Any) -> None:
+            really(self, drone)
+            self._become(drone, DroneStatus.FREE)
 
-    patch.setattr(Fleet, "send_home", send_home)
+        return send
+
+    patch.setattr(Fleet, "send_home", freed(Fleet.send_home))
+    patch.setattr(Fleet, "dismiss", freed(Fleet.dismiss))
 
 
 def done_before_the_action(patch: pytest.MonkeyPatch) -> None:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from .policies import nearest
 
 if TYPE_CHECKING:
-    from .needs import Request
     from .policies import Policy
     from .queue import Queue
 
@@ -39,8 +38,11 @@ class Batch:
         waiting, one = queue.requests, queue.requests[place]
         if self._ages and queue.kernel.now - one.since >= OLD:
             queue.give(place, nearest(one.trip, queue.ready, one.able))
-            if not one.is_set:
-                self._keep_one(queue, one)
+            fit = [] if one.is_set else [drone for drone in queue.ready if one.ever(drone)]
+            if fit and all(wanted for _, wanted in queue.low.values()):
+                drone = max(fit, key=lambda drone: drone.battery_level)
+                queue.low[drone] = queue.charged(drone, one.level(drone)), 0.0  # for no other
+                queue.ready.remove(drone)
             return place
 
         def alike(place: int) -> bool:
@@ -55,11 +57,3 @@ class Batch:
             if queue.room:
                 queue.give(each, choice)
         return first
-
-    def _keep_one(self, queue: Queue, one: Request) -> None:
-        """Put the drone aside that has most for a trip, until it is charged for that, unless one is."""
-        fit = [drone for drone in queue.ready if one.ever(drone)]
-        if fit and all(wanted for _, wanted in queue.low.values()):
-            drone = max(fit, key=lambda drone: drone.battery_level)
-            queue.low[drone] = queue.charged(drone, one.level(drone)), 0.0  # for no other trip
-            queue.ready.remove(drone)

@@ -165,10 +165,12 @@ class Fleet:
         self._kernel.at(self._kernel.now + seconds, EventKind.CLOCK, self._key(drone), look)
 
     async def _stay(self, drone: Drone) -> None:
-        nothing = self._after_trip is AfterTrip.NEXT and not self.queue.waiting
-        if nothing and not drone.telemetry.landed:
-            await self._return(drone)
-            return
+        if self._after_trip is AfterTrip.NEXT and not drone.telemetry.landed:
+            if self.queue.waiting:  # the queue is served at the end of this instant
+                await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
+            if not self.queue.waiting:
+                await self._return(drone)
+                return
         try:
             await self._orders.ask("land", drone.id)
         except FlightFailed as error:
@@ -294,7 +296,5 @@ class Fleet:
 
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
-
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
-
 LONGEST = 500  # characters of the reason why a drone is lost

@@ -1,9 +1,8 @@
 """`least_makespan`: all waiting trips are planned ahead onto all drones, so that the last one ends soonest.
 
-Each drone has a route, kept from one serving to the next. A new trip is inserted where it costs least, and all stops are
-taken out and inserted anew while that makes it better (cheapest insertion, relocation). Costs are the
-squares of the routes' ends: so all are short, and the longest most of all. Seconds are estimates: a drone flies on
-when it is free. What its battery lacks for a route makes that longer by the time to charge it.
+Each drone has a route, kept from one serving to the next. New trips are inserted where they cost least, and stops of
+changed routes anew (cheapest insertion, relocation). Costs are the squares of the routes' ends, in seconds, which are
+estimates. What a battery lacks for a route makes it longer by the time to charge that.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from ..domain.model import Category, Drone, Point
 from ..domain.status import DroneStatus
+from ..time.kernel import FLEET, EventKind, Timer
 from .batch import Batch
 from .durations import busy, ends, pace
 from .needs import Request
@@ -23,9 +23,10 @@ if TYPE_CHECKING:
     from .queue import Queue
 
 MOST = 100
-"""Of more requests than these each drone flies the nearest: where so many are left nothing need be planned."""
+"""Of more requests those that came first are planned, so that no choice takes long."""
 PASSES = 4  # how often each route is improved at one serving, at most
 _PLANNED = 0.85  # of what is left in a battery: the way home is not planned
+_Until = dict[Drone, tuple[float, Point]]  # when a drone is to have flown, and where it is then
 _FREE, _BUSY = DroneStatus.FREE, DroneStatus.BUSY
 _FLIES = (_FREE, _BUSY, DroneStatus.RETURNING, DroneStatus.CHARGING)
 
@@ -36,29 +37,19 @@ def least_makespan(
 ) -> Sequence[Choice | None]:
     """Plan all waiting trips onto all drones, so that the last one ends soonest."""
     plan: _Plan = queue.plans.setdefault((least_makespan, requests[0].rank[0]), _Plan())
-    until: dict[Drone, tuple[float, Point]] = queue.plans.setdefault("until", {})
-    if len(requests) > MOST:
-        chosen = _nearest(requests, free)
-    else:
-        plan.renew(requests, free, queue, until)
-        chosen = plan.next(free)
+    until: _Until = queue.plans.setdefault("until", {})
+    plan.renew(requests[:MOST], free, queue)
+    chosen = plan.next(free)
+    if plan.again < inf:  # the other may be late, and nothing else happens
+        plan.timer.cancel()
+        when = queue.kernel.now + plan.again
+        plan.timer = queue.kernel.at(when, EventKind.CLOCK, FLEET, queue.changed)
     why = f"planned so that the last of {len(requests)} waiting trips ends soonest"
     given = dict[Request, "Choice"]()
     for drone, stop in chosen.items():
         until[drone] = queue.kernel.now + stop.seconds(drone.category, drone.location), stop.last
         given[stop.one] = drone, f"{why}: {drone.distance(stop.goal):.1f} m away"
     return [given.get(one) for one in requests]
-
-
-def _nearest(requests: Sequence[Request], free: Sequence[Drone]) -> dict[Drone, _Stop]:
-    """Return the nearest request for each drone."""
-    left, chosen = dict.fromkeys(requests), dict[Drone, _Stop]()
-    for drone in free:
-        by_way = sorted(left, key=lambda one: drone.distance(one.goal))
-        if (found := next((one for one in by_way if one.able(drone)), None)) is not None:
-            chosen[drone] = _Stop(found)
-            del left[found]
-    return chosen
 
 
 def _metres(here: Point, there: Point) -> float:
@@ -119,16 +110,13 @@ class _Plan:
 
     def __init__(self) -> None:
         self.routes: dict[Drone, _Route] = {}
+        self.again = inf  # in how many seconds a drone that waits for another may fly for it
+        self.timer = Timer(int)
 
-    def renew(
-        self,
-        requests: Sequence[Request],
-        free: Sequence[Drone],
-        queue: Queue,
-        until: dict[Drone, tuple[float, Point]],
-    ) -> None:
+    def renew(self, requests: Sequence[Request], free: Sequence[Drone], queue: Queue) -> None:
         """Bring the routes up to date: what waits no more is gone, and what is new is inserted."""
         now, new, before, self.routes = queue.kernel.now, set(requests), self.routes, {}
+        until, ready = queue.plans["until"], set(free)
         for drone in queue.drones:
             if drone.status in _FLIES:
                 self.routes[drone] = route = before.get(drone) or _Route(drone)
@@ -140,7 +128,7 @@ class _Plan:
                 route.stops = [stop for stop in route.stops if stop.one in new]
                 new.difference_update(stop.one for stop in route.stops)
                 # one that is late will take as long again as it is late by now, for all one knows
-                route.begin(0.0 if drone in free else abs(then - now), place)
+                route.begin(0.0 if drone in ready else abs(then - now), place)
         fresh = [_Stop(one) for one in requests if one in new]
         places = [route.place for route in self.routes.values()]
         fresh.sort(key=lambda stop: -min(_metres(place, stop.goal) for place in places))
@@ -181,7 +169,8 @@ class _Plan:
                     changed |= {route: None, other: None}
 
     def next(self, free: Sequence[Drone]) -> dict[Drone, _Stop]:
-        """Return the next stop of each drone; without one, one that it reaches before its own drone."""
+        """Return the next stop of each drone; without one, one that it has flown before its own drone."""
+        self.again = inf
         chosen, idle = dict[Drone, _Stop](), list[_Route]()
         for route in map(self.routes.__getitem__, free):
             able = (stop for stop in route.stops if stop.one.able(route.drone))
@@ -191,19 +180,19 @@ class _Plan:
             else:
                 idle.append(route)
                 route.waits = inf  # it must be charged for what it has
-        for route in idle if any(route.stops for route in self.routes.values()) else ():
-            sooner = sorted(self._sooner(route.drone), key=lambda found: found[:2])
-            for *_, other, stop in sooner:
-                if stop.one.able(route.drone):
-                    chosen[route.drone] = stop
-                    other.stops.remove(stop)
-                    break
+        for drone in [route.drone for route in idle]:
+            for mine, _, other, stop in sorted(self._flown_by(drone), key=lambda found: found[:2]):
+                if stop.one.able(drone):
+                    its = other.end(other.flown(other.stops[: other.stops.index(stop) + 1]))
+                    if mine < its or stop.one.hurries:
+                        chosen[drone] = stop
+                        other.stops.remove(stop)
+                        break
+                    self.again = min(self.again, mine)
         return chosen
 
-    def _sooner(self, drone: Drone) -> Iterator[tuple[float, int, _Route, _Stop]]:
-        """Yield the stops that a free drone would have flown before their own."""
-        for number, route in enumerate(self.routes.values()):
-            for place, stop in enumerate(route.stops):
-                mine = stop.seconds(drone.category, drone.location)
-                if mine < route.end(route.flown(route.stops[: place + 1])):
-                    yield mine, number, route, stop
+    def _flown_by(self, drone: Drone) -> Iterator[tuple[float, int, _Route, _Stop]]:
+        """Yield all stops, and in how many seconds a free drone would have flown each."""
+        for route in self.routes.values():
+            for stop in route.stops:
+                yield stop.seconds(drone.category, drone.location), -stop.one.rank[1], route, stop

@@ -19,8 +19,8 @@ class Request(Future["Drone"]):
     """A mission's request for a drone; as a future it is set to the drone that it gets."""
 
     __slots__ = (
-        *("_levels", "bounds", "goal", "mission", "policy", "rank", "reach", "since", "trip"),
-        *("trips", "why"),
+        *("_levels", "bounds", "goal", "hurries", "mission", "policy", "rank", "reach", "since"),
+        *("trip", "trips", "why"),
     )
 
     def __init__(
@@ -34,6 +34,7 @@ class Request(Future["Drone"]):
         self.policy, self.rank = policy, rank
         self.goal = trip.source or trip.target  # where its drone flies to first
         self.why = ""  # why its drone was chosen
+        self.hurries = False  # its mission waits for a limited time only
         self.reach = reach
         self.bounds = reach.bounds(trip.action, trip.target, not (trip.source or trip.item))
         self._levels: dict[tuple[Category, Point, Point], float] = {}

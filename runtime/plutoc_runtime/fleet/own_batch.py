@@ -40,6 +40,10 @@ class Waiting(NamedTuple, Generic[M, T]):
     deadline: float | None = None
     """When its mission is to have ended, in seconds since the app started."""
 
+    def __hash__(self) -> int:
+        """Hash by identity: its drones may be a list."""
+        return object.__hash__(self)
+
 
 class Again(NamedTuple):
     """An assignment after which a policy is asked again, even if nothing changes until then."""
@@ -65,7 +69,8 @@ def chooses_for_all(hook: Callable[..., object]) -> bool:
     """Return whether a policy is `(waiting, drones, now)`: it has three parameters without a default."""
     if type(hook) is FunctionType and not hasattr(hook, "__wrapped__"):
         return hook.__code__.co_argcount - len(hook.__defaults__ or ()) == 3
-    from inspect import signature  # it takes long to load, and few hooks are anything else
+    # it takes long to load, and few hooks are anything else
+    from inspect import signature
 
     try:
         given = signature(hook).parameters.values()

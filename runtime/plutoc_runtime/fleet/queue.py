@@ -228,7 +228,7 @@ class Queue:
     def _put_back_the_charged(self) -> None:
         """Make drones ready again that have charged, or that suffice for a new request."""
         now, usual = self.kernel.now, self.requests[0].rank[0] if self.requests else 0
-        urgent = [request for request in self._fresh if request.rank[0] > usual]
+        urgent = [one for one in self._fresh if one.hurries or one.rank[0] > usual]
         for drone, (until, wanted) in list(self.low.items()):
             if until <= now or any(request.able(drone) for request in urgent):
                 del self.low[drone]

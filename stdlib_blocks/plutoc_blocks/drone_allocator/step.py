@@ -48,6 +48,7 @@ def allocate_drone(
         if fail_late and mission.late:
             raise MissionFailed(f"it is late: its deadline has passed before trip {trip.name}")
         request = core.queue.enter(mission, policy, priority)
+        request.hurries = allocate_within is not None
         try:
             if fail_late and mission.deadline is not None:
                 yield from _in_time(run, request, mission.deadline, allocate_within)
