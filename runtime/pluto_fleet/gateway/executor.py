@@ -108,7 +108,8 @@ class Executor:
         beside = partial(self._to_beside, drone, job.stops) if may_be_beside(job) else None
         way = await self.travels(drone, partial(self._to, drone, job.stops), begins, beside=beside)
         if way.target is not None and self._hear is not None:
-            self._hear(is_beside(job, way.target, controls.telemetry[drone].location))
+            here = controls.telemetry[drone].location
+            self._hear(is_beside(drone, job.id, way.target, here))
         if job.action is None:
             return None
         job.begins()
