@@ -26,6 +26,7 @@ class AssignedJob:
         "_job",
         "_jobs",
         "action",
+        "beside",
         "boot",
         "drone",
         "failure",
@@ -42,6 +43,7 @@ class AssignedJob:
         self._job: Job | None = job
         self.listener: Report | None = listener
         self.id, self.drone, self.stops, self.action = job.id, job.drone, job.stops, job.action
+        self.beside = job.beside
         self.state = JobState.FLYING
         self.value: object = None
         self.failure = self.reason = ""
