@@ -32,6 +32,7 @@ RESERVED = frozenset(
             "mission",
         ),
         "partial",
+        *("bool", "float", "int", "str"),
         *("run", "status"),
         *(status.name for status in IN_GRAPH),
     }

@@ -14,6 +14,7 @@ from plutoc.emit.python import (
     builtins_alias,
     import_lines,
     names,
+    python_result,
     shadows,
 )
 from plutoc.emit.render import formatted, render
@@ -73,7 +74,8 @@ def _imports(graph: Graph, found: Iterable[Stub]) -> list[Import]:
     parameters = [p for action in graph.actions for p in action.parameters]
     parameters += [p for hook in graph.hooks for p in hook.parameters]
     types = [PYTHON[parameter.type] for parameter in parameters]
-    if shadows(taken, [*types, *("object" for _ in graph.actions)]):
+    types += [python_result(a.returns) if a.returns else "object" for a in graph.actions]
+    if shadows(taken, types):
         alias = builtins_alias(taken)
         imports.append(Import(module="builtins", alias=None if alias == "builtins" else alias))
     return imports

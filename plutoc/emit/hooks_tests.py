@@ -11,8 +11,9 @@ from plutoc.emit.python import Import, call, import_lines, items, literal, names
 from plutoc.emit.render import formatted, render
 from plutoc.emit.stubs import arriving_at, in_order
 from plutoc.emit.test_file import able
-from plutoc.graph.model import Action, Graph, Hook, Parameter
+from plutoc.graph.model import Action, AppField, Graph, Hook, Parameter
 from plutoc_runtime.domain.actions import BUILT_IN, MEASURE
+from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 
@@ -63,7 +64,16 @@ class HookTest:
 
 def testing_file(graph: Graph) -> str:
     """Return the text of `testing.py`, not yet formatted."""
-    return render("testing.py", app=graph.name, typed=bool(values_of(graph)))
+    given = ["APP", *(f"{on.value}={needed}" for on in Entity if (needed := _needed(graph, on)))]
+    typed = bool(values_of(graph))
+    return render("testing.py", app=graph.name, given=", ".join(given), typed=typed)
+
+
+def _needed(graph: Graph, on: Entity) -> str:
+    """Return a value for each field that must be filled in, by name; nothing, where there is none."""
+    fields = [one for one in graph.fields if one.on is on and one.default is None]
+    given = (f"{literal(one.name)}: {_sample(one)}" for one in fields)
+    return items(given, "{}") if fields else ""
 
 
 def fixtures_file(graph: Graph) -> str:
@@ -189,7 +199,7 @@ def _called(hook: Action | Hook, *given: str, by: str = "call") -> str:
     return call(f"kit.{by}", [f"hooks.{hook.name}", *given, *own])
 
 
-def _sample(parameter: Parameter) -> str:
+def _sample(parameter: Parameter | AppField) -> str:
     if parameter.default is not None:
         return literal(parameter.default)
     return _SAMPLES.get(parameter.type, "1.0")

@@ -23,6 +23,7 @@ from plutoc.emit.python import (
     shadows,
 )
 from plutoc.emit.render import render
+from plutoc.emit.stubs import has_policies
 from plutoc.graph import model as graph_model
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import AppField, Graph
@@ -65,7 +66,10 @@ def model_file(graph: Graph) -> str:
     return render(
         "model.py",
         app=graph.name,
-        imports=import_lines([*_imports(fields), *_imports_of_results(graph)]),
+        imports=import_lines(
+            [*_imports(fields, has_policies(graph)), *_imports_of_results(graph)]
+        ),
+        policies=has_policies(graph),
         result=_generic("Result", graph),
         results=_generic("Results", graph),
         mission=_attributes(fields, Entity.MISSION),
@@ -78,7 +82,7 @@ def model_file(graph: Graph) -> str:
     )
 
 
-def _imports(fields: tuple[Field, ...]) -> list[Import]:
+def _imports(fields: tuple[Field, ...], policies: bool) -> list[Import]:
     imports = [
         *names("dataclasses", "dataclass"),
         *names("._runtime.domain", "model"),
@@ -92,6 +96,8 @@ def _imports(fields: tuple[Field, ...]) -> list[Import]:
     if any(isinstance(field, OwnField) for field in fields):
         imports += names("._runtime.domain.own_fields", "OwnField")
         imports += names("._runtime.domain.quantities", "Type")
+    if policies:
+        imports += names("._runtime.fleet", "own_batch")
     taken = {field.name for field in fields}
     if shadows(taken, (python_type(field) for field in fields)):
         alias = builtins_alias(taken)

@@ -12,6 +12,8 @@ from plutoc_runtime.domain.status import Status
 
 EXPORTS = {
     "ActionFailed": "._runtime.domain.errors",
+    "Again": "._runtime.fleet.own_batch",
+    "Assignment": "._runtime.fleet.own_batch",
     "Category": "._runtime.domain.model",
     "Context": "._runtime.hooks.context",
     "Drone": "._runtime.domain.model",
@@ -25,9 +27,11 @@ EXPORTS = {
     "Status": "._runtime.domain.status",
     "Trip": ".model",
     "Verdict": "._runtime.hooks.context",
+    "Waiting": ".model",
 }
 """The types that hooks are written with, and where they are."""
 _FOR_HOOKS = ("Context", "LiveDrone", "Verdict")
+_FOR_POLICIES = ("Again", "Assignment", "Waiting")
 
 
 OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
@@ -58,9 +62,15 @@ def stubs(checked: Checked) -> list[Stub]:
 
 def exports_of(graph: Graph, *, former: bool) -> dict[str, str]:
     """Return what a package offers: without a hook, and without one left over, less is carried."""
-    if graph.hooks or graph.actions or former:
-        return EXPORTS
-    return {name: home for name, home in EXPORTS.items() if name not in _FOR_HOOKS}
+    less: tuple[str, ...] = () if graph.hooks or graph.actions or former else _FOR_HOOKS
+    if not has_policies(graph):
+        less += _FOR_POLICIES
+    return {name: home for name, home in EXPORTS.items() if name not in less}
+
+
+def has_policies(graph: Graph) -> bool:
+    """Return whether the app declares a policy."""
+    return any(hook.kind is HookKind.POLICY for hook in graph.hooks)
 
 
 def in_order(graph: Graph) -> list[str]:

@@ -227,11 +227,15 @@ _OTHER_TYPES = {
 _TYPES = tuple(kind.value for kind in Type)
 
 
-def unknown_type(source: Source, name: Name, known: Sequence[str] = _TYPES) -> Diagnostic:
+def unknown_type(
+    source: Source, name: Name, known: Sequence[str] = _TYPES, mended: str | None = None
+) -> Diagnostic:
     """A parameter, a field or a result of a type that the language does not know."""
     other = _OTHER_TYPES.get(name.text.lower())
     measured = UNITS[name.text][0].value if name.text in UNITS else None
-    if name.text.lower() in ("none", "nothing", "void", "null"):
+    if mended:
+        help = f"write {mended}"
+    elif name.text.lower() in ("none", "nothing", "void", "null"):
         help = "where there is nothing to say, leave the type out"
     elif measured:
         help = f"`{name.text}` is a unit: the type is `{measured}`"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph import errors as errors_of_names
 from plutoc.graph import field_errors as errors
 from plutoc.graph.hooks import declaration, parameters
 from plutoc.graph.model import AppField, Node
@@ -22,7 +23,7 @@ TAKEN: Mapping[Entity, frozenset[str]] = {
     Entity.MISSION: _attributes(Mission)
     | {"trip", "area", "list", "deadline", "window", "after", "late"}
     | {"key", "launched", "ended"},
-    Entity.TRIP: _attributes(Trip) | {"priority", "key"},
+    Entity.TRIP: _attributes(Trip) | {"priority", "key", "x", "y", "z"},
 }
 """What a mission or a trip has anyway: its attributes, what plans say of it, and the station."""
 
@@ -52,12 +53,13 @@ def _of(
     nodes: Sequence[Node],
     found: list[Diagnostic],
 ) -> Iterator[AppField]:
-    first: dict[str, Parameter] = {}
-    for one in written:
-        if first.setdefault(one.name.text, one) is one:
-            _check_free(on, source, one.name, nodes, found)
     role = f"a field of {on.value}s"
-    resolved = {one.name: one for one in reversed(parameters(source, written, role, found, role))}
+    first = {one.name.text: one for one in _once_each(source, written, role, found)}
+    for one in first.values():
+        _check_free(on, source, one.name, nodes, found)
+    resolved = {
+        one.name: one for one in parameters(source, list(first.values()), role, found, role)
+    }
     for name, one in first.items():
         if name in resolved:
             yield AppField(
@@ -68,6 +70,23 @@ def _of(
                 declaration=declaration(one),
                 span=one.name.span,
             )
+
+
+def _once_each(
+    source: Source, written: Sequence[Parameter], role: str, found: list[Diagnostic]
+) -> Iterator[Parameter]:
+    """Yield those that are not declared before; of a line that stands twice it is told once."""
+    first: dict[str, Parameter] = {}
+    told: set[tuple[int, int]] = set()
+    for one in written:
+        before = first.setdefault(one.name.text, one)
+        if before is one:
+            yield one
+            continue
+        lines = tuple(source.position(each.span.start)[0] for each in (before, one))
+        if lines not in told or lines[0] == lines[1]:
+            found.append(errors_of_names.declared_twice(source, one.name, role, before.name, role))
+        told.add((lines[0], lines[1]))
 
 
 def _check_free(

@@ -32,12 +32,13 @@ _ALREADY_THERE = {
 
 def action(source: Source, declared: tree.ActionDecl, found: list[Diagnostic]) -> Action:
     """Resolve an action of the app's own."""
-    repeat = declared.repeat
-    if repeat is not None and repeat.text not in REPEATS:
-        found.append(errors.unknown_repeat(source, repeat, REPEATS, RETURNS))
-    returns = declared.returns
+    repeat, returns = declared.repeat, declared.returns
     if returns is not None and returns.text not in RETURNS:
-        found.append(errors.unknown_type(source, returns, RETURNS))
+        swapped = repeat is not None and returns.text in REPEATS and repeat.text in RETURNS
+        meant = f"`-> {repeat.text} {returns.text}`" if repeat and swapped else None
+        found.append(errors.unknown_type(source, returns, RETURNS, meant))
+    elif repeat is not None and repeat.text not in REPEATS:  # of two wrong words one is told
+        found.append(errors.unknown_repeat(source, repeat, REPEATS, RETURNS))
     return Action(
         name=declared.name.text,
         parameters=parameters(source, declared.parameters, ACTION, found),

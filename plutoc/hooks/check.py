@@ -11,7 +11,7 @@ from plutoc.graph.names import near
 from plutoc.hooks import errors
 from plutoc.hooks.annotations import Scope
 from plutoc.hooks.awaits import forgotten
-from plutoc.hooks.expected import Expected, expected, probes
+from plutoc.hooks.expected import Expected, as_defined, expected, probes
 from plutoc.hooks.module import Function, Module, arg_span, name_span, read, waits, yields
 from plutoc.hooks.python import Unreadable, check_compiles
 from plutoc.hooks.returns import of_returns
@@ -85,6 +85,8 @@ def _of_definition(
     definition = module.defined.get(hook.name)
     if definition is None:
         return
+    if not isinstance(definition, ast.ClassDef):
+        hook = as_defined(hook, definition.args)
     at = errors.At(
         app=checked.graph.source, hooks=hooks, hook=hook, span=name_span(hooks, definition)
     )

@@ -317,4 +317,4 @@ def _first_difference(text: str, other: str) -> Span:
 
 
 def _article(word: str) -> str:
-    return "an" if word[0] in "aeiou" else "a"
+    return "an" if word[0].lower() in "aeiou" else "a"

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import ast
+from dataclasses import dataclass, replace
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
@@ -19,6 +20,8 @@ PASSED = {
     HookKind.POLICY: ("trip", "candidates"),
 }
 """What comes by position: the hook may call it as it likes."""
+FOR_ALL = ("waiting", "drones", "now")
+"""What a policy gets that has three parameters without a default: it chooses for all that wait."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,6 +62,23 @@ def expected(checked: Checked) -> tuple[Expected, ...]:
     hooks = [_expected(each, drafts[each.name]) for each in graph.hooks]
     hooks += [_expected(each, drafts[each.name]) for each in graph.actions]
     return tuple(sorted(hooks, key=lambda hook: hook.span.start))
+
+
+def as_defined(hook: Expected, arguments: ast.arguments) -> Expected:
+    """Return what is expected of a hook with these parameters: a policy has one of two shapes."""
+    by_place = [*arguments.posonlyargs, *arguments.args]
+    names = {arg.arg for arg in by_place[:2]}
+    needed = len(by_place) - len(arguments.defaults)
+    if hook.kind is not HookKind.POLICY or needed != 3 or names & set(hook.passed):
+        return hook
+    first_line = f"def {hook.name}{_SIGNATURE_FOR_ALL}:"
+    stub = f"{first_line}\n    return ()"
+    return replace(hook, passed=FOR_ALL, returns="Assignment", first_line=first_line, stub=stub)
+
+
+_SIGNATURE_FOR_ALL = (
+    "(waiting: Sequence[Waiting], drones: Sequence[Drone], now: float) -> Assignment"
+)
 
 
 def probes(checked: Checked) -> tuple[Expected, ...]:

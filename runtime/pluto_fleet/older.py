@@ -47,8 +47,9 @@ def provide(brain: str) -> None:
     results = import_module(f"{brain}.domain.model").ResultStore
     results.for_evaluator = import_module(f"{brain}.hooks.context").results_for
     import_module(f"{brain}.flow.run").Run.hook = import_module(f"{brain}.flow.asking").ask
+    batch = import_module(f"{brain}.fleet.batch")
     for name in ("Policy", "Choice", "Able", "Batch", "lowest"):
-        setattr(queue, name, getattr(policies, name))
+        setattr(queue, name, getattr(batch if name == "Batch" else policies, name))
 
 
 def loaded_again(brain: str) -> object:

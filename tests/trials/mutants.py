@@ -17,8 +17,9 @@ from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.fleet import Fleet
-from pluto_fleet.shared.flow import standing
+from pluto_fleet.shared.flow import restore, standing
 from pluto_fleet.shared.flow.engine import Engine
+from pluto_fleet.shared.flow.promises import Promises
 from pluto_fleet.shared.flow.restore import Restorer
 from pluto_fleet.shared.hooks import plain_data
 from pluto_fleet.trials.record import TrialRecord
@@ -174,6 +175,49 @@ def delays_go_on_while_stopped(patch: pytest.MonkeyPatch) -> None:
     patch.setattr("pluto_fleet.journal.fold.shift_delays", lambda *_: None)
 
 
+def nothing_is_waited_for(patch: pytest.MonkeyPatch) -> None:
+    """A mission begins at once, whatever was promised."""
+
+    async def at_once(self: Promises, mission: Any) -> None:
+        pass
+
+    patch.setattr(Promises, "_may_begin", at_once)
+
+
+def only_one_is_waited_for(patch: pytest.MonkeyPatch) -> None:
+    """A mission begins when one of those that it comes after has ended, well or not."""
+    really = Promises._under_way
+
+    def under_way(self: Promises, mission: Any) -> list[str]:
+        names = mission.promises.get("after", ())
+        ended = [name for name in names if self._states[name].ended]
+        return [] if ended else really(self, mission)
+
+    patch.setattr(Promises, "_under_way", under_way)
+
+
+def the_past_is_forgiven(patch: pytest.MonkeyPatch) -> None:
+    """A deadline that passed while nothing ran is forgotten."""
+    really = Promises.watch
+
+    def watch(self: Promises, mission: Any) -> None:
+        deadline = mission.promises.get("deadline")
+        if deadline is None or deadline >= self._core.kernel.now:
+            really(self, mission)
+
+    patch.setattr(Promises, "watch", watch)
+
+
+def it_is_late_again(patch: pytest.MonkeyPatch) -> None:
+    """A mission that goes on does not know that it was late."""
+    really = standing.update
+
+    def update(app: Any, mission: Any, record: Any) -> Any:
+        return really(app, mission, {**record, "late": False})
+
+    patch.setattr(restore, "update", update)
+
+
 def ends_are_forgotten(patch: pytest.MonkeyPatch) -> None:
     """A trip that was completed right before the crash is to be flown again."""
     really = Records.take
@@ -225,6 +269,18 @@ MUTANTS: Mapping[str, Mutant] = {
         plant=flies_before_it_is_on_record, says="before that was on record"
     ),
     "a Stop eats up delays": Mutant(plant=delays_go_on_while_stopped, says="waits until"),
+    "nothing that was promised is waited for": Mutant(
+        plant=nothing_is_waited_for, says="begins before its window|before it is"
+    ),
+    "one of several is enough for a barrier": Mutant(
+        plant=only_one_is_waited_for, says="before it is"
+    ),
+    "what passed in between is not late": Mutant(
+        plant=the_past_is_forgiven, says="and is not late"
+    ),
+    "a mission is late again after a crash": Mutant(
+        plant=it_is_late_again, says="is late once more"
+    ),
     "a completed trip is flown again": Mutant(plant=ends_are_forgotten, says="."),
 }
 """By what is wrong with each."""

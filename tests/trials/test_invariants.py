@@ -212,7 +212,9 @@ def miscounts(trace: list[dict[str, object]]) -> None:
 
 def forgets_a_trip(trace: list[dict[str, object]]) -> None:
     """The mission is completed without the trip that was added."""
-    del trace[place(trace, "trip.allocated", trip="look") : place(trace, "mission.ended", mission="ward")]
+    del trace[
+        place(trace, "trip.allocated", trip="look") : place(trace, "mission.ended", mission="ward")
+    ]
 
 
 def opens_too_soon(trace: list[dict[str, object]]) -> None:

@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from plutoc.block import HookKind
-from plutoc.emit.stubs import EXPORTS, stubs
+from plutoc.emit.stubs import exports_of, stubs
 from plutoc.graph.model import Graph
 from plutoc.hooks.expected import PASSED
 from plutoc.service.answers import Hover, Item, Sort
@@ -56,7 +56,7 @@ _Found = tuple[str, str, Sort, str, str]
 def _found(
     document: Document, text: str, start: int, place: Around, types: Mapping[str, HookType]
 ) -> Iterator[_Found]:
-    before = text[:start]
+    before, exports = text[:start], exports_of(document.graph, former=True)
     if before.endswith("."):
         chain = chain_before(text, start - 1)
         for member in place.members(place.type_of(chain)) if chain else ():
@@ -64,7 +64,7 @@ def _found(
             yield member.name, member.name, sort, member.signature or member.type, member.doc
         return
     if _IMPORTING.search(before):
-        for name in EXPORTS:
+        for name in exports:
             yield name, name, Sort.TYPE, "", types[name].doc if name in types else ""
         return
     if not place.name or _DEFINING.search(before):
@@ -80,7 +80,7 @@ def _found(
         kind = place.type_of(name)
         doc = types[kind].doc if kind in types else ""
         yield name, name, Sort.PARAMETER, annotation or kind, doc
-    for name in EXPORTS:
+    for name in exports:
         if name in types:
             yield name, name, Sort.TYPE, "", types[name].doc
 

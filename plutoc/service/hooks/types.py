@@ -65,6 +65,7 @@ def types_of(graph: Graph) -> Mapping[str, HookType]:
 @cache
 def _types() -> Mapping[str, HookType]:
     wanted = {name: home if "._runtime" in home else _MODEL for name, home in EXPORTS.items()}
+    wanted["Waiting"] = EXPORTS["Assignment"]
     found: dict[str, HookType] = {}
     for home in dict.fromkeys(wanted.values()):
         names = {name for name, place in wanted.items() if place == home}
@@ -77,6 +78,10 @@ def _types() -> Mapping[str, HookType]:
                 found[node.name] = _type(node)
     found["Point"] = HookType(
         name="Point", doc="A place: x, y and z in metres, in the map's frame."
+    )
+    found["Assignment"] = HookType(
+        name="Assignment",
+        doc="Which waiting trips get which drones: a mapping, or pairs; none: all wait. Or `Again`.",
     )
     return found
 

@@ -90,4 +90,11 @@ def as_numbers(value: object) -> object:
     text = value.strip()
     if is_number(text):
         return float(text) if set(text) & set(".eE") else int(text)
-    return _WORDS.get(text.lower(), value)
+    return _WORDS.get(text.lower(), str(value))
+
+
+def as_texts(value: object) -> object:
+    """Return a value with plain texts instead of a row's: what is read of it may be kept."""
+    if isinstance(value, list):
+        return [as_texts(element) for element in value]
+    return str(value) if isinstance(value, Filled) else value

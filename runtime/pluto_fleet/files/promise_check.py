@@ -12,7 +12,7 @@ from graphlib import TopologicalSorter
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from ..shared.domain.fields import time_of_day
+from ..shared.domain.fields import FieldType, time_of_day
 from ..shared.domain.model import AfterTrip
 from ..shared.domain.text import counted, duration, quoted
 from ..shared.fleet.reach import chain_of, flight_seconds, stops_of
@@ -54,12 +54,22 @@ def impossible(
         missions = [replace(m, promises=kept_from(m.promises, 0.0, of_day)) for m in missions]
     named = {one.name: one for one in missions}
     order = TopologicalSorter({one.name: one.promises.get("after", ()) for one in missions})
-    found, ends = list[str](), dict[str, float]()
+    found, ends = [*_in_vain(missions, app)], dict[str, float]()
     for name in order.static_order():
         if name in named:
             late = _too_late(named[name], flights[name], ends)
             found += [f"mission {quoted(name)}: {late}"] if late else []
     return found or [*_too_many(missions, flights, fleet)]
+
+
+def _in_vain(missions: Sequence[Mission[Any]], app: App) -> Iterator[str]:
+    """Yield why missions never begin that come after one without a last round."""
+    rounds = [one.name for one in app.fields if one.type is FieldType.ROUNDS]
+    endless = {one.name for one in missions if any(getattr(one, key) is True for key in rounds)}
+    for mission in missions:
+        for name in endless.intersection(mission.promises.get("after", ())):
+            who = f"mission {quoted(mission.name)}: it comes after {quoted(name)}"
+            yield f"{who}, which repeats until it is stopped, and never completes"
 
 
 def _too_late(

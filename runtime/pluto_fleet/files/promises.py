@@ -41,6 +41,8 @@ def window(value: object) -> tuple[float | str, float | str]:
     """Read when something may begin, and when it is to have ended."""
     if not isinstance(value, list) or len(value) != 2:
         raise ValueError('is not a list of two times, like ["08:00", "08:30"]')
+    if value[1] == "":
+        raise ValueError("needs an end as well, by which it is due")
     try:
         opens, closes = map(moment, value)
     except ValueError as error:

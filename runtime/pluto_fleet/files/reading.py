@@ -15,7 +15,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, number, percent
 from ..shared.domain.values import name, point, shown
 from . import errors
-from .filled import as_numbers, cells_in
+from .filled import as_numbers, as_texts, cells_in
 from .toml import TomlLines, TomlPath, line_of, places
 from .toml_advice import advice
 
@@ -239,7 +239,7 @@ class Table:
                 self.problem(self.document.words.missing(key), key)
             return None
         value, said = self.data[key], ""
-        for given in (value, as_numbers(value)) if self.row else (value,):
+        for given in (as_texts(value), as_numbers(value)) if self.row else (value,):
             try:
                 return convert(given)
             except ValueError as error:

@@ -102,7 +102,7 @@ class RecordedBrain:
         missions = []
         for name, record in in_order(self.records):
             mission = self.app.mission(name=name, trips=[], index=record["index"])
-            with suppress(KeyError, TypeError, ValueError):  # it may not fit the app any more
+            with suppress(KeyError, TypeError, ValueError, AttributeError):  # it may not fit the app any more
                 update(self.app, mission, record)
             mission.status, mission.reason = Status(record["status"]), record["reason"]
             if (waits := aside(record)) is not None:

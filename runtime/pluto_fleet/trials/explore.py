@@ -124,7 +124,7 @@ class _Generator:
 
     def fill(self, entity: Mission[Any] | Trip, kind: Entity) -> None:
         for one in self.app.fields:
-            if one.on is kind and self.rng.random() < 0.6:
+            if one.on is kind and (self.rng.random() < 0.6 or one.hint):
                 setattr(entity, one.name, self.value(one))
 
     def value(self, field: Field) -> object:
@@ -133,6 +133,12 @@ class _Generator:
                 return self.rng.choice(_TIMES)
             case FieldType.TIME_OF_DAY:
                 return 60.0 * self.rng.randrange(3)
+            case Type.BOOL:
+                return self.rng.random() < 0.5
+            case Type.TEXT:
+                return self.rng.choice(("", "a text", "é\n"))
+            case Type.FLOAT | Type.PERCENT:
+                return self.rng.random()
             case FieldType.EVALUATOR:
                 return self.rng.choice((None, *self.app.evaluators))
             case _:

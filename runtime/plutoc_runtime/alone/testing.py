@@ -14,7 +14,6 @@ from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar, cast, overload
 from ..domain.actions import Plain
 from ..domain.app import App
 from ..domain.errors import Failure, FlightFailed
-from ..domain.fields import Entity
 from ..domain.model import Drone, Mission, Point, Results, ResultStore, Trip
 from ..domain.status import RUNNING, Status
 from ..domain.trace import Trace
@@ -145,12 +144,13 @@ class _Instruments:
 class AppKit(Generic[M, T]):
     """What the hooks of an app are given, for one test."""
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: App, mission: Any = None, trip: Any = None) -> None:
+        self._mission, self._trip = mission or {}, trip or {}  # what must be filled in
         self._app, self._store, self.clock = app, ResultStore(), Clock()
         kernel = self.clock.kernel
         self._transitions = Transitions(kernel, Trace(kernel, ()), self._store)
         self._flights: dict[Mission[Any], Flight] = {}
-        self._none = app.mission(name="no mission", trips=[], **self._samples(Entity.MISSION))
+        self._none = app.mission(name="no mission", trips=[], **self._mission)
         self._drones, self._trips, self._missions = count(1), count(1), count(1)
 
     def drone(
@@ -183,7 +183,7 @@ class AppKit(Generic[M, T]):
             action=declared.name,
             target=target,
             parameters={**values, **(parameters or {})},
-            **{"name": f"trip {next(self._trips)}", **self._samples(Entity.TRIP), **fields},
+            **{"name": f"trip {next(self._trips)}", **self._trip, **fields},
         )
         trip.now = self.clock.kernel.time
         return cast("T", trip)
@@ -192,14 +192,8 @@ class AppKit(Generic[M, T]):
         """Return a mission with these trips, by default with one."""
         for index, trip in enumerate(trips):
             trip.index = index
-        name = f"mission {next(self._missions)}"
-        given = {"name": name, **self._samples(Entity.MISSION), **fields}
+        given = {"name": f"mission {next(self._missions)}", **self._mission, **fields}
         return cast("M", self._app.mission(trips=list(trips or (self.trip(),)), **given))
-
-    def _samples(self, on: Entity) -> dict[str, Any]:
-        """Return values of the fields that must be filled in."""
-        needed = (cast("Any", one) for one in self._app.fields if one.on is on and one.hint)
-        return {one.name: one.sample for one in needed}
 
     def launch(self, mission: M, drone: Drone | None = None) -> None:
         """Have a drone leave for the mission's next trip; one that flew before is put back."""

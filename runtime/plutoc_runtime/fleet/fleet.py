@@ -165,6 +165,10 @@ class Fleet:
         self._kernel.at(self._kernel.now + seconds, EventKind.CLOCK, self._key(drone), look)
 
     async def _stay(self, drone: Drone) -> None:
+        nothing = self._after_trip is AfterTrip.NEXT and not self.queue.waiting
+        if nothing and not drone.telemetry.landed:
+            await self._return(drone)
+            return
         try:
             await self._orders.ask("land", drone.id)
         except FlightFailed as error:

@@ -18,11 +18,12 @@ from ..hooks.calls import (
     fault_of,
     hook_name,
     trace_of,
+    wrong_own,
 )
 from ..hooks.plain_data import fields_of, trip_data
 
 if TYPE_CHECKING:
-    from ..domain.model import Mission
+    from ..domain.model import Mission, Trip
     from .mission import Core
     from .run import Run
 
@@ -61,8 +62,10 @@ async def ask(run: Run[Any], hook: Hook, *args: object) -> object:
     return answer
 
 
-def keep(core: Core, hook: Hook, mission: Mission[Any]) -> None:
+def keep(core: Core, hook: Hook, mission: Mission[Any], trip: Trip | None = None) -> None:
     """Record what a hook that was given this mission may have changed, if the run may be resumed."""
+    if trip is not None and (wrong := wrong_own(core.app.fields, Entity.TRIP, trip)):
+        raise HookFault(f"hook {hook_name(hook)} left a trip that cannot go on: its {wrong}")
     if core.on_record is not None:
         look(hook, partial(note_change, core), mission)
 

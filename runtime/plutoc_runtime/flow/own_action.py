@@ -75,7 +75,7 @@ class OwnAction(Action):
                 live.release()
         if fact:
             raise changed(hook, "trip", fact)
-        keep(core, hook, mission)
+        keep(core, hook, mission, trip)
         return value
 
     async def was_done(self, state: MissionState, flight: Flight) -> bool | None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Generator
+from collections.abc import Callable, Coroutine, Generator, Iterable
 from functools import partial
 from types import CoroutineType, coroutine
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from ..domain.awaited import all_awaited
 from ..domain.errors import ANY_ERROR, ActionFailed, Cancelled, HookFault
+from ..domain.fields import Entity, Field, FieldType, wrong_field
 from ..domain.guard import by_a_person, guarded, unless_by_a_person
 from ..domain.text import LONGEST_LOG, LONGEST_REASON, bounded, said, text_of
 from ..time.future import Future
@@ -129,6 +130,12 @@ def fault_of(hook: Hook, error: BaseException) -> HookFault:
     else:
         reason = f"hook {hook_name(hook)} raised {said(error)}"
     return HookFault(reason, trace_of(error))
+
+
+def wrong_own(fields: Iterable[Field], entity: Entity, of: object) -> str | None:
+    """Return what is wrong with a field of the app's own that a hook has set, or None."""
+    own = (field for field in fields if not isinstance(field.type, FieldType))
+    return wrong_field(own, entity, of, ())
 
 
 def hook_name(hook: Hook) -> str:

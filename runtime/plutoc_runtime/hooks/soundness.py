@@ -6,12 +6,13 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ParamSpec, cast
 
 from ..domain.errors import ANY_ERROR
-from ..domain.fields import number_of
+from ..domain.fields import Entity, number_of
 from ..domain.guard import unless_by_a_person
 from ..domain.model import Item
 from ..domain.status import Status, TripStatus
 from ..domain.text import class_of, said, shown
 from ..domain.values import parameters
+from .calls import wrong_own
 from .plain_data import keepable
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
     if (wrong := _wrong_facts(found, _TRIP)) is not None:
         return wrong
     wrong = _wrong_action(app, found) or _wrong_place(airspace, found)
+    wrong = wrong or wrong_own(app.fields, Entity.TRIP, found)
     return wrong and f"trip {found.name}: {wrong}"
 
 
@@ -58,7 +60,7 @@ def unsound_mission(app: App, mission: Mission[Any]) -> str | None:
     for trip in () if wrong else mission.completed_trips:
         if type(trip) is not kind:
             return f"completed_trips holds {class_of(trip)}"
-    return wrong
+    return wrong or wrong_own(app.fields, Entity.MISSION, mission)
 
 
 _TRIP: Mapping[str, tuple[type, ...]] = {

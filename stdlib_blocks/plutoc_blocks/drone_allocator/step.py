@@ -47,7 +47,7 @@ def allocate_drone(
     if drone is None:
         if fail_late and mission.late:
             raise MissionFailed(f"it is late: its deadline has passed before trip {trip.name}")
-        request = core.queue.enter(mission.trips, policy, priority)
+        request = core.queue.enter(mission, policy, priority)
         try:
             if fail_late and mission.deadline is not None:
                 yield from _in_time(run, request, mission.deadline, allocate_within)

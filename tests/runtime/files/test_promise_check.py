@@ -130,6 +130,14 @@ def test_each_reason_is_told() -> None:
     )
 
 
+def test_what_comes_after_an_endless_mission_never_begins() -> None:
+    before = apps.mission("a", apps.trip("1", 6.0), repeat=True)
+    mission = apps.mission("b", apps.trip("1", 6.0), index=1, promises={"after": ["a"]})
+    assert impossible([before, mission], APP, apps.fleet()) == [
+        'mission "b": it comes after "a", which repeats until it is stopped, and never completes'
+    ]
+
+
 def test_times_of_day_are_known_where_the_start_is() -> None:
     late, soon = {"deadline": "08:30"}, {"opens": "08:00", "deadline": "08:30"}
     fleet = replace(apps.fleet(), motion=CRAZYFLIE.exact)

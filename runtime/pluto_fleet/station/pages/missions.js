@@ -89,9 +89,36 @@ function missionList({ select, open, rename, remove, move }) {
   };
 }
 
+// What may be promised of a mission, whatever the app's graph is.
+const MOMENTS = [
+  { name: "opens", type: "text", label: "Begins at the soonest", hint: "such as 08:00 or 5 min" },
+  { name: "deadline", type: "text", label: "Due", hint: "such as 08:30 or 20 min" },
+];
+
+// Which of the other missions must have completed before, each with a box to tick.
+function afterField(change) {
+  const list = h("div", { class: "choices" });
+  const problem = h("p", { class: "problem", id: unique("after") });
+  const ticked = () => [...list.querySelectorAll("input:checked")].map(({ value }) => value);
+  const element = h("fieldset", { class: "field", "data-field": "after", "aria-describedby": problem.id },
+    h("legend", {}, "Begins after"), list, problem);
+  return {
+    element,
+    input: { focus: () => list.querySelector("input")?.focus() },
+    update(names, chosen = [], { problem: text = "", locked = false } = {}) {
+      element.disabled = locked;
+      keyed(list, [...new Set([...names, ...chosen])], (name) => name, (name) => {
+        const box = h("input", { type: "checkbox", value: name, onchange: () => change(ticked()) });
+        return h("label", { class: "check" }, box, name);
+      }, (label, name) => { label.firstChild.checked = chosen.includes(name); });
+      fill(shown(problem, text), icon("warning"), text);
+    },
+  };
+}
+
 function missionPanel({ app, plan, begun }, { open, copy, remove }) {
   let now = null;
-  const inputs = [{ name: "name", type: "text" }, ...app.fields.mission].map((field) =>
+  const inputs = [{ name: "name", type: "text" }, ...MOMENTS, ...app.fields.mission].map((field) =>
     [field.name, fieldFor(field, {
       evaluators: app.evaluators,
       change(value, typing, draft) {
@@ -102,6 +129,12 @@ function missionPanel({ app, plan, begun }, { open, copy, remove }) {
       },
     })]);
   const [[, title], ...others] = inputs;
+  const promised = others.splice(0, MOMENTS.length);
+  const after = afterField((names) =>
+    plan.edit(setField(now.key, "after", names.length ? names : undefined)));
+  const promises = h("details", { class: "promises" },
+    h("summary", {}, "When it begins, and when it is due"),
+    h("div", { class: "fields" }, promised.map(([, input]) => input.element), after.element));
   const trips = button("Set trips", () => open(now.key), "primary");
   title.element.addEventListener("keydown", (event) => {
     if (event.key !== "Enter") return;
@@ -119,13 +152,18 @@ function missionPanel({ app, plan, begun }, { open, copy, remove }) {
     element: h("section", { class: "card mission-panel stack", "aria-label": "Selected mission" },
       locked, title.element, said,
       others.length > 0 && h("div", { class: "fields" }, others.map(([, input]) => input.element)),
+      promises,
       h("div", { class: "row" }, count, h("span", { class: "spread" }, trips)), short,
       h("div", { class: "row" }, alone, button("Copy", () => copy(now.key)), bin)),
     rename() {
       title.input.focus();
       title.input.select();
     },
-    lead: (field) => (inputs.find(([name]) => name === field)?.[1].input ?? trips).focus(),
+    lead(field) {
+      promises.open ||= ["opens", "deadline", "after"].includes(field);
+      const its = field === "after" ? after : inputs.find(([name]) => name === field)?.[1];
+      (its?.input ?? trips).focus();
+    },
     update(mission, problems) {
       if (now?.key !== mission.key) title.input.blur();
       now = mission;
@@ -135,8 +173,12 @@ function missionPanel({ app, plan, begun }, { open, copy, remove }) {
           of.find(({ trip, field }) => !trip && field === name) ?? {};
         input.update(typed, { problem, locked: mission.launched });
       }
-      const told = of.filter(({ trip, field }) =>
-        mission.trips.length && (trip || !inputs.some(([name]) => name === field)));
+      const others = plan.missions.filter(({ key }) => key !== mission.key).map(({ name }) => name);
+      const { text: problem } = of.find(({ trip, field }) => !trip && field === "after") ?? {};
+      after.update(others, mission.after, { problem, locked: mission.launched });
+      if (mission.opens ?? mission.deadline ?? mission.after) promises.open = true;
+      const told = of.filter(({ trip, field }) => mission.trips.length
+        && (trip || (field !== "after" && !inputs.some(([name]) => name === field))));
       fill(said, told.slice(0, 5).map(({ trip, text }) => {
         const at = mission.trips.findIndex(({ key }) => key === trip) + 1;
         return h("p", { class: "problem" }, icon("warning"), at ? `Trip ${at}: ${text}` : text);

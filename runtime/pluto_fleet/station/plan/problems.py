@@ -27,6 +27,9 @@ _CALLED = {
     "target": "the place",
     "source": "the place where the flight begins",
     "mass": "the mass",
+    "deadline": "the time when it is due",
+    "window": "the time of its beginning",
+    "after": "the mission",
 }
 _MISSING = {
     "action": "has no action yet: choose one",
@@ -82,11 +85,11 @@ class PlanProblem:
 
 
 def read(
-    app: App, airspace: Airspace, missions: Sequence[Shape]
+    app: App, airspace: Airspace, missions: Sequence[Shape], known: Collection[str] = ()
 ) -> tuple[list[Mission[Any]], list[PlanProblem]]:
-    """Return the missions to fly, as far as valid, and their problems."""
+    """Return the missions to fly, as far as valid, and their problems; `known` are other missions."""
     document, names = _document(app, missions), own_names(app)
-    found = read_missions(document, app, airspace) if missions else []
+    found = read_missions(document, app, airspace, known) if missions else []
     problems = [
         _problem(missions, one.place, sentence(one.text, names), sentence(one.sentence, names))
         for one in document.problems
@@ -98,7 +101,9 @@ def unflyable_trips(
     app: App, fleet: FleetFile, airspace: Airspace, mission: Shape
 ) -> list[PlanProblem]:
     """Return the trips of a mission that no drone of the fleet can fly."""
-    missions, found = read(app, airspace, [mission])
+    after = mission.get("after")
+    known = [str(name) for name in after] if isinstance(after, list) else []
+    missions, found = read(app, airspace, [mission], known)
     if found:
         return []
     names, problems = own_names(app), []
@@ -123,7 +128,10 @@ def as_json(problem: PlanProblem) -> Shape:
 def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
     """Return a mission as in a missions file, without keys and empty values."""
     trips = [_bare(trip) for trip in trips_of(mission)]
-    return {**_bare(mission), "trip": trips}
+    bare = _bare(mission)
+    if (opens := bare.pop("opens", None)) is not None:
+        bare["window"] = [opens, bare.pop("deadline", "")]
+    return {**bare, "trip": trips}
 
 
 def _of_its_height(
@@ -164,6 +172,7 @@ def _problem(missions: Sequence[Shape], place: TomlPath, text: str, alone: str) 
             mission, trip = missions[i]["key"], trips_of(missions[i])[j]["key"]
         case ("mission", int(i), *inside):
             mission = missions[i]["key"]
+    inside = ["opens" if part == "window" else part for part in inside]
     return PlanProblem(
         mission=None if mission is None else str(mission),
         trip=None if trip is None else str(trip),

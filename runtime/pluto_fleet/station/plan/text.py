@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...files.missions import missions_of
 from ...files.missions_text import mission_table
+from ...files.promises import KEYS
 from ...files.reading import parsed
 from ...files.toml import toml_value
 from ...shared.domain.fields import Entity
@@ -52,7 +53,7 @@ def shapes_of(
 def _mission(app: App, mission: Shape) -> Iterator[str]:
     given = as_in_a_file(mission)
     yield "[[mission]]"
-    yield from _pairs(given, ("name", *fields_of(app, Entity.MISSION)), "")
+    yield from _pairs(given, ("name", *KEYS, *fields_of(app, Entity.MISSION)), "")
     yield ""
     for trip in trips_of({"trips": given["trip"]}):
         yield "  [[mission.trip]]"
@@ -69,8 +70,20 @@ def _pairs(given: Mapping[str, object], keys: Sequence[str], indent: str) -> Ite
 def _shape(given: Mapping[str, Any], number: str, app: App) -> Shape:
     return {
         "name": given.get("name", number),
+        **_promises(given),
         **_fields(given, app, Entity.MISSION),
         "trips": [_trip(trip, app) for trip in given["trip"]],
+    }
+
+
+def _promises(given: Mapping[str, Any]) -> Shape:
+    opens, deadline = given.get("window", (None, given.get("deadline")))
+    after = given.get("after", [])
+    found = {"opens": opens, "deadline": deadline}
+    shape = {key: _plain(value) for key, value in found.items() if value is not None}
+    return {
+        **shape,
+        **({"after": [after] if isinstance(after, str) else [*after]} if after else {}),
     }
 
 
