@@ -179,6 +179,19 @@ def test_allocate_within_counts_where_it_is_over_first() -> None:
     assert "had no drone within 10 s" in outcome.missions[1].reason
 
 
+@pytest.mark.parametrize(("name", "value"), [("deadline", "soon"), ("late", 1), ("promises", None)])
+def test_a_hook_that_spoils_a_promise_fails_its_own_mission(name: str, value: object) -> None:
+    def spoil(mission: apps.Mission, context: object) -> None:
+        if mission.name == "bad":
+            setattr(mission, name, value)
+
+    missions = long("bad", deadline=500.0), short("good", deadline=500.0)
+    app = apps.app(apps.flow(prepare=spoil, fail_late=True))
+    bad, good = apps.fly(app, *missions, on=TWO).missions
+    assert (bad.status, good.status) == (FAILED, Status.COMPLETED)
+    assert f"its {name} must be" in bad.reason
+
+
 # After any end
 
 

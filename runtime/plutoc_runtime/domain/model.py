@@ -211,7 +211,7 @@ class Mission(Generic[T]):
     index: int = 0
     """Its place in the missions file."""
     promises: Mapping[str, Any] = field(default_factory=dict, repr=False)
-    """What its plan promises; see `domain/promises.py`."""
+    """What its plan promises; see `flow/promises.py`."""
     deadline: float | None = field(default=None, init=False)
     """When it is to have ended, in seconds since the app started."""
     late: bool = field(default=False, init=False)
