@@ -303,14 +303,18 @@ class Traffic:
         free = [place for place in around if self._space.holder(place, section.drone) is None]
         for place in free or places_above(target, self.level, airspace):
             way = beside(place)
-            if way is None or cost(way) >= least:
-                continue  # at other heights it takes longer still
+            if way is None or cost(way) >= least or self._is_shut(section.drone, place):
+                continue  # so it is at other heights, where it takes longer still
             for one in sections(way, self.level, airspace):
                 seconds = cost(one)
                 is_free = seconds < least and self._space.blocker(one) is None
                 if is_free and not self._elder(one, since):
                     best, least = one, seconds
         return best
+
+    def _is_shut(self, drone: str, place: Point) -> bool:
+        """Whether a drone cannot be at a place now, for another is there, or will come by."""
+        return self._space.blocker(Section(drone, (place,), True, False)) is not None
 
     def _seconds(self, way: Section) -> float:
         """Return how long a way takes that ends in the air."""
