@@ -140,8 +140,10 @@ class RecordedBrain:
         """Record how a command went that a drone has flown: nothing follows from it."""
         if command["what"] == BESIDE:
             event = acts_beside(self.brain, command)
-            if event is not None:
-                self.take(event)
+            record = self.records.missions.get(event["mission"]) if event is not None else None
+            flight = None if record is None else record["flight"]
+            if event is not None and flight is not None and "beside" not in flight:
+                self.take(event)  # an earlier life of the app may have noted it
             return
         self.recorder.measure({"t": round(self.kernel.now, 6), "event": FLEW, **command})
 

@@ -15,7 +15,6 @@ from ..shared.fleet.reach import docked, flight_seconds
 from ..shared.time.kernel import FLEET, Kernel, Task
 from .envelope import Envelope
 from .ledger import CutMotors
-from .traffic.beside import may_be_beside
 from .traffic.way_back import way_back, way_from
 from .traffic.ways import Section
 
@@ -105,10 +104,11 @@ class Executor:
             seconds = flight_seconds(category, airspace, here, job.stops, job.seconds)
             controls.begins(drone, job, seconds)
 
-        beside = partial(self._to_beside, drone, job.stops) if may_be_beside(job) else None
+        beside = partial(self._to_beside, drone, job.stops) if job.beside else None
         way = await self.travels(drone, partial(self._to, drone, job.stops), begins, beside=beside)
         if way.target is not None and self._hear is not None:
-            self._hear(is_beside(job, way.target, controls.telemetry[drone].location))
+            here = controls.telemetry[drone].location
+            self._hear(is_beside(drone, job.id, way.target, here))
         if job.action is None:
             return None
         job.begins()

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..shared.domain.model import Point
-    from .job import Job
 
 Flown = Mapping[str, object]
 """A command that is over, such as a leg, with the seconds that it took."""
@@ -28,13 +27,13 @@ DONE, BROKEN_OFF, FAILED = "done", "broken off", "failed"
 """How it ended: the fact `ended`."""
 
 
-def is_beside(job: Job, target: Point, at: Point) -> Flown:
-    """Return that a job's action is done beside its target."""
+def is_beside(drone: str, flight: str, target: Point, at: Point) -> Flown:
+    """Return that the action of a flight is done beside its target."""
     place = [round(along, 3) for along in at]
     return {
-        "drone": job.drone,
+        "drone": drone,
         "what": BESIDE,
-        "flight": job.id,
+        "flight": flight,
         "target": list(target),
         "at": place,
     }

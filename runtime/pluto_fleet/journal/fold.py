@@ -182,6 +182,10 @@ def _begun(_: Records, record: Record, event: Fact) -> None:
     record["flight"]["begun"] = True
 
 
+def _beside(_: Records, record: Record, event: Fact) -> None:
+    record["flight"]["beside"] = event["at"]
+
+
 def _completed(records: Records, record: Record, event: Fact) -> None:
     trip = _take(record["todo"], event["trip"])
     _waits(trip)  # completed: nothing more is needed of it
@@ -398,6 +402,7 @@ _MISSION: dict[str, Callable[[Records, Record, Fact], None]] = {
     "trip.delayed": _delayed,
     "trip.allocated": _allocated,
     "trip.launched": _launched,
+    "trip.beside": _beside,
     "action.begun": _begun,
     "trip.completed": _completed,
     "trip.failed": _failed,

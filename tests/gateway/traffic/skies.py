@@ -105,7 +105,14 @@ class Sky:
         self.trips += 1
         over: Future[object] = Future()
         action = None if item is None else PICK
-        job = Task(id=f"{self.trips}", drone=drone, stops=stops, action=action, item=item)
+        job = Task(
+            id=f"{self.trips}",
+            drone=drone,
+            stops=stops,
+            action=action,
+            item=item,
+            beside=item is None,
+        )
         self.link.fly(job, over.set)
         return await over
 

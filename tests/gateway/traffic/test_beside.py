@@ -14,11 +14,13 @@ from hypothesis import strategies as st
 from pluto_fleet.gateway.traffic.beside import FURTHEST, places_above, places_around
 from pluto_fleet.gateway.traffic.legs import leg_problem
 from pluto_fleet.jobs.flown import BESIDE
+from pluto_fleet.shared.domain.actions import PHOTO
 from pluto_fleet.shared.domain.airspace import Airspace, Polygon
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
 from tests.gateway.flights import PILLS
+from tests.gateway.flights import Task as Job
 from tests.gateway.traffic.skies import Sky
 
 SPOT: Point = (5.0, 5.0, 1.2)
@@ -91,6 +93,28 @@ def test_it_is_told_where_an_action_is_done_beside_its_target() -> None:
         "at": place,
     }
     assert dist(place, SPOT) == pytest.approx(sky.apart, abs=1e-3)
+
+
+def test_a_brain_that_comes_while_the_action_is_done_is_told_once_more() -> None:
+    """The one before may have died before it could write it down."""
+    sky = Sky(DOCKS[:2])
+    assert sky.until(gives(sky, "cf1"), 60)
+    first = hears(sky)
+    photo = Job(id="M/A/0/1", drone="cf2", stops=(SPOT,), action=PHOTO, item=None, beside=True)
+    sky.link.fly(photo, lambda _: None)
+    while not first:
+        sky.advance(0.1)
+    sky.link = sky.gateway.link(2)
+    second, reported = hears(sky), list[object]()
+    there = sky.kernel.spawn(sky.link.fleet_report(), FLEET, "another brain asks for all")
+    assert sky.until(there, 1)
+    sky.link.attach("M/A/0/1", reported.append)
+    sky.advance(2)
+    assert second == first
+    assert len(reported) == 1
+    sky.link.forget("M/A/0/1")
+    sky.link.attach("M/A/0/1", reported.append)
+    assert second == first
 
 
 def test_who_only_passes_through_a_place_does_not_have_it() -> None:

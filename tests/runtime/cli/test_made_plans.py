@@ -175,3 +175,14 @@ def test_a_flight_writes_it_into_its_journal(spot: Path, tmp_path: Path, command
         if (event := json.loads(line))["event"] == "trip.beside"
     ]
     assert [one["mission"] for one in told] == ["2", "3"]
+
+
+def test_what_changes_something_is_done_just_there(spot: Path, command: Command) -> None:
+    """One after the other, as an action of the app's own that is not safe to do once more."""
+    own = SPOT.replace('"measure"', '"pollinate"') + 'parameters = { dose = "40 mg" }\n'
+    spot.write_text(own, encoding="utf-8")
+    fleet = spot.with_name("fleet.toml")
+    fleet.write_text(FLEET.replace("scout", "carrier"), encoding="utf-8")
+    found = json.loads(command("simulate", spot, "--json", "--no-spread")[1])
+    assert {one["status"] for one in found["missions"]} == {"COMPLETED"}
+    assert "beside" not in found

@@ -27,7 +27,10 @@ def test_the_examples_are_a_plan_that_loads(tmp_path: Path) -> None:
     assert len(flown[0].trips) == 4
     assert team.world is not None
     left_out = {field.name for field in fields(team) if not getattr(team, field.name)}
-    assert left_out == {"localization_options", "midnight"}  # the first goes with another localization
+    assert left_out == {
+        "localization_options",
+        "midnight",
+    }  # the first goes with another localization
     assert problems(flown, APP, team, team.airspace) == []
 
 

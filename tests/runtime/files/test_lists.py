@@ -286,7 +286,10 @@ def test_what_comes_after_another_may_be_named_by_a_column(tmp_path: Path) -> No
     found = load(tmp_path, plain + text, rows)
     assert [mission.promises.get("after") for mission in found] == [None, ["Bed 0"], ["Bed 1"]]
     [told] = said(tmp_path, plain + text, rows.replace("3,1", "3,9"))
-    assert 'mission "Bed 2" (beds.csv, row 3): comes after "Bed 9", and there is no such mission' in told
+    assert (
+        'mission "Bed 2" (beds.csv, row 3): comes after "Bed 9", and there is no such mission'
+        in told
+    )
     assert told.endswith('(column "before")')
 
 

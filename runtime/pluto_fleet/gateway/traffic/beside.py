@@ -10,11 +10,9 @@ from collections.abc import Iterator
 from math import atan2, cos, pi, sin
 from typing import TYPE_CHECKING
 
-from ...shared.domain.actions import PICK, RELEASE
 from .legs import leg_problem
 
 if TYPE_CHECKING:
-    from ...jobs.job import Job
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Point
 
@@ -26,11 +24,6 @@ _PLACES = 12
 """On each ring, but for the one that keeps drones just apart from one at the target: six have room there."""
 _ABOVE = 2
 """How many places there are above the target."""
-
-
-def may_be_beside(job: Job) -> bool:
-    """Whether a job's action may be done beside its target: an item lies, or is wanted, just there."""
-    return job.action not in (PICK, RELEASE)
 
 
 def best_angle(way: tuple[Point, ...], holders: tuple[Point, ...] | None) -> float:

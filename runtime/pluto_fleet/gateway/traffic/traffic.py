@@ -104,6 +104,8 @@ class Traffic:
         for way in self._ways(section, ways):
             if self._space.blocker(way) is None and not (self._waiting and self._elder(way, now)):
                 return self._give(way)
+        if beside is None or not self._is_taken(section, now):
+            return None
         way_beside = self._beside(section, now, beside)
         return None if way_beside is None else self._give(way_beside)
 
@@ -206,10 +208,10 @@ class Traffic:
 
     def _serve(self, wait: Wait) -> None:
         section = self._found(wait)
-        if section is None and wait.beside is not None:
-            section = self._beside(wait.section, wait.since, wait.beside)
-            if section is None and self._is_taken(wait.section, wait.since):
-                wait.due = self._kernel.now  # a place may become free at any time
+        beside = None if section is not None else wait.beside
+        if beside is not None and self._is_taken(wait.section, wait.since):
+            section = self._beside(wait.section, wait.since, beside)
+            wait.due = self._kernel.now  # a place may become free at any time
         if section is None and self._should_land(wait):
             ways = self.ground.ways_down(wait.section.drone)
             section = next((way for way in ways if self._space.blocker(way) is None), None)
@@ -282,13 +284,9 @@ class Traffic:
 
     # Beside a target
 
-    def _beside(self, section: Section, since: float, beside: Beside | None) -> Section | None:
-        """Return a free section to a place beside the target, if another drone has taken that."""
-        if (
-            beside is None
-            or not self._space.has_room(section)
-            or not self._is_taken(section, since)
-        ):
+    def _beside(self, section: Section, since: float, beside: Beside) -> Section | None:
+        """Return a free section to a place beside the target, which another drone has taken."""
+        if not self._space.has_room(section):
             return None
         target, airspace = section.points[-1], self._airspace
         best, least, soon = None, inf, self._seconds(section)
@@ -305,14 +303,18 @@ class Traffic:
         free = [place for place in around if self._space.holder(place, section.drone) is None]
         for place in free or places_above(target, self.level, airspace):
             way = beside(place)
-            if way is None or cost(way) >= least:
-                continue  # at other heights it takes longer still
+            if way is None or cost(way) >= least or self._is_shut(section.drone, place):
+                continue  # so it is at other heights, where it takes longer still
             for one in sections(way, self.level, airspace):
                 seconds = cost(one)
                 is_free = seconds < least and self._space.blocker(one) is None
                 if is_free and not self._elder(one, since):
                     best, least = one, seconds
         return best
+
+    def _is_shut(self, drone: str, place: Point) -> bool:
+        """Whether a drone cannot be at a place now, for another is there, or will come by."""
+        return self._space.blocker(Section(drone, (place,), True, False)) is not None
 
     def _seconds(self, way: Section) -> float:
         """Return how long a way takes that ends in the air."""
