@@ -53,7 +53,7 @@ def sized(
 
     tries = Tries(question, stock, rule, seed=seed, jobs=jobs, watch=watch)
     causes = Causes(tries)
-    search = Search(tries, able, causes.any_is_late_alone)
+    search = Search(tries, able, causes.late_alone)
     counts = search.smallest()
     tallies = sorted(tries.tallies.values(), key=lambda one: (one.drones, one.counts))
     if counts is None:
@@ -68,7 +68,7 @@ def sized(
     if question.swapped is None:
         quick = replace(question, app=swapping(question.app, SWAP))
         others = Tries(quick, stock, rule, seed=seed, jobs=jobs, watch=watch)
-        left = Search(others, able, lambda: True).reduced(counts, range(len(counts)))
+        left = Search(others, able, lambda _: True).reduced(counts, range(len(counts)))
         fewer = left if sum(left) < found.drones else None
     return Answer(
         question=question,

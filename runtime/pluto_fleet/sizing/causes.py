@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from statistics import median
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..shared.alone.faults import Faults
 from ..shared.domain.text import counted, duration, number, quoted
@@ -20,6 +20,7 @@ from .tries import Tally, flown
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
+    from .fleets import Counts
     from .question import Question
     from .tries import Tries
 
@@ -42,20 +43,34 @@ class Cause:
     text: str
 
 
+class _Late(NamedTuple):
+    """A mission that takes too long by itself, and that in words."""
+
+    mission: str
+    cause: Cause
+
+
 class Causes:
     """Looks for what keeps the largest fleets from succeeding."""
 
     def __init__(self, tries: Tries) -> None:
         self._tries, self._question = tries, tries.question
 
-    def any_is_late_alone(self) -> bool:
-        """Return whether a mission takes too long by itself: then no fleet can help."""
-        return self._late is not None
+    def late_alone(self, counts: Counts) -> bool:
+        """Return whether a mission takes too long that has a whole fleet for itself.
+
+        It is the one that does so with the largest: which drones it gets may depend on how many there are.
+        """
+        fleet = self._tries.stock.of(counts)
+        late = self._late
+        return (
+            fleet is not None and late is not None and bool(self._is_late(late.mission, fleet, 1))
+        )
 
     def found(self) -> list[Cause]:
         """Return the causes, the surest first."""
         if self._late is not None:
-            return [self._late]
+            return [self._late.cause]
         best = self._best
         causes = [*self._changes(best), *self._more(best)]
         return [*causes, *reasons(self._question, best)]
@@ -67,22 +82,27 @@ class Causes:
         return max(tallies, key=lambda one: (one.succeeded / len(one.runs), one.drones))
 
     @cached_property
-    def _late(self) -> Cause | None:
-        within, fleet = self._question.within, self._tries.stock.largest
-        if within is None:
-            return None
+    def _late(self) -> _Late | None:
+        fleet = self._tries.stock.largest
         for mission in sorted(self._question.missions, key=lambda one: -len(one.trips)):
-            alone = self._question.alone(mission.name)
-            runs = list(flown(alone, fleet, self._tries.seed, 0, _FEW, self._tries.jobs))
-            if all(run.success and run.seconds > within for run in runs):
-                took = duration(median(run.seconds for run in runs))
+            if took := self._is_late(mission.name, fleet, _FEW):
                 drones = counted(len(fleet.drones), "drone")
                 text = (
-                    f"mission {quoted(mission.name)} takes {took} even if it has {drones} for itself and"
-                    f" nothing goes wrong: more than {duration(within)}"
+                    f"mission {quoted(mission.name)} takes {duration(took)} even if it has {drones} for"
+                    f" itself and nothing goes wrong: more than {duration(self._question.within or 0.0)}"
                 )
-                return Cause("alone", text)
+                return _Late(mission.name, Cause("alone", text))
         return None
+
+    def _is_late(self, mission: str, fleet: FleetFile, runs: int) -> float:
+        """Return how long a mission alone takes, if that is always too long; else 0."""
+        within, tries = self._question.within, self._tries
+        if within is None:
+            return 0.0
+        alone = self._question.alone(mission)
+        flights = list(flown(alone, fleet, tries.seed, 0, runs, tries.jobs))
+        late = all(run.success and run.seconds > within for run in flights)
+        return median(run.seconds for run in flights) if late else 0.0
 
     def _changes(self, best: Tally) -> Iterator[Cause]:
         question, fleet = self._question, self._fleet(best)

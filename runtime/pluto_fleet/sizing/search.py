@@ -22,16 +22,19 @@ _LOOK_BELOW = 3
 
 _MOST_ORDERS = 6
 
+_MOST_SIZES = 64
+"""How many sizes are asked for where the largest is in vain."""
+
 
 class Search:
     """Looks for the smallest fleet among those of a stock."""
 
     def __init__(
-        self, tries: Tries, able: Callable[[Counts], bool], in_vain: Callable[[], bool]
+        self, tries: Tries, able: Callable[[Counts], bool], in_vain: Callable[[Counts], bool]
     ) -> None:
         """`able` says whether a fleet could do each trip if it had the time.
 
-        `in_vain` is asked when no fleet that was tried has held: whether none ever will.
+        `in_vain` is asked when no fleet that was tried has held: whether one surely will not.
         """
         self._tries, self._able, self._in_vain = tries, able, in_vain
         self._stock: Stock = tries.stock
@@ -93,8 +96,9 @@ class Search:
         for place in tried:
             if self._holds(all_[place]):
                 return all_[place]
-        if self._in_vain():
-            return None
+        if self._in_vain(all_[-1]):
+            rest = (one for one in all_[:_MOST_SIZES] if not self._in_vain(one))
+            return next(filter(self._holds, rest), None)
         best = max(range(len(tried)), key=lambda which: self._rate(all_[tried[which]]))
         near = tried[max(0, best - 1) : best + 2]
         between = (
