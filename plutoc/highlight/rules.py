@@ -60,7 +60,7 @@ RULES = (
     Rule(kind=Kind.CONSTANT, pattern=_one_of(("yes", "no", "safe", "once", "ask"))),
     Rule(kind=Kind.STATUS, pattern=_one_of(tuple(status.value for status in IN_GRAPH))),
     Rule(kind=Kind.TYPE, pattern=_one_of(tuple(kind.value for kind in Type))),
-    Rule(kind=Kind.TYPE, pattern=r"(?<=-> )photo\b(?=[ \t]*(?:$|#|safe|once|ask))"),
+    Rule(kind=Kind.TYPE, pattern=r"(?<=-> )\b(?:photo)\b(?=[ \t]*(?:$|#|safe|once|ask))"),
     Rule(kind=Kind.TERMINAL, pattern=_one_of((START, END))),
     Rule(kind=Kind.BLOCK, pattern=r"\b[A-Z]\w*"),
     Rule(kind=Kind.ARROW, pattern=r"->"),

@@ -338,18 +338,17 @@ def test_a_field_with_a_default_may_come_in_between(wards: Made, tmp_path: Path)
 
 def test_a_script_is_told_what_it_has_left_out(wards: Made) -> None:
     """Before anything flies."""
-    trip = wards.app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers="two")
-    mission = wards.app.mission(name="one", trips=[trip])
+    app: Any = wards.app
+    trip = app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers="two")
+    mission = app.mission(name="one", trips=[trip])
     with pytest.raises(BadInput) as refused:
-        api.simulate(wards.app, [mission])
+        api.simulate(app, [mission])
     assert str(refused.value).split("\n") == [
         'mission "one": has no patient',
         'mission "one", trip a: layers must be a whole number, not "two"',
     ]
-    trip = wards.app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers=2)
-    assert api.simulate(
-        wards.app, [wards.app.mission(name="one", trips=[trip], patient="A")]
-    ).completed
+    trip = app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers=2)
+    assert api.simulate(wards.app, [app.mission(name="one", trips=[trip], patient="A")]).completed
 
 
 def test_a_new_trip_with_a_wrong_value_is_told_of_its_evaluator(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ const FIELDS = /^(?:mission|trip)[ \t]+has\b(?=[ \t]+[A-Za-z])/;
 const CONSTANTS = /^(?:yes|no|safe|once|ask)\b/;
 const STATUS = /^(?:UNEXECUTED|RUNNING|STANDBY|COMPLETED|FAILED)\b/;
 const TYPES = /^(?:int|float|bool|text|mass|length|time|angle|percent|speed|temperature)\b/;
-const PHOTO = /^photo\b(?=[ \t]*(?:$|#|safe|once|ask))/;
+const PHOTO = /^(?:photo)\b(?=[ \t]*(?:$|#|safe|once|ask))/;
 const QUANTITY = /^-?\d+(?:\.\d+)?(?:[ \t]*(?:km\/h|m\/s|min|deg|rad|ms|mm|cm|km|mg|kg|s|h|m|g|%|C|K)(?!\w))?/;
 
 function token(stream) {
