@@ -85,6 +85,17 @@ def test_a_mission_waits_for_one_that_is_paused() -> None:
     assert living.times("mission.created")[-1] > 300.0
 
 
+@pytest.mark.parametrize("trips", [1, 2])
+def test_trips_of_a_mission_that_has_not_begun_may_be_skipped(trips: int) -> None:
+    b = apps.mission(
+        "b", *(apps.trip(f"{n}", 3.0) for n in range(trips)), promises={"after": ["a"]}
+    )
+    living = Living(enterable(), long("a"), b)
+    living.at(5.0, lambda: living.life.control.skip("b"))
+    assert living.run() == ["COMPLETED", "COMPLETED"]
+    assert len(living.named("trip.launched")) == trips  # one of the other mission, and all but one
+
+
 # Windows
 
 

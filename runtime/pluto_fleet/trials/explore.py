@@ -59,10 +59,10 @@ def promising(missions: Sequence[Mission[Any]], seed: int) -> tuple[Mission[Any]
     kept: list[Mission[Any]] = []
     for mission in missions:
         promises: dict[str, object] = {}
-        if rng.random() < 0.3:
+        if rng.random() < 0.4:
+            promises["deadline"] = rng.choice((10.0, 40.0, 40.5, 200.0, 2_000.0))
+        if "deadline" in promises and rng.random() < 0.5:
             promises["opens"] = rng.choice(_TIMES)
-        if rng.random() < 0.3:
-            promises["deadline"] = rng.choice((10.0, 40.0, 40.5, 200.0))
         if names and rng.random() < 0.3:
             promises["after"] = rng.sample(names, rng.randrange(1, 1 + len(names)))
         kept.append(replace(mission, promises=promises))
