@@ -37,8 +37,8 @@ BEFORE = "nearest, home"
 """The defaults until a table like this was measured."""
 TRIES = 7
 """How often the solver's shift is halved."""
-SHORTEST = 0.4
-"""The share of the best policy's makespan below which no shift is tried."""
+SHORTEST, LONGEST = 0.4, 1.5
+"""The shares of the best policy's makespan between which shifts are tried."""
 
 Row = Mapping[str, float]
 
@@ -65,7 +65,7 @@ def routed(apps: Apps, plan: Plan, known: float, seconds: float) -> float:
         if not whole and not several:
             break
         several = routing.has_missions_of_several
-        low, high = SHORTEST * known, 1.02 * known
+        low, high = SHORTEST * known, LONGEST * known
         shift = high
         for _ in range(TRIES):
             routes = routing.routes(shift, seconds, seed=0)
