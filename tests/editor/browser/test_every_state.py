@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.editor.browser.conftest import DESKTOP, LAPTOP, Edit, Scheme, Visit
 from tests.editor.browser.pictures import FOLDER, kept, picture
@@ -67,3 +68,13 @@ def test_the_docs_show_every_picture_and_no_other() -> None:
     page = (ROOT / "docs" / "graph-editor.md").read_text()
     assert set(re.findall(r"\(graph-editor/([a-z-]+)\.png\)", page)) == {*SHOWN, "large"}
     assert {path.stem for path in FOLDER.glob("*.png")} == {*SHOWN, "large"}
+
+
+def test_an_explanation_that_scrolls_is_reached_by_keyboard(edit: Edit, visit: Visit) -> None:
+    """One that the mouse has called up is read to its end without a mouse, too."""
+    page = visit(edit("alfalfa"))
+    page.locator(".cm-line", has_text="DroneAllocator").get_by_text("DroneAllocator").hover()
+    explanation = page.locator(".explanation")
+    expect(explanation).to_be_visible()
+    assert explanation.evaluate("element => element.scrollHeight > element.clientHeight")
+    assert violations(page) == []

@@ -47,7 +47,7 @@ const theme = EditorView.theme({
     backgroundColor: "var(--raised)", color: "var(--ink)", border: "1px solid var(--edge)", borderRadius: "8px",
     boxShadow: "var(--lifted)", fontFamily: "var(--font)", maxWidth: "440px",
   },
-  ".cm-tooltip-hover": { maxHeight: "320px", overflow: "auto" },
+  ".explanation": { maxHeight: "320px", overflow: "auto" },
   ".cm-tooltip.cm-tooltip-autocomplete > ul": { fontFamily: "var(--mono)", fontSize: "12.5px", maxHeight: "15em" },
   ".cm-tooltip.cm-tooltip-autocomplete > ul > li": { padding: "2px 8px" },
   ".cm-tooltip-autocomplete ul li[aria-selected]": { backgroundColor: "var(--accent) !important", color: "var(--on-accent) !important" },
@@ -103,7 +103,9 @@ function hover(file) {
   return hoverTooltip(async (_view, pos) => {
     const found = await ask("hover", { file, offset: pos }).catch(() => null);
     if (!found?.markdown) return null;
-    return { pos: found.from, end: found.to, above: true, create: () => ({ dom: markdown(found.markdown) }) };
+    // What scrolls must be reached by a keyboard, too.
+    const dom = h("div", { class: "explanation", tabIndex: 0 }, markdown(found.markdown));
+    return { pos: found.from, end: found.to, above: true, create: () => ({ dom }) };
   }, { hoverTime: 350 });
 }
 
