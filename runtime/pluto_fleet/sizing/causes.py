@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from statistics import median
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from ..shared.alone.faults import Faults
 from ..shared.domain.text import counted, duration, number, quoted
@@ -43,13 +43,6 @@ class Cause:
     text: str
 
 
-class _Late(NamedTuple):
-    """A mission that takes too long by itself, and that in words."""
-
-    mission: str
-    cause: Cause
-
-
 class Causes:
     """Looks for what keeps the largest fleets from succeeding."""
 
@@ -62,15 +55,14 @@ class Causes:
         It is the one that does so with the largest: which drones it gets may depend on how many there are.
         """
         fleet = self._tries.stock.of(counts)
-        late = self._late
-        return (
-            fleet is not None and late is not None and bool(self._is_late(late.mission, fleet, 1))
-        )
+        if fleet is None or self._late is None:
+            return False
+        return self._too_long(self._late[0], fleet, 1) is not None
 
     def found(self) -> list[Cause]:
         """Return the causes, the surest first."""
         if self._late is not None:
-            return [self._late.cause]
+            return [self._alone(*self._late)]
         best = self._best
         causes = [*self._changes(best), *self._more(best)]
         return [*causes, *reasons(self._question, best)]
@@ -82,27 +74,31 @@ class Causes:
         return max(tallies, key=lambda one: (one.succeeded / len(one.runs), one.drones))
 
     @cached_property
-    def _late(self) -> _Late | None:
-        fleet = self._tries.stock.largest
+    def _late(self) -> tuple[str, float] | None:
+        """The mission that takes too long with the largest fleet for itself, and how long; None: none does."""
         for mission in sorted(self._question.missions, key=lambda one: -len(one.trips)):
-            if took := self._is_late(mission.name, fleet, _FEW):
-                drones = counted(len(fleet.drones), "drone")
-                text = (
-                    f"mission {quoted(mission.name)} takes {duration(took)} even if it has {drones} for"
-                    f" itself and nothing goes wrong: more than {duration(self._question.within or 0.0)}"
-                )
-                return _Late(mission.name, Cause("alone", text))
+            took = self._too_long(mission.name, self._tries.stock.largest, _FEW)
+            if took is not None:
+                return mission.name, took
         return None
 
-    def _is_late(self, mission: str, fleet: FleetFile, runs: int) -> float:
-        """Return how long a mission alone takes, if that is always too long; else 0."""
+    def _too_long(self, mission: str, fleet: FleetFile, runs: int) -> float | None:
+        """Return how long a mission takes with this fleet for itself, if that is always too long."""
         within, tries = self._question.within, self._tries
         if within is None:
-            return 0.0
+            return None
         alone = self._question.alone(mission)
         flights = list(flown(alone, fleet, tries.seed, 0, runs, tries.jobs))
         late = all(run.success and run.seconds > within for run in flights)
-        return median(run.seconds for run in flights) if late else 0.0
+        return median(run.seconds for run in flights) if late else None
+
+    def _alone(self, mission: str, took: float) -> Cause:
+        drones = counted(len(self._tries.stock.largest.drones), "drone")
+        text = (
+            f"mission {quoted(mission)} takes {duration(took)} even if it has {drones} for itself and"
+            f" nothing goes wrong: more than {duration(self._question.within or 0.0)}"
+        )
+        return Cause("alone", text)
 
     def _changes(self, best: Tally) -> Iterator[Cause]:
         question, fleet = self._question, self._fleet(best)

@@ -7,6 +7,8 @@ import re
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -62,6 +64,16 @@ class Editor:
         """hooks.py on the disk."""
         path = self.file.with_name("hooks.py")
         return path.read_text(encoding="utf-8") if path.exists() else ""
+
+    @contextmanager
+    def answering_late(self) -> Iterator[None]:
+        """Let it answer nothing for a while, as on a busy machine."""
+        assert self._life is not None
+        self._life.send_signal(signal.SIGSTOP)
+        try:
+            yield
+        finally:
+            self._life.send_signal(signal.SIGCONT)
 
     def kill(self) -> None:
         """End it as a power cut does."""

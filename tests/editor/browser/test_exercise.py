@@ -114,6 +114,25 @@ def test_by_keyboard_alone(edit: Edit, visit: Visit) -> None:
     expect(page.locator(".run-missions .where").first).to_have_text("not begun")
 
 
+def test_what_is_typed_ahead_counts(edit: Edit, visit: Visit) -> None:
+    editor = edit("drugs_distribution")
+    page = visit(editor)
+    keys = page.keyboard
+    keys.press("F6")
+    keys.press("ArrowDown")
+    expect(block(page, "create")).to_be_focused()
+    keys.press("e")
+    keys.press("Delete")
+    expect(page.locator('.chip[data-edge="create>allocate?"]')).to_have_count(0)
+    block(page, "create").focus()
+    with editor.answering_late():
+        keys.press("c")
+        keys.type("alloc")
+        keys.press("Enter")
+    expect(page.locator('.chip[data-edge="create>allocate?"]')).to_be_visible()
+    expect(page.get_by_role("combobox", name="Connect create to")).to_be_hidden()
+
+
 def test_the_arrow_keys_lead_along_edges(edit: Edit, visit: Visit) -> None:
     page = visit(edit("drugs_distribution"))
     keys = page.keyboard

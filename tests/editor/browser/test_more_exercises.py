@@ -167,6 +167,7 @@ def test_its_hook_is_written_in_the_editor(edit: Edit, visit: Visit) -> None:
     complete(page, "if not await context.trip_", "trip_ended")
     complete(page, "(mission.curr", "current")
     page.keyboard.insert_text(", within=limit):")
+    page.wait_for_timeout(500)  # a list that opened now would take the Enter
     page.keyboard.press("Enter")  # goes in by itself
     complete(page, "return Status.FAI", "FAILED")
     wanted = """\

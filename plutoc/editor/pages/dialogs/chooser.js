@@ -3,7 +3,8 @@
 import { h, put, set, unique } from "../dom.js";
 import { showDialog } from "./dialog.js";
 
-// options: [{ id, label, detail, why }]: what has a `why` cannot be chosen, and says so.
+// options: [{ id, label, detail, why }], or a promise of them: what is typed until then counts.
+// What has a `why` cannot be chosen, and says so.
 // → the chosen id, or null
 export function choose({ title, options, at = null, placeholder = "Type to find", above = null }) {
   const listId = unique("list");
@@ -15,17 +16,24 @@ export function choose({ title, options, at = null, placeholder = "Type to find"
   const list = h("ul", { class: "choices", role: "listbox", id: listId, "aria-label": title });
   const why = h("p", { class: "hint choice-why", role: "status" });
   let [shown, at_, chosen] = [[], 0, null];
-  let all = options;
+  let all = [];
+  let [waits, entered, failed] = [true, false, null];
   const { closed, close } = showDialog({
     title, kind: "chooser", at, focus: input, content: [above?.(renew), input, list, why],
   });
-  draw();
+  if (Array.isArray(options)) renew(options);
+  else options.then(renew, (error) => { failed = error; close(); });
   input.focus();
-  return closed.then(() => chosen);
+  return closed.then(() => {
+    if (failed) throw failed;
+    return chosen;
+  });
 
   function renew(next) {
-    all = next;
+    [all, waits] = [next, false];
     draw();
+    if (entered) take(at_);
+    entered = false;
   }
 
   function rank({ id, label }, words) {
@@ -53,7 +61,7 @@ export function choose({ title, options, at = null, placeholder = "Type to find"
     [...list.children].forEach((item, j) => set(item, "aria-selected", String(i === j)));
     set(input, "aria-activedescendant", shown.length ? `${listId}-${i}` : null);
     list.children[i]?.scrollIntoView({ block: "nearest" });
-    put(why, shown.length ? shown[i].why ?? "" : "Nothing fits.");
+    put(why, shown.length ? shown[i].why ?? "" : waits ? "" : "Nothing fits.");
   }
 
   function take(i) {
@@ -70,7 +78,8 @@ export function choose({ title, options, at = null, placeholder = "Type to find"
       mark((at_ + by + shown.length) % shown.length);
     } else if (event.key === "Enter") {
       event.preventDefault();
-      take(at_);
+      if (waits) entered = true;
+      else take(at_);
     }
   }
 }

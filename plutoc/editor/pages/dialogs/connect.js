@@ -19,9 +19,8 @@ export async function connectFrom(source, at) {
   const node = app.nodes.get(source);
   const open = free(source);
   let when = [];
-  const options = await targetOptions(source, when);
   const target = await choose({
-    title: `Connect ${source} to`, at, options, placeholder: "Type a block’s name",
+    title: `Connect ${source} to`, at, options: targetOptions(source, when), placeholder: "Type a block’s name",
     above: (renew) => source !== START && node.emits.length > 1 && statuses(renew),
   });
   if (!target) return;

@@ -71,7 +71,8 @@ function content(edge) {
 }
 
 async function lead(edge) {
-  const options = await targetOptions(edge.source, edge.when);
-  const target = await choose({ title: `Lead the edge from ${edge.source} to`, options });
+  const target = await choose({
+    title: `Lead the edge from ${edge.source} to`, options: targetOptions(edge.source, edge.when),
+  });
   if (target && keyOf({ ...edge, target }) !== keyOf(edge)) redirect(edge, { target });
 }

@@ -76,9 +76,11 @@ const KINDS = { block: "variable", kind: "class", status: "constant", hook: "fun
 
 // What is legal here, as the server says, which must have the same text first.
 function completion(file, sync) {
+  // In Python a line ends with most of these, and Enter must begin the next one.
+  const opening = file === "hooks" ? /\.$/ : /[.:=>,(\[]\s?$|\bwhen\s$/;
   return async (context) => {
     const before = context.matchBefore(/[\w.]*$/);
-    const opens = context.matchBefore(/[.:=>,(\[]\s?$|\bwhen\s$/);
+    const opens = context.matchBefore(opening);
     if (!context.explicit && !before?.text && !opens) return null;
     await sync().atRest();
     if (context.aborted) return null;
