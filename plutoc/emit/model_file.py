@@ -66,9 +66,7 @@ def model_file(graph: Graph) -> str:
     return render(
         "model.py",
         app=graph.name,
-        imports=import_lines(
-            [*_imports(fields, has_policies(graph)), *_imports_of_results(graph)]
-        ),
+        imports=import_lines([*_imports(fields, has_policies(graph)), *_imports_of_results(graph)]),
         policies=has_policies(graph),
         result=_generic("Result", graph),
         results=_generic("Results", graph),

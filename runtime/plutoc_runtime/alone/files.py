@@ -38,6 +38,10 @@ _NEXT = rf"(?:[ \t]*\.[ \t]*{_PART})"
 _KEY = re.compile(rf"{_PART}({_NEXT}{{{MOST}}})?{_NEXT}*+")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
+_REAL = "navigation:any? localization:any?"  # what only real flights need
+# Keys of a mission that the library reads, and what it needs for them.
+_LIBRARY = {"deadline": "", "window": "", "after": "", "each": "", "area": "[areas]"}
+
 USUAL = "texts, and numbers with a unit, stand in quotes, lists in [ ], and each key stands once"
 _UNREADABLE: dict[type[Exception], str] = {
     FileNotFoundError: "there is no such file",
@@ -50,16 +54,13 @@ _UNREADABLE: dict[type[Exception], str] = {
 def load_fleet(path: Path, app: App) -> FleetData:
     """Return a fleet file's data, without what only real flights need."""
     top, who = parsed(path, text_of(path)), f"{path}"
-    schema = (
-        "map:any? fleet:any? motion:any? drone:any? navigation:any? localization:any? world:any?"
-    )
-    _table(top, who, schema)
+    _table(top, who, f"map:any? fleet:any? motion:any? drone:any? world:any? {_REAL}")
     keys = " ".join(f"{key}:{key}?" for key in values.MOTION)
     airspace = _airspace(top.get("map", {}), f"{who}: map")
-    schema = "apart:any? after_trip:after_trip? max_airborne:count? navigation:any?"
+    schema = f"apart:any? after_trip:after_trip? max_airborne:count? {_REAL}"
     return FleetData(
         airspace=airspace,
-        **_table(top.get("fleet", {}), f"{who}: fleet", f"{schema} localization:any?"),
+        **_table(top.get("fleet", {}), f"{who}: fleet", schema),
         motion=motion_of(_table(top.get("motion", {}), f"{who}: motion", keys, **values.MOTION)),
         drones=[*_drones(top, who, app, airspace)],
         world=_world(top["world"], f"{who}: world") if "world" in top else None,
@@ -70,15 +71,14 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
     """Return the missions of a file, each of the app's own class."""
     top, missions = parsed(path, text_of(path)), list[Any]()
     _table(top, f"{path}", "mission:any?")
-    fields, kinds, hints = _fields(app, Entity.MISSION)
-    kinds |= {"new": _new("mission"), "area": _library("area", "[areas]")}
-    kinds |= {key: _library(key) for key in ("each", "deadline", "window", "after")}
+    schema, kinds, hints = _fields(app, Entity.MISSION, "name:new trip:any?")
+    kinds["new"] = values.new_name("mission")
     for index, entry in enumerate(_tables(top, f"{path}", "mission", needed=True)):
         name = entry.get("name")
         who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
-        data = {"name": f"{index + 1}", **entry}
-        schema = "name:new area:area? each:each? trip:any? deadline:deadline? window:window?"
-        given = _table(data, who, f"{schema} after:after? {fields}", hints, **kinds)
+        if key := next(filter(entry.__contains__, _LIBRARY), ""):
+            raise BadInput(f"{who}: {needs_library(key, _LIBRARY[key])}")
+        given = _table({"name": f"{index + 1}", **entry}, who, schema, hints, **kinds)
         trips = _trips(entry, who, app, airspace)
         missions.append(app.mission(**given, index=index, trips=trips))
     return missions
@@ -146,7 +146,7 @@ def _airspace(data: Any, who: str) -> Airspace:
 def _drones(top: dict[str, Any], path: str, app: App, airspace: Airspace) -> Iterator[DroneData]:
     homes, names = Cells(), [category.name for category in app.categories]
     kinds = {"category": _one_of("category", names), "home": _point("home", airspace, 0.0)}
-    kinds["new"] = _new("drone")
+    kinds["new"] = values.new_name("drone")
     optional = "?" * (len(names) == 1)  # the only category is the default
     schema = f"id:new category:category{optional} home:home uri:any? navigation:any? options:any?"
     for place, entry in enumerate(_tables(top, path, "drone", needed=True), 1):
@@ -172,13 +172,13 @@ def _world(data: Any, who: str) -> WorldData:
 
 
 def _trips(mission: dict[str, Any], who: str, app: App, airspace: Airspace) -> list[Trip]:
-    trips, (fields, kinds, hints) = list[Any](), _fields(app, Entity.TRIP)
-    schema = "name:new action:action target:target source:source? parameters:any? item:any?"
+    trips, schema = list[Any](), "name:new action:action target:target source:source?"
+    schema, kinds, hints = _fields(app, Entity.TRIP, f"{schema} parameters:any? item:any?")
     kinds |= {key: _point(key, airspace, airspace.cruise_height) for key in ("target", "source")}
-    kinds |= {"new": _new("trip"), "action": _one_of("action", app.actions)}
+    kinds |= {"new": values.new_name("trip"), "action": _one_of("action", app.actions)}
     for index, entry in enumerate(_tables(mission, who, "mission.trip", needed=True)):
         called, data = f"{who}, trip {index + 1}", {"name": f"{index + 1}", **entry}
-        given = _table(data, called, f"{schema} {fields}", hints, **kinds)
+        given = _table(data, called, schema, hints, **kinds)
         action = app.actions[given["action"]]
         given["parameters"] = _parameters(entry.get("parameters", {}), called, action)
         given["item"] = _item(entry.get("item"), called, action.name)
@@ -208,13 +208,14 @@ def _item(data: Any, who: str, action: str) -> Item | None:
     return Item(**given) if given else None
 
 
-def _fields(app: App, on: Entity) -> tuple[str, dict[str, Read], dict[str, str]]:
-    """Return the schema of the app's fields, how they are read, and what to write where needed."""
+def _fields(app: App, on: Entity, schema: str) -> tuple[str, dict[str, Read], dict[str, str]]:
+    """Return a schema with the app's fields, how they are read, and what to write where needed."""
     evaluator = _one_of("evaluator", app.evaluators, values.name)
     readers = {**values.FIELD, FieldType.EVALUATOR: evaluator}
     kinds = {one.name: readers[one.type] for one in app.fields if one.on is on}
     hints = {one.name: one.hint for one in app.fields if one.on is on}
-    return " ".join(f"{name}:{name}{'?' * (not hints[name])}" for name in kinds), kinds, hints
+    fields = (f"{name}:{name}{'' if hint else '?'}" for name, hint in hints.items())
+    return " ".join([schema, *fields]), kinds, hints
 
 
 def _point(key: str, airspace: Airspace, height: float) -> Read:
@@ -236,27 +237,6 @@ def _one_of(what: str, names: Collection[str], read: Read = values.text) -> Read
         return name
 
     return read_one
-
-
-def _library(what: str, extra: str = "") -> Read:
-    def refuse(_: object) -> object:
-        raise BadInput(needs_library(what, extra))
-
-    return refuse
-
-
-def _new(what: str) -> Read:
-    """Return a reader of names that must differ."""
-    names = set[str]()
-
-    def read(value: object) -> str:
-        name: str = values.name(value)
-        if name in names:
-            raise BadInput(f"there is another {what} {quoted(name)}: names must differ")
-        names.add(name)
-        return name
-
-    return read
 
 
 # The text of a file, and the TOML in it

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from .actions import PICK, RELEASE
 from .airspace import covers_ground
+from .errors import BadInput
 from .fields import FieldType, time_of_day
 from .model import AfterTrip
 from .quantities import QUANTITIES, UNITS, Type, parse_quantity, units_of
@@ -218,6 +219,20 @@ HOME_SIZE = 0.1  # the diameter of a drone on the ground, in metres
 
 Cells = dict[tuple[int, int], list[tuple["Point", str]]]
 """Homes and their drones, by squares of the map with sides of that length."""
+
+
+def new_name(what: str) -> Read:
+    """Return a reader of names that must differ."""
+    names = set[str]()
+
+    def read(value: object) -> str:
+        found: str = name(value)
+        if found in names:
+            raise BadInput(f"there is another {what} {quoted(found)}: names must differ")
+        names.add(found)
+        return found
+
+    return read
 
 
 def crowded(home: Point, drone: str, homes: Cells) -> str | None:
