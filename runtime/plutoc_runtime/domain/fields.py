@@ -62,8 +62,10 @@ def wrong_field(
 ) -> str | None:
     """Return what is wrong with a field that a hook has set, or None."""
     for field in fields:
+        if field.on is not entity:
+            continue
         value = getattr(of, field.name, None)
-        if field.on is entity and (wanted := field.wanted(value, evaluators)):
+        if wanted := field.wanted(value, evaluators):
             there = bounded(shown(value), _LONGEST)
             return f"{field.name} must be {wanted}, and a hook has put {there} there"
     return None
