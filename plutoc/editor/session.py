@@ -96,6 +96,8 @@ class Session:
         self._opened = self.files.history.app
         self._package_text: str | None = None
         """What the package was made of, where that is known."""
+        self._writes_package = False
+        """While it does, a hooks.py that appears in there is no change of others."""
         self._changes: Mapping[str, Callable[[Client, Asked], Data]] = {
             "edit": self._edit,
             "type": self._type,
@@ -306,7 +308,11 @@ class Session:
         return await asyncio.shield(self._write_package(app))
 
     async def _write_package(self, app: Snapshot) -> Data:
-        answer = await asyncio.to_thread(compiling.written, app)
+        self._writes_package = True
+        try:
+            answer = await asyncio.to_thread(compiling.written, app)
+        finally:
+            self._writes_package = False
         self._package_text = app.text
         self._done(self.files.after_compile())
         return answer
@@ -381,6 +387,8 @@ class Session:
 
     def look(self) -> None:
         """Take in what others have changed, and tell it."""
+        if self._writes_package:
+            return
         for file, what, made in list(self.files.look()):
             self._tell_changes(made)
             if what == "conflict":

@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from plutoc.cli import main
-from plutoc.editor.compiling import Snapshot
+from plutoc.editor.compiling import Snapshot, written
 from plutoc.editor.running import run
 from plutoc.editor.sample_plan import sample_plan
 from plutoc.editor.session import Session
@@ -200,6 +200,26 @@ async def test_a_package_is_written_to_its_end_when_its_page_is_closed(tmp_path:
             await asyncio.sleep(0.01)
     shown = await staying.ask("compile", write=False)
     assert (shown["known"], {one["status"] for one in shown["files"]}) == (True, {"same"})
+
+
+async def test_what_compile_writes_itself_was_not_changed_elsewhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = Session(app_in(tmp_path, HOOKED))
+    page = Page(session)
+
+    def looked_at_meanwhile(app: Snapshot) -> dict[str, object]:
+        answer = written(app)
+        session.look()
+        return answer
+
+    monkeypatch.setattr("plutoc.editor.compiling.written", looked_at_meanwhile)
+    await page.ask("compile", write=True)
+    session.look()
+    await page.ask("ports", source="start", when=[])  # all that was told before is here then
+    assert [one["push"] for one in page.pushes] == ["hello", "change"]  # its hooks.py is there now
+    (change,) = page.pushes[1:]
+    assert change["file"] == "hooks" and "def judge(" in (session.files.history.hooks or "")
 
 
 async def test_the_package_of_an_earlier_day_is_compared_in_meaning_too(tmp_path: Path) -> None:

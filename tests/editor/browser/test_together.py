@@ -103,7 +103,10 @@ def test_where_it_contradicts_one_is_asked(edit: Edit, visit: Visit) -> None:
     assert editor.text == theirs
 
 
-def test_a_killed_server_loses_at_most_the_last_second(edit: Edit, visit: Visit) -> None:
+def test_a_killed_server_loses_at_most_the_last_second(
+    edit: Edit, visit: Visit, watch: Watch
+) -> None:
+    watch.expected.append("net::ERR_CONNECTION_REFUSED")
     editor = edit(text=SOURCE)
     page = visit(editor)
     type_below(page, "watch = TripMonitor", "retry = PriorityManager")
