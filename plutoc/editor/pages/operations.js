@@ -103,12 +103,13 @@ export function rewrite(name, text) {
 }
 
 // A field is called `mission.patient`; under another name it is renamed everywhere first.
-export async function rewriteField(name, text) {
+// planned: missions files may have it.
+export async function rewriteField(name, text, { planned = true } = {}) {
   const [on, called] = name.split(".");
   const now = /^\s*(\w+)/.exec(text)?.[1] ?? called;
   const renamed = now === called ? [] : [{ do: "Rename", name, new: now }];
   const done = await edit([...renamed, { do: "Rewrite", name: `${on}.${now}`, text }]);
-  if (done && renamed.length) {
+  if (done && planned && renamed.length) {
     tell(`Missions files are not changed: where one has “${called}”, write “${now}”. The app’s check finds each.`);
   }
   return done;

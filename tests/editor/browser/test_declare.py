@@ -36,6 +36,7 @@ def test_fields_of_missions_and_trips(edit: Edit, visit: Visit) -> None:
     page.keyboard.type("patient")
     page.keyboard.press("Enter")
     expect(line_of(page, "mission.patient")).to_have_value('patient: text = ""')
+    expect(line_of(page, "mission.patient")).to_be_focused()
     declare(page, "field of trips")
     expect(line_of(page, "trip.note")).to_be_focused()
     write(line_of(page, "trip.note"), "depth: length = 30 cm")
@@ -47,6 +48,9 @@ def test_fields_of_missions_and_trips(edit: Edit, visit: Visit) -> None:
     write(line_of(page, "mission.margin"), "status: time")
     expect(page.get_by_role("alert")).to_contain_text("every mission of this app has a `status`")
     line_of(page, "mission.margin").press("Escape")
+    expect(page.get_by_text("Missions files are not changed")).to_have_count(
+        0
+    )  # none can have them
     for name in ("mission.patient", "trip.depth", "mission.margin"):
         page.get_by_role("button", name=f"Remove {name}", exact=True).click()
         expect(line_of(page, name)).to_have_count(0)

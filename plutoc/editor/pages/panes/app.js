@@ -18,6 +18,7 @@ const NEW = [
 ];
 
 let fresh = ""; // what was declared just now: its name is typed over next
+const unnamed = new Set(); // fields that still have the name that they came with: no plan knows it
 
 export function appPanel() {
   const title = h("input", {
@@ -34,6 +35,9 @@ export function appPanel() {
     h("h3", {}, "Drones"), categories, h("h3", {}, "Fields of missions and trips"), fields, h("h3", {}, "Code of your own"), hooks);
 
   function update() {
+    const held = document.activeElement;
+    const row = element.contains(held) && held.closest(".declaration");
+    const [list, at] = [row?.parentElement, [...row?.parentElement?.children ?? []].indexOf(row)];
     if (document.activeElement !== title) title.value = app.view.title;
     keyed(categories, app.view.categories, (one) => one.name, categoryOf, (item, one) => item.update(one));
     if (!app.view.categories.length) categories.replaceChildren(h("p", { class: "hint" }, "Any drone does everything. Declare a category to say what drones can do and carry."));
@@ -41,6 +45,7 @@ export function appPanel() {
     if (!app.view.fields.length) fields.replaceChildren(h("p", { class: "hint" }, "None but those that blocks bring. Declare one to have users fill in what your code reads."));
     keyed(hooks, app.view.hooks, (one) => one.name, hookOf, (item, one) => item.update(one));
     if (!app.view.hooks.length) hooks.replaceChildren(h("p", { class: "hint" }, "None. A MissionModifier or a MissionEvaluator calls a function of yours; adding one declares it."));
+    if (row && !held.isConnected) list.children[at]?.querySelector("input")?.focus(); // it has another name now
     nameFresh();
   }
 
@@ -67,7 +72,7 @@ function line(one, change = rewrite) {
   });
   const update = ({ text }) => {
     if (document.activeElement !== input) input.value = text;
-    input.dataset.text = text;
+    input.dataset.text = input.title = text;
   };
   update(one);
   return { input, update };
@@ -90,7 +95,7 @@ function categoryOf(one) {
 }
 
 function fieldRow(one) {
-  const text = line(one, rewriteField);
+  const text = line(one, (name, written) => rewriteField(name, written, { planned: !unnamed.delete(name) }));
   const item = h("div", { class: "declaration" }, h("div", { class: "row" }, h("code", { class: "hint" }, `${one.on} has`), text.input, remove(one)));
   item.update = (next) => text.update(next);
   return item;
@@ -119,5 +124,6 @@ async function declareNew() {
   let name = first;
   for (let n = 2; taken.has(name); n += 1) name = `${first}_${n}`;
   fresh = isField ? `${id}.${name}` : name;
+  if (isField) unnamed.add(fresh);
   if (!await declare(one.text(name))) fresh = "";
 }
