@@ -181,6 +181,7 @@ def test_a_field_is_renamed_wherever_it_is_that_one() -> None:
     found = edit(document(), Rename(name="mission.owner", new="client"))
     text = applied(Source("field.pluto", APP), found.edits)
     assert text == APP.replace("mission has owner", "mission has client")
+    assert "where one has `owner`, write `client`" in found.note
     hooks = applied(Source("hooks.py", HOOKS), found.hooks)
     assert hooks == HOOKS.replace("mission.owner", "mission.client")
     found = edit(document(), Rename(name="trip.owner", new="client"))

@@ -109,9 +109,7 @@ export async function rewriteField(name, text, { planned = true } = {}) {
   const now = /^\s*(\w+)/.exec(text)?.[1] ?? called;
   const renamed = now === called ? [] : [{ do: "Rename", name, new: now }];
   const done = await edit([...renamed, { do: "Rewrite", name: `${on}.${now}`, text }]);
-  if (done && planned && renamed.length) {
-    tell(`Missions files are not changed: where one has “${called}”, write “${now}”. The app’s check finds each.`);
-  }
+  if (done?.note && planned) tell(`${done.note}.`);
   return done;
 }
 

@@ -63,7 +63,7 @@ def test_another_name_goes_into_the_code_and_not_into_plans(edit: Edit, visit: V
     write(line_of(page, "mission.patient"), 'client: text = ""')
     expect(
         page.get_by_role("status").filter(has_text="Missions files are not changed")
-    ).to_contain_text("where one has “patient”, write “client”")
+    ).to_contain_text("where one has `patient`, write `client`")
     until(
         lambda: 'mission has client: text = "", most: float = 20' in editor.text,
         lambda: editor.text,
