@@ -142,10 +142,11 @@ function listed(words) {
   return `${said.join(", ")}${runs.length > 20 ? ", …" : ""}`;
 }
 
+const ownFirst = (fields) => fields.toSorted((a, b) => Boolean(b.own) - Boolean(a.own));
+
 function missionPanel({ app, plan, begun }, { open, copy, remove }) {
   let now = null;
-  const ownFirst = app.fields.mission.toSorted((a, b) => Boolean(b.own) - Boolean(a.own));
-  const inputs = [{ name: "name", type: "text" }, ...MOMENTS, ...ownFirst].map((field) =>
+  const inputs = [{ name: "name", type: "text" }, ...MOMENTS, ...ownFirst(app.fields.mission)].map((field) =>
     [field.name, fieldFor(field, {
       evaluators: app.evaluators,
       change(value, typing, draft) {
@@ -767,7 +768,7 @@ function tripFields(app, { key, trip: { action } }, act, shift) {
     inside("item", MASS, "mass");
   }
   for (const parameter of parameters) inside("parameters", parameter, parameter.name);
-  app.fields.trip.forEach(own);
+  ownFirst(app.fields.trip).forEach(own);
   const known = fields.map(({ about }) => about);
   const troubles = h("div", { class: "wide" });
   const carried = h("p", { class: "wide hint carried" });
