@@ -58,9 +58,9 @@ def rewritten(draft: Draft, name: str, text: str) -> Draft:
 def without(draft: Draft, name: str) -> Draft:
     """Take a field out with the comma that belongs to it; the last one, with its statement."""
     statement, field = _declared(draft, name)
-    for each in draft.file.app.statements:
-        written = each.writes if isinstance(each, HookDecl) and statement.on == "mission" else ()
-        if any(one.text == field.name.text for one in written):
+    hooks = [one for one in draft.file.app.statements if isinstance(one, HookDecl)]
+    for each in hooks if statement.on == "mission" else ():
+        if any(one.text == field.name.text for one in each.writes):
             raise CannotEdit(f"`{each.name.text}` writes `{field.name.text}`: change it first")
     i = statement.fields.index(field)
     if len(statement.fields) == 1:
