@@ -168,12 +168,14 @@ class Station:
         except BaseException:
             self._lock_what_flies()
             raise
-        for said in await broken(held_to, self._app, self._config.fleet):
-            if self.session is not None:
+        impossible = await broken(held_to, self._app, self._config.fleet)
+        if self.session is not None:
+            for said in impossible:
                 self.session.say(said)
         left = self.history.lost if phase is not Phase.FLYING else ()
         without = f"; without {', '.join(left)}, lost until brought back" if left else ""
-        return f"{counted(len(missions), 'mission')} started{without}"
+        late = "; not all will be in time: the console says why" if impossible else ""
+        return f"{counted(len(missions), 'mission')} started{without}{late}"
 
     def _look_at_the_drones(self) -> None:
         """Raise `BadInput` if no drone may fly."""

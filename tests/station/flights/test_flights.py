@@ -83,7 +83,8 @@ def test_what_cannot_be_kept_is_said_when_it_starts(serve: Serve) -> None:
     late, *_ = plan["missions"]
     late["deadline"] = "1 s"
     station.put("/api/plan", {name: plan[name] for name in ("revision", "missions")})
-    tell(station, "start", missions=[late["key"]])
+    said = tell(station, "start", missions=[late["key"]])
+    assert said == "1 mission started; not all will be in time: the console says why"
     lines = [part for line in station.now()["log"] for part in line if isinstance(part, str)]
     why = f'Mission "{late["name"]}": it is due after 1 s, and takes'
     assert any(line.startswith(why) for line in lines), lines
