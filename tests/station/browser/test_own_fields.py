@@ -7,7 +7,9 @@ from typing import Any
 
 from playwright.sync_api import Locator, Page, expect
 
-from tests.station.browser.conftest import Serve, Visit
+from tests.station.browser.axe import violations
+from tests.station.browser.conftest import Scheme, Serve, Visit
+from tests.station.browser.layout import covered, cut_off
 from tests.station.browser.serving import Station, until
 from tests.station.browser.steps import (
     A_FLIGHT,
@@ -17,9 +19,11 @@ from tests.station.browser.steps import (
     pin_of,
     row_of,
     select_mission,
+    settled,
     start,
 )
 
+SCHEMES: tuple[Scheme, ...] = ("light", "dark")
 BED, OTHER = "Bed 1", "Bed 2"
 BEDS = {BED: (5.5, 8.5), OTHER: (9.5, 8.5)}
 
@@ -126,6 +130,12 @@ def test_each_field_takes_its_type_and_its_units(serve: Serve, visit: Visit) -> 
     warmth.fill("20 kg")
     wrong = card_of(page, 1).locator('.field[data-field="warmth"] .problem')
     expect(wrong).to_contain_text("is a mass, not a temperature")
+    for name in ("Trips", "Missions"):
+        open_page(page, name)
+        for scheme in SCHEMES:
+            page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+            settled(page)
+            assert [*violations(page), *covered(page), *cut_off(page)] == [], (name, scheme)
 
 
 def test_what_was_filled_in_is_kept_handed_out_and_flown_with(serve: Serve, visit: Visit) -> None:
