@@ -111,11 +111,16 @@ class Answers:
         declared = any(each.declares for each in same(app.document.names, one))
         return app.places.range(one.span) if declared else None
 
-    def rename(self, uri: str, position: types.Position, new: str) -> types.WorkspaceEdit | None:
-        """Return the changes that rename what stands at a place; raise `CannotEdit` if that cannot be."""
+    def rename(
+        self, uri: str, position: types.Position, new: str
+    ) -> tuple[types.WorkspaceEdit | None, str]:
+        """Return the changes that rename what stands at a place, and what is left to people.
+
+        Raises `CannotEdit` if it cannot be renamed.
+        """
         named = self._name(uri, position)
         if named is None:
-            return None
+            return None, ""
         app, one = named
         name = f"{one.owner}.{one.name}" if one.role is Role.FIELD else one.name
         done = renamed(app.document, name, new)
@@ -123,7 +128,7 @@ class Answers:
         hooks, places = app.hooks_uri, app.hooks_places()
         if done.hooks and hooks and places:
             changes[hooks] = words.edits(places, done.hooks)
-        return types.WorkspaceEdit(changes=changes)
+        return types.WorkspaceEdit(changes=changes), done.note
 
     def symbols(self, uri: str) -> list[types.DocumentSymbol]:
         """Return the outline of an app."""

@@ -297,6 +297,9 @@ def test_a_field_is_found_listed_and_renamed() -> None:
             types.ReferenceParams(types.ReferenceContext(True), DOCUMENT, at)
         )
         text = applied(FIELDS, list(done.changes[URI]))
+        assert client.told == [
+            "Missions files are not changed: where one has `owner`, write `client`; `check` tells each"
+        ]
         return text, [f"{one.name}: {one.detail}" for one in fields], len(used or ())
 
     text, fields, used = talk(act)

@@ -181,6 +181,7 @@ def test_a_field_is_renamed_wherever_it_is_that_one() -> None:
     found = edit(document(), Rename(name="mission.owner", new="client"))
     text = applied(Source("field.pluto", APP), found.edits)
     assert text == APP.replace("mission has owner", "mission has client")
+    assert "where one has `owner`, write `client`" in found.note
     hooks = applied(Source("hooks.py", HOOKS), found.hooks)
     assert hooks == HOOKS.replace("mission.owner", "mission.client")
     found = edit(document(), Rename(name="trip.owner", new="client"))
@@ -209,6 +210,7 @@ def test_what_a_modifier_writes_is_renamed_with_it() -> None:
         (Rewrite(name="mission.owner", text="owner"), "this is no field"),
         (Rewrite(name="mission.owner", text="owner: text\n  x = Clock"), "one field stands here"),
         (RemoveDeclaration(name="trip.margin"), "declares no field `margin` of trips"),
+        (RemoveDeclaration(name="mission.margin"), "`note_it` writes `margin`: change it first"),
         (Declare(text="trip has depth: int"), "`depth` is declared already"),
     ],
 )
@@ -223,7 +225,11 @@ def test_a_field_is_written_anew_and_taken_out() -> None:
     assert "mission has margin: time = 10 min  #" in done(
         APP, RemoveDeclaration(name="mission.owner")
     )
-    text = done(APP, RemoveDeclaration(name="mission.margin"))
+    text = done(
+        APP,
+        Rewrite(name="note_it", text="modifier note_it"),
+        RemoveDeclaration(name="mission.margin"),
+    )
     assert "mission has owner: text  # which is theirs" in text
     text = done(text, RemoveDeclaration(name="mission.owner"))
     assert "mission has" not in text and "# which is theirs" in text

@@ -103,11 +103,14 @@ export function rewrite(name, text) {
 }
 
 // A field is called `mission.patient`; under another name it is renamed everywhere first.
-export function rewriteField(name, text) {
+// planned: missions files may have it.
+export async function rewriteField(name, text, { planned = true } = {}) {
   const [on, called] = name.split(".");
   const now = /^\s*(\w+)/.exec(text)?.[1] ?? called;
   const renamed = now === called ? [] : [{ do: "Rename", name, new: now }];
-  return edit([...renamed, { do: "Rewrite", name: `${on}.${now}`, text }]);
+  const done = await edit([...renamed, { do: "Rewrite", name: `${on}.${now}`, text }]);
+  if (done?.note && planned) tell(`${done.note}.`);
+  return done;
 }
 
 export const removeDeclaration = (name) => edit([{ do: "RemoveDeclaration", name }]);

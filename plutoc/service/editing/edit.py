@@ -49,6 +49,8 @@ class Edited:
     """Of hooks.py."""
     names: tuple[str, ...] = ()
     """The blocks that are new, to be selected."""
+    note: str = ""
+    """What is left to people."""
 
 
 def edit(document: Document, operation: Operation) -> Edited:
@@ -59,7 +61,7 @@ def edit(document: Document, operation: Operation) -> Edited:
     before = Draft.of(document.source)
     if isinstance(operation, Rename):
         change = renamed(document, operation.name, operation.new)
-        return Edited(edits=change.edits, hooks=change.hooks)
+        return Edited(edits=change.edits, hooks=change.hooks, note=change.note)
     draft, names = _done(before, operation)
     return Edited(edits=draft.edits(document.source), names=names)
 

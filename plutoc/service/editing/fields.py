@@ -23,7 +23,7 @@ from plutoc.service.symbols import Role, fields_of, occurrences
 from plutoc.source import Source, Span
 from plutoc.syntax.parse import read
 from plutoc.syntax.tokens import OWNERS
-from plutoc.syntax.tree import FieldsDecl, Parameter
+from plutoc.syntax.tree import FieldsDecl, HookDecl, Parameter
 from plutoc_runtime.domain.fields import Entity
 
 _TYPES = {"mission": "Mission", "trip": "Trip"}
@@ -58,6 +58,10 @@ def rewritten(draft: Draft, name: str, text: str) -> Draft:
 def without(draft: Draft, name: str) -> Draft:
     """Take a field out with the comma that belongs to it; the last one, with its statement."""
     statement, field = _declared(draft, name)
+    hooks = [one for one in draft.file.app.statements if isinstance(one, HookDecl)]
+    for each in hooks if statement.on == "mission" else ():
+        if any(one.text == field.name.text for one in each.writes):
+            raise CannotEdit(f"`{each.name.text}` writes `{field.name.text}`: change it first")
     i = statement.fields.index(field)
     if len(statement.fields) == 1:
         return draft.changed(draft.without(statement))

@@ -39,7 +39,7 @@ def only_fields(
     what = what or f"a {entity.value}"
     for key in table.data:
         if key not in keys:
-            table.problem(_unknown(key, keys, entity, what), key)
+            table.problem(_unknown(key, keys, entity, what), key, of_key=True)
 
 
 def _unknown(key: str, keys: Sequence[str], entity: Entity, what: str) -> str:

@@ -195,14 +195,17 @@ class Table:
         self.document, self.data, self.place, self.who = document, data, place, who
         self.row = row
 
-    def problem(self, text: str, *inside: str | int, near: str | None = None) -> None:
+    def problem(
+        self, text: str, *inside: str | int, near: str | None = None, of_key: bool = False
+    ) -> None:
         """Report a problem of this table, or of a key in it.
 
-        For a missing key, `near` is another key whose line is shown.
+        For a missing key, `near` is another key whose line is shown. `of_key`: it is wrong whatever
+        its value: a list has it in every row, and it is told once.
         """
         place = (*self.place, *inside)
         if self.row:
-            cells = cells_in(self._value(inside))
+            cells = [] if of_key else cells_in(self._value(inside))
             if not cells and self.document.has_problem(text, place):
                 return  # it does not depend on the row
             text += errors.of_cells(cells)
@@ -271,7 +274,7 @@ class Table:
         """Report the keys that are not among these."""
         for key in self.data:
             if key not in keys:
-                self.problem(errors.unknown_key(key, keys, what), key)
+                self.problem(errors.unknown_key(key, keys, what), key, of_key=True)
 
     def table(self, key: str, header: str = "") -> Table | None:
         """Return the table under a key, if there is one; `header` says how it is written."""

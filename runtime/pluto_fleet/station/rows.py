@@ -106,6 +106,7 @@ def recorded_row(name: str, record: Record, *, lives: bool = False) -> Row:
         "question": _question(status, reason) if lives else None,
         "due": record["promises"].get("deadline"),
         "late": record["late"],
+        "fields": {key: one for key, one in record["fields"].items() if one is not None},
     }
 
 

@@ -194,6 +194,10 @@ class FlightSession:
         """Update the pages outside of the current instant, so that errors there cannot affect the flight."""
         asyncio.get_running_loop().call_soon(self.feed.take, event)
 
+    def say(self, text: str) -> None:
+        """Tell users on the console what they should know of it."""
+        self._say(text)
+
     def _say(self, text: str, kind: str = "bad") -> None:
         self.feed.say(self.now, text, kind)
 

@@ -232,6 +232,10 @@ def test_what_no_row_can_mend_is_told_once(tmp_path: Path) -> None:
         'm.toml:7: mission "Bed 1" (beds.csv, row 2), trip 1: unknown action "take_foto";'
         ' did you mean "take_photo"?'
     )
+    [told] = said(tmp_path, BEDS.replace("each =", 'note = "{x}"\neach ='))
+    assert told.startswith(
+        'm.toml:4: mission "Bed 1" (beds.csv, row 2): unknown key "note"; a mission'
+    )
 
 
 TEMPLATES = [

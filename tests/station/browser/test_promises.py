@@ -46,6 +46,8 @@ def test_promises_are_drawn_kept_exported_and_seen(serve: Serve, visit: Visit) -
         lambda: [one.get("after") for one in station.get("/api/plan")["missions"]][1] == [FIRST],
         "the order is kept",
     )
+    expect(page.get_by_role("option").nth(0)).to_contain_text("due 5 s")
+    expect(page.get_by_role("option").nth(1)).to_contain_text(f"after {FIRST}")
     page.reload()
     promise(page, FIRST)
     expect(page.get_by_label("Due")).to_have_value("5 s")
@@ -60,6 +62,20 @@ def test_promises_are_drawn_kept_exported_and_seen(serve: Serve, visit: Visit) -
     expect(row_of(page, SECOND)).to_contain_text(f"comes after {FIRST}")
     expect(row_of(page, FIRST).locator(".due.bad")).to_have_text("Late", timeout=A_FLIGHT)
     sees_all(page, "Completed")
+
+
+def test_a_number_alone_is_seen_as_it_is_understood(serve: Serve, visit: Visit) -> None:
+    """One that is typed, and one that came with a list."""
+    station = put_in(serve("drugs_distribution"))
+    plan = station.get("/api/plan")
+    plan["missions"][0]["deadline"] = 240
+    station.put("/api/plan", {name: plan[name] for name in ("revision", "missions")})
+    page = visit(station)
+    promise(page, FIRST)
+    expect(page.get_by_label("Due")).to_have_value("4 min")
+    page.get_by_label("Due").fill("90")
+    page.get_by_label("Due").press("Tab")
+    expect(page.get_by_label("Due")).to_have_value("90 s")
 
 
 def test_what_is_wrong_with_a_promise_is_told_beside_it(serve: Serve, visit: Visit) -> None:

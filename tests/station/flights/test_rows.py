@@ -14,7 +14,7 @@ def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, 
     """Return the journal's record of a mission."""
     record = {"done": [], "todo": list(trips), "status": status, "reason": "", "ended": False}
     record |= {"at": None, "index": 0, "attempts": 1, "round": 0, "carrier": None}
-    record |= {"promises": {}, "late": False}
+    record |= {"promises": {}, "late": False, "fields": {}}
     return record | dict.fromkeys(("question", "held", "paused")) | more
 
 

@@ -174,7 +174,7 @@ const FACTORS = {
 };
 const OFFSETS = { C: 273.15 };
 const USUAL = ["s", "g", "m", "deg", "%", "m/s", "C"];
-const TIME = ["s", "min", "h"];
+export const TIME = ["s", "min", "h"];
 
 const amount = (text) => /^\s*([+-]?\d+(?:[.,]\d+)?)\s*([A-Za-z%/]*)\s*$/.exec(String(text));
 
@@ -222,7 +222,8 @@ function typed(field, id, change) {
     id, type: dayTime ? "time" : "text", maxlength: 500, autocomplete: "off", spellcheck: "false",
     inputmode: numeric && "decimal",
     placeholder: field.hint
-      ?? (usual || (unit && `such as 3 ${field.type === "time" ? "min" : unit}`)),
+      ?? (usual || (unit && `such as 3 ${field.type === "time" ? "min" : unit}`)
+        || (field.needed && "to be filled in")),
     oninput: heard(true), onchange: heard(false),
     onblur: () => input.validity.badInput && heard(false)(),
   });
@@ -295,6 +296,7 @@ export function fieldFor(field, { evaluators = [], change }) {
   const name = plain(field.name);
   const label = field.label ?? name[0].toUpperCase() + name.slice(1);
   set(input, "aria-describedby", problem.id);
+  set(input, "aria-required", field.needed && "true");
   input.addEventListener("blur", () => one.update(...latest));
   const one = {
     input,

@@ -6,7 +6,8 @@ import {
   setField, token, withField,
 } from "./api.js";
 import {
-  button, fieldFor, fill, h, icon, keyed, many, newKey, plain, put, reorderable, set, shown, unique,
+  button, fieldFor, fill, h, icon, inWords, keyed, many, newKey, plain, put, reorderable, set, shown,
+  TIME, unique,
 } from "./dom.js";
 import { actions, actionSign, called, floorPlan, metres, pins, whyNot } from "./floor.js";
 
@@ -18,7 +19,18 @@ const ENDED = {
   BROKEN_OFF: ["Broken off", "warn", "warning"],
 };
 
-function missionList({ select, open, rename, remove, move }) {
+// "2 trips · Amato · due 20 min · after Bed 1": what one tells missions apart by.
+function inShort({ trips, deadline, after = [], ...mission }, fields) {
+  const texts = fields.mission.filter(({ own, type }) => own && type === "text");
+  return [
+    trips.length ? many(trips.length, "trip") : "no trips yet",
+    ...texts.map(({ name }) => mission[name]),
+    deadline !== undefined && `due ${inWords(deadline, TIME)}`,
+    after.length > 0 && `after ${after.length === 1 ? after[0] : many(after.length, "other")}`,
+  ].filter(Boolean).join(" · ");
+}
+
+function missionList({ fields, select, open, rename, remove, move }) {
   let missions = [];
   let selected = null;
   const act = (what) => ({ target }) => {
@@ -53,10 +65,14 @@ function missionList({ select, open, rename, remove, move }) {
     h("span", { class: "chip" }));
 
   // A mission that is only not finished yet has nothing wrong with it.
-  function mark({ key, trips, launched, ended }, problems) {
-    const of = problems.filter(({ mission }) => mission === key);
+  function mark({ key, trips, launched, ended, ...mission }, problems) {
+    const of = problems.filter((problem) => problem.mission === key);
+    const empty = ({ trip, field }) => !trip && fields.mission.some(({ name, needed }) =>
+      needed && name === field && mission[name] === undefined);
     if (launched) return ["Started", "info", "lock"];
-    if (of.some(({ field }) => trips.length || field)) return ["To mend", "warn", "warning"];
+    if (of.some((one) => !empty(one) && (trips.length || one.field))) {
+      return ["To mend", "warn", "warning"];
+    }
     if (of.length) return ["To do", ""];
     return ENDED[ended] ?? [];
   }
@@ -65,8 +81,7 @@ function missionList({ select, open, rename, remove, move }) {
     const [, count, words, chip] = node.children;
     put(count, i + 1);
     put(words.firstChild, mission.name.trim() || "Without a name");
-    put(words.lastChild, mission.trips.length ? many(mission.trips.length, "trip")
-      : "no trips yet");
+    put(words.lastChild, inShort(mission, fields));
     const [text = "", kind, sign] = mark(mission, problems);
     set(chip, "class", `chip ${kind}`);
     fill(shown(chip, text), sign && icon(sign), text);
@@ -91,8 +106,8 @@ function missionList({ select, open, rename, remove, move }) {
 
 // What may be promised of a mission, whatever the app's graph is.
 const MOMENTS = [
-  { name: "opens", type: "text", label: "Begins at the soonest", hint: "such as 08:00 or 5 min" },
-  { name: "deadline", type: "text", label: "Due", hint: "such as 08:30 or 20 min" },
+  { name: "opens", type: "time", label: "Begins at the soonest", hint: "such as 08:00 or 5 min" },
+  { name: "deadline", type: "time", label: "Due", hint: "such as 08:30 or 20 min" },
 ];
 
 // Which of the other missions must have completed before, each with a box to tick.
@@ -116,9 +131,22 @@ function afterField(change) {
   };
 }
 
+// ["listen", "listen", "measure"] → "listen × 2, measure"
+function listed(words) {
+  const runs = [];
+  for (const word of words) {
+    if (runs.at(-1)?.word === word) runs.at(-1).count += 1;
+    else runs.push({ word, count: 1 });
+  }
+  const said = runs.slice(0, 20).map(({ word, count }) => (count > 1 ? `${word} × ${count}` : word));
+  return `${said.join(", ")}${runs.length > 20 ? ", …" : ""}`;
+}
+
+const ownFirst = (fields) => fields.toSorted((a, b) => Boolean(b.own) - Boolean(a.own));
+
 function missionPanel({ app, plan, begun }, { open, copy, remove }) {
   let now = null;
-  const inputs = [{ name: "name", type: "text" }, ...MOMENTS, ...app.fields.mission].map((field) =>
+  const inputs = [{ name: "name", type: "text" }, ...MOMENTS, ...ownFirst(app.fields.mission)].map((field) =>
     [field.name, fieldFor(field, {
       evaluators: app.evaluators,
       change(value, typing, draft) {
@@ -185,7 +213,7 @@ function missionPanel({ app, plan, begun }, { open, copy, remove }) {
       }));
       put(count, mission.trips.length ? many(mission.trips.length, "trip") : "Trips");
       put(trips.lastChild, mission.launched ? "See trips" : "Set trips");
-      put(short, mission.trips.slice(0, 20).map(({ action }) => plain(action)).join(", ")
+      put(short, listed(mission.trips.map(({ action }) => plain(action)))
         || "No trips yet. “Set trips” opens the map: drag actions onto it there.");
       shown(locked, mission.launched);
       bin.disabled = alone.disabled = mission.launched;
@@ -300,7 +328,7 @@ export function missions(context) {
   }
 
   const list = missionList({
-    select: selected.set, open, rename: () => panel.rename(), remove, move,
+    fields: context.app.fields, select: selected.set, open, rename: () => panel.rename(), remove, move,
   });
   const panel = missionPanel(context, { open, copy, remove });
   const none = h("section", { class: "card nothing-selected stack" },
@@ -740,7 +768,7 @@ function tripFields(app, { key, trip: { action } }, act, shift) {
     inside("item", MASS, "mass");
   }
   for (const parameter of parameters) inside("parameters", parameter, parameter.name);
-  app.fields.trip.forEach(own);
+  ownFirst(app.fields.trip).forEach(own);
   const known = fields.map(({ about }) => about);
   const troubles = h("div", { class: "wide" });
   const carried = h("p", { class: "wide hint carried" });

@@ -226,6 +226,15 @@ function tripLine(send, prioritised, name) {
   return element;
 }
 
+// How long until something is due: to the minute, though it be hours.
+function left(time) {
+  const minutes = Math.floor(time / 60) % 60;
+  return time < 3600 || !minutes ? since(time) : `${since(time)} ${minutes} min`;
+}
+
+const said = (value, units) =>
+  (typeof value === "boolean" ? value ? "yes" : "no" : inWords(value ?? "", units));
+
 function details(context, name) {
   const send = (command, given) => context.tell(command, { mission: name, ...given });
   const prioritised = context.app.fields.trip.some((field) => field.name === "priority");
@@ -240,8 +249,14 @@ function details(context, name) {
     class: "button small", onclick: () => context.begun([drawn().key]),
   }, "Start this mission again");
   const list = h("ol", { class: "trip-lines" });
-  const element = h("div", { class: "details" }, list, buttons, h("div", null, again));
+  const own = context.app.fields.mission.filter((field) => field.own);
+  const filled = h("p", { class: "filled" });
+  const element = h("div", { class: "details" }, filled, list, buttons, h("div", null, again));
   element.show = (row) => {
+    const values = own.map((field) =>
+      [field.label, said(row.fields[field.name] ?? field.default, field.units)]);
+    put(filled, values.filter(([, text]) => text).map(([label, text]) => `${label}: ${text}`).join(" · "));
+    shown(filled, filled.textContent);
     const over = ended(row) || context.live.state.phase !== "flying";
     paused = row.status === "PAUSED";
     put(pause, paused ? "Go on" : "Pause");
@@ -262,7 +277,9 @@ function details(context, name) {
 }
 
 function missionRow(context, name, chosen) {
-  const { retries, rounds } = context.app;
+  const { retries, rounds, fields } = context.app;
+  const texts = fields.mission.filter(({ own, type }) => own && type === "text");
+  const whose = h("small");
   const span = (kind) => h("span", { class: kind });
   const [number, why, trip, drone, due] = ["token", "why", "", "", "chip due"].map(span);
   const stands = standing();
@@ -271,9 +288,9 @@ function missionRow(context, name, chosen) {
   const opener = h("button", {
     class: "opener", "aria-expanded": "false",
     onclick: () => chosen.set(chosen.name === name ? null : name),
-  }, h("span", { class: "arrow" }), number, h("span", { class: "called" }, name));
+  }, h("span", { class: "arrow" }), number, h("span", { class: "called" }, name, whose));
   const cells = [
-    [opener], [stands, due, why], [trip, h("span", { class: "track" }, bar)], [drone, " ", charge],
+    [opener], [h("span", { class: "stands" }, stands, due), why], [trip, h("span", { class: "track" }, bar)], [drone, " ", charge],
     ...(retries ? [[""]] : []), ...(rounds ? [[""]] : []),
   ].map((inside) => h("div", { class: "cell", role: "cell" }, inside));
   const line = h("div", { class: "mission-row", role: "row", "data-mission": name }, cells);
@@ -286,6 +303,8 @@ function missionRow(context, name, chosen) {
   element.show = (row, live) => {
     element.row = row;
     put(number, row.index + 1);
+    put(whose, texts.map(({ name: key }) => row.fields[key]).filter(Boolean).join(" · "));
+    shown(whose, whose.textContent);
     stands.show(row.status);
     set(line, "data-status", row.status);
     element.tick(live);
@@ -308,7 +327,7 @@ function missionRow(context, name, chosen) {
     const because = reason || (status === "PAUSED" ? "" : wait);
     put(why, `${because}${until > time ? ` (${seconds(until - time)})` : ""}`);
     set(due, "class", `chip due ${late ? "bad" : ""}`);
-    put(due, late ? "Late" : `due in ${since(Math.max(0, at - time))}`);
+    put(due, late ? "Late" : `due in ${left(Math.max(0, at - time))}`);
     shown(due, late || (at !== null && !ended(element.row)));
   };
   element.open = (yes) => {

@@ -5,18 +5,22 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import read_missions
 from ...files.plan_check import unflyable
+from ...files.promises import moment
 from ...files.reading import Document, Wording
-from .shape import Shape, trips_of
+from ...shared.domain.values import shown
+from .shape import MOMENTS, Shape, trips_of
 
 if TYPE_CHECKING:
     from collections.abc import Container
 
     from ...app import App
     from ...files.fleet import FleetFile
+    from ...files.reading import Problem
     from ...files.toml import TomlPath
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Mission, Trip
@@ -27,8 +31,9 @@ _CALLED = {
     "target": "the place",
     "source": "the place where the flight begins",
     "mass": "the mass",
-    "deadline": "the time when it is due",
-    "window": "the time of its beginning",
+    "opens": "Begins at the soonest",
+    "window": "Begins at the soonest",
+    "deadline": "Due",
     "after": "the mission",
 }
 _MISSING = {
@@ -92,7 +97,7 @@ def read(
     found = read_missions(document, app, airspace, known) if missions else []
     problems = [
         _problem(missions, one.place, sentence(one.text, names), sentence(one.sentence, names))
-        for one in document.problems
+        for one in map(partial(_of_a_moment, missions), document.problems)
     ]
     return found, [_of_its_height(one, missions, airspace) for one in problems]
 
@@ -134,6 +139,27 @@ def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
     return {**bare, "trip": trips}
 
 
+def _of_a_moment(missions: Sequence[Shape], problem: Problem) -> Problem:
+    """Assign a problem of a window to that of its two fields which is wrong, in its words."""
+    match problem.place:
+        case ("mission", int(i), "window"):
+            field, text = _wrong_in_window(missions[i])
+            return replace(problem, place=("mission", i, field), text=text)
+    return problem
+
+
+def _wrong_in_window(mission: Shape) -> tuple[str, str]:
+    for field in MOMENTS:
+        if (given := mission.get(field)) is not None:
+            try:
+                moment(given)
+            except ValueError as error:
+                return field, f"{_CALLED[field]} {shown(given)} {error}"
+    if mission.get("deadline") is None:
+        return "opens", "it needs an end as well: fill in by when it is due"
+    return "deadline", "there is no time between when it may begin and when it is due"
+
+
 def _of_its_height(
     problem: PlanProblem, missions: Sequence[Shape], airspace: Airspace
 ) -> PlanProblem:
@@ -172,7 +198,6 @@ def _problem(missions: Sequence[Shape], place: TomlPath, text: str, alone: str) 
             mission, trip = missions[i]["key"], trips_of(missions[i])[j]["key"]
         case ("mission", int(i), *inside):
             mission = missions[i]["key"]
-    inside = ["opens" if part == "window" else part for part in inside]
     return PlanProblem(
         mission=None if mission is None else str(mission),
         trip=None if trip is None else str(trip),

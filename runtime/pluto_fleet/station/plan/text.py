@@ -44,10 +44,21 @@ def shapes_of(
     document.folder = folder
     missions = missions_of(document, app, airspace)
     tables: Any = [
-        mission_table(app, mission) if given is None or "area" in given else given
+        _sparse(mission_table(app, mission), app) if given is None or "area" in given else given
         for mission, given in zip(missions, document.given, strict=True)
     ]
     return [_shape(mission, str(i), app) for i, mission in enumerate(tables, 1)]
+
+
+def _sparse(table: dict[str, Any], app: App) -> dict[str, Any]:
+    """Return a mission that a list or an area has made without what only says a default again."""
+    trips = [_unusual(trip, app, Entity.TRIP) for trip in table["trip"]]
+    return {**_unusual(table, app, Entity.MISSION), "trip": trips}
+
+
+def _unusual(table: dict[str, Any], app: App, entity: Entity) -> dict[str, Any]:
+    usual = {one.name: one.default for one in app.fields if one.on is entity}
+    return {key: one for key, one in table.items() if key not in usual or one != usual[key]}
 
 
 def _mission(app: App, mission: Shape) -> Iterator[str]:
