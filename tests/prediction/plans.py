@@ -53,6 +53,7 @@ _CONTENT = {
     "SHARP = 0.7": "SHARP = 0.0",
     "AHEAD = 0.55": "AHEAD = 0.0",
     "ASIDE = 0.25": "ASIDE = 0.0",
+    "LISTENS = 2": "LISTENS = 1",
 }
 """What makes evaluators content with each photo."""
 _ROUNDS = re.compile(r"(?m)^(repeat|every) = .*\n")

@@ -176,7 +176,10 @@ UNUSABLE: list[tuple[str | bytes, str]] = [
     ("nr,x,y\n1,2\n7,4,3\n", "has 2 values in row 2, and its first line names 3"),
     ("nr,x,y\n1,2,3\n7,4,3,5\n", "has 4 values in row 3, and its first line names 3"),
     ("nr,x,y\n1\n", "has 1 value in row 2, and its first line names 3"),
-    ('nr,x,y\n1,"2,3\n', "cannot be read in row 2: a quoted value begins there, and no quote ends it"),
+    (
+        'nr,x,y\n1,"2,3\n',
+        "cannot be read in row 2: a quoted value begins there, and no quote ends it",
+    ),
     ('nr,x,y\n1,"2"3,4\n', "cannot be read in row 2: something stands behind a quoted value"),
     ('nr;x;y\n1;"2"3;4\n', "cannot be read in row 2: something stands behind a quoted value"),
     ("nr\tx\ty\n1\t2\t3\n", "has tabs between its columns: separate them by commas or semicolons"),

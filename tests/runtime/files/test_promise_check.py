@@ -151,7 +151,9 @@ def test_times_of_day_are_known_where_the_start_is() -> None:
 
 
 def test_a_window_that_mixes_both_kinds_of_time_may_close_before_it_opens() -> None:
-    mission = apps.mission("a", apps.trip("1", 6.0), promises={"opens": 1800.0, "deadline": "00:10"})
+    mission = apps.mission(
+        "a", apps.trip("1", 6.0), promises={"opens": 1800.0, "deadline": "00:10"}
+    )
     told = impossible([mission], APP, apps.fleet(), 85_800.0)  # at 23:50
     assert told == ['mission "a": it is due 10 min before its window opens']
     assert impossible([mission], APP, apps.fleet(), 80_000.0) == []
