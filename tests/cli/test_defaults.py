@@ -36,7 +36,7 @@ def compiled(plutoc: Call, here: Path, text: str) -> Path:
     assert before != now
     file.write_text(before)
     digests = [sha256(each.encode()).hexdigest() for each in (now, before)]
-    lock.write_text(lock.read_text().replace(*digests))
+    lock.write_text(lock.read_text().replace(digests[0], digests[1]))
     git("init", "-q", "-b", "main")
     git("add", ".")
     git("commit", "-q", "-m", "a package")
