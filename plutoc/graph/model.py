@@ -108,6 +108,8 @@ class Choose:
 
     name: str
     hook: Hook | None
+    is_given: bool = True
+    """Whether the source says so, and not the declaration's default."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

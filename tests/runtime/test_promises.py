@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
+from types import FrameType
 from typing import Any
 
 import pytest
@@ -61,6 +63,26 @@ def test_a_mission_fails_at_once_that_comes_after_one_that_has_failed(
     assert d.reason == 'it comes after mission "c", which is FAILED'
     assert ended["a"] == ended["c"] == ended["d"] < ended["b"]
     assert set(moments(outcome, "trip.launched")) == {"a", "b"}
+
+
+def test_what_comes_after_all_before_it_waits_without_looking_again_and_again() -> None:
+    """Each end of a mission is looked at once by each that waits, and not with all that it waits for."""
+    names = [f"{n}" for n in range(40)]
+    missions = [short(name, after=names[:n]) for n, name in enumerate(names)]
+    looks = 0
+
+    def look(frame: FrameType, event: str, _: object) -> None:
+        nonlocal looks
+        looks += event == "call" and frame.f_code.co_name in ("watch", "_refuse_vain", "result")
+
+    sys.setprofile(look)
+    try:
+        outcome = apps.fly(apps.app(apps.flow()), *missions, on=TWO)
+    finally:
+        sys.setprofile(None)
+    assert outcome.completed
+    assert [*moments(outcome, "mission.ended")] == names
+    assert looks < 4 * 40**2
 
 
 def test_a_barrier_holds_until_the_last_round_of_what_is_before_it() -> None:
@@ -125,10 +147,20 @@ def test_a_window_that_has_opened_today_is_open(
     written = {"opens": f"{opens}:00", "deadline": f"{(opens + hours) % 24}:00"}
     kept = kept_from(written, now, of_day)
     assert kept["deadline"] - kept["opens"] == pytest.approx(hours * HOUR)
-    assert now <= kept["deadline"] < now + DAY
+    assert now <= kept["deadline"] <= now + DAY
     assert (kept["deadline"] - now + of_day) % DAY == pytest.approx(
         (opens + hours) % 24 * HOUR, abs=1e-3
     ) or of_day == pytest.approx((opens + hours) % 24 * HOUR, abs=1e-3)
+
+
+@pytest.mark.parametrize("closes", ["08:00", "8:00", "08:00:00"])
+def test_what_is_due_at_this_very_hour_is_due_tomorrow(closes: str) -> None:
+    """A deadline at once could never be kept; a simulation starts at midnight, and "00:00" is the one to come."""
+    assert kept_from({"deadline": closes}, 5.0, 8 * HOUR) == {"deadline": 5.0 + DAY}
+    window = {"opens": "07:00", "deadline": closes}
+    assert kept_from(window, 5.0, 8 * HOUR) == {"opens": 5.0 + 23 * HOUR, "deadline": 5.0 + DAY}
+    assert kept_from({"opens": closes, "deadline": "09:00"}, 5.0, 8 * HOUR)["opens"] == 5.0
+    assert kept_from({"deadline": 0.0}, 5.0, 8 * HOUR) == {"deadline": 5.0}
 
 
 # Deadlines
@@ -264,7 +296,7 @@ def test_an_order_without_a_circle_is_right() -> None:
 
 def test_each_mistake_of_an_order_is_told_once() -> None:
     assert wrong(a=["b"], b=["x"]) == [(1, 'comes after "x", and there is no such mission')]
-    assert wrong(a=["a"], b=["a"]) == [(0, 'comes after "a": none of them can begin')]
+    assert wrong(a=["a"], b=["a"]) == [(0, "comes after itself: it can never begin")]
     (told,) = wrong(behind=["a"], a=["b"], b=["c"], c=["a"])
     assert told[1] == (
         'comes after "b", which comes after "c", which comes after "a": none of them can begin'

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -22,6 +23,7 @@ from pluto_fleet.shared.flow.engine import Engine
 from pluto_fleet.shared.flow.promises import Promises
 from pluto_fleet.shared.flow.restore import Restorer
 from pluto_fleet.shared.hooks import plain_data
+from pluto_fleet.shared.time.future import Future
 from pluto_fleet.trials.record import TrialRecord
 
 Plant = Callable[[pytest.MonkeyPatch], None]
@@ -189,14 +191,22 @@ def nothing_is_waited_for(patch: pytest.MonkeyPatch) -> None:
 
 def only_one_is_waited_for(patch: pytest.MonkeyPatch) -> None:
     """A mission begins when one of those that it comes after has ended, well or not."""
-    really = Promises._under_way
+    really = Promises._may_begin
 
-    def under_way(self: Promises, mission: Any) -> list[str]:
+    async def may_begin(self: Promises, mission: Any) -> None:
         names = mission.promises.get("after", ())
-        ended = [name for name in names if self._states[name].ended]
-        return [] if ended else really(self, mission)
+        if not any(self._states[name].ended for name in names):
+            one: Future[Any] = Future()
+            for name in names:
+                self._ends.setdefault(name, Future()).watch(one.set)
+            if names:
+                await one
+        alone: Any = SimpleNamespace(
+            promises={**mission.promises, "after": ()}, index=mission.index
+        )
+        await really(self, alone)
 
-    patch.setattr(Promises, "_under_way", under_way)
+    patch.setattr(Promises, "_may_begin", may_begin)
 
 
 def the_past_is_forgiven(patch: pytest.MonkeyPatch) -> None:

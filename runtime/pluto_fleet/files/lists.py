@@ -22,6 +22,13 @@ if TYPE_CHECKING:
 MOST_ROWS = 10_000
 """The most missions that one list makes."""
 
+_SAID = {
+    "unexpected end of data": "a quoted value begins there, and no quote ends it",
+    "',' expected after '\"'": "something stands behind a quoted value: a quote within one is written twice",
+    "';' expected after '\"'": "something stands behind a quoted value: a quote within one is written twice",
+}
+"""What the module `csv` says, for people."""
+
 Row = tuple[int, Mapping[str, str]]
 """Its number, as a spreadsheet counts, and its values by column."""
 
@@ -123,7 +130,8 @@ def _rows(path: Path) -> tuple[list[Row], list[str]]:
             if len(rows) > MOST_ROWS:
                 raise _Unusable(errors.too_many_rows(MOST_ROWS))
     except csv.Error as error:
-        raise _Unusable(f"cannot be read in row {number + 1}: {error}") from None
+        said = _SAID.get(str(error), str(error))
+        raise _Unusable(f"cannot be read in row {number + 1}: {said}") from None
     if not rows:
         raise _Unusable("has no row below the one that names its columns")
     return rows, odd
@@ -150,6 +158,8 @@ def _columns(names: Sequence[str]) -> list[str]:
             raise _Unusable(f"has no name for its column {place}: its first line names the columns")
         if name in names[: place - 1]:
             raise _Unusable(f"has two columns {quoted(name)}: names must differ")
+        if "\t" in name:
+            raise _Unusable("has tabs between its columns: separate them by commas or semicolons")
         if set(name) & set("{}"):
             raise _Unusable(f"has a column {quoted(name)}: a column's name has no braces")
     if all(_is_number(name) for name in names):

@@ -105,12 +105,13 @@ def _trips_of_area(
         table.problem(errors.item_in_area(action.name), "action")
     parameters = _parameters(table, action) if action else {}
     given = read_fields(table, app, Entity.TRIP)
-    last, trips = before[-1].target if before else None, list[Any]()
+    last, trips, is_told = before[-1].target if before else None, list[Any](), False
     for count, place in enumerate(areas_of.read_places(table, airspace, last), 1):
         name = f"{prefix}{count}"
         other = names.setdefault(name, table)
-        if other is not table:
+        if other is not table and not is_told:
             table.problem(errors.makes_another(name, other.line("name")))
+            is_told = True  # one says all
         trip = app.trip(
             name=name,
             action=action.name if action else "",

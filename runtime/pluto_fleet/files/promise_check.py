@@ -87,7 +87,9 @@ def _too_late(
             end = max(first, began + again)
     ends[mission.name] = end
     takes = duration(end - begins)
-    if (length := _window(promises)) is not None and begins == opens:
+    if (length := _window(promises)) is not None and length < 0.0:
+        return f"it is due {duration(-length)} before its window opens"
+    if length is not None and begins == opens:
         least = sum(flight.again[-1] for flight in flights) if due is None else end - begins
         said = f"its window lasts {duration(length)}, and it takes {duration(least)} at the least"
         return said if least > length + _SLACK else None

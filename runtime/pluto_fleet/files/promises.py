@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from datetime import time
+from datetime import date, time
 from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING, Any
 
@@ -33,7 +33,7 @@ def moment(value: object) -> float | str:
     try:
         return _FROM_START(value)
     except ValueError as error:
-        hint = '; or a time of day, like "08:30"' if isinstance(value, str) else ""
+        hint = '; or a time of day, like "08:30"' if isinstance(value, str | date) else ""
         raise ValueError(f"{error}{hint}") from None
 
 
@@ -47,9 +47,11 @@ def window(value: object) -> tuple[float | str, float | str]:
         opens, closes = map(moment, value)
     except ValueError as error:
         raise ValueError(f"has an element that {error}") from None
-    if opens == closes or (
-        isinstance(opens, float) and isinstance(closes, float) and closes < opens
-    ):
+    if isinstance(opens, str) and isinstance(closes, str):
+        none = time_of_day(opens) == time_of_day(closes)
+    else:
+        none = isinstance(opens, float) and isinstance(closes, float) and closes <= opens
+    if none:
         raise ValueError("has no time between its two")
     return opens, closes
 
@@ -111,4 +113,7 @@ def misplaced(
     except CycleError as error:
         last, *others = reversed(error.args[1])
         way = ", which comes after ".join(map(quoted, others))
-        yield places[last], f"comes after {way}: none of them can begin"
+        none = (
+            "itself: it can never begin" if others == [last] else f"{way}: none of them can begin"
+        )
+        yield places[last], f"comes after {none}"

@@ -2,7 +2,8 @@
 
 Each drone has a route, kept from one serving to the next. New trips are inserted where they cost least, and stops of
 changed routes anew (cheapest insertion, relocation). Costs are the squares of the routes' ends, in seconds, which are
-estimates. What a battery lacks for a route makes it longer by the time to charge that.
+estimates; as these count a second drone's whole way, drones without a route relieve the last in the end. What a battery
+lacks for a route makes it longer by the time to charge that.
 """
 
 from __future__ import annotations
@@ -134,9 +135,9 @@ class _Plan:
         fresh.sort(key=lambda stop: -min(_metres(place, stop.goal) for place in places))
         changed = dict.fromkeys(filter(None, map(self._insert, fresh)))
         if any(not self.routes[drone].stops for drone in free):
-            last = max(self.routes.values(), key=lambda route: route.end(route.seconds))
-            changed[last] = None
+            changed[self._last()] = None
         self._improve(changed)
+        self._relieve()
 
     def _insert(self, stop: _Stop) -> _Route | None:
         """Insert a stop where it costs least, and return the route; None: no drone can ever fly it."""
@@ -167,6 +168,31 @@ class _Plan:
                 other = self._insert(stop)
                 if other is not None and (other is not route or stop is not route.stops[place]):
                     changed |= {route: None, other: None}
+
+    def _last(self) -> _Route:
+        """Return the route that ends last."""
+        return max(self.routes.values(), key=lambda route: route.end(route.seconds))
+
+    def _relieve(self) -> None:
+        """Give stops of the route that ends last to drones that have none, while it ends sooner by that."""
+        idle = [route for route in self.routes.values() if not route.stops]
+        while idle:
+            last, best = self._last(), None
+            least = last.end(last.seconds)
+            for stop in last.stops:
+                rest = last.end(last.flown([one for one in last.stops if one is not stop]))
+                for route in idle if rest < least else ():
+                    end = max(rest, route.end(route.flown([stop])))
+                    if end < least and stop.one.ever(route.drone):
+                        least, best = end, (stop, route)
+            if best is None:
+                return
+            stop, route = best
+            idle.remove(route)
+            last.stops.remove(stop)
+            route.stops.append(stop)
+            for one in route, last:
+                one.seconds = one.flown(one.stops)
 
     def next(self, free: Sequence[Drone]) -> dict[Drone, _Stop]:
         """Return the next stop of each drone; without one, one that it has flown before its own drone."""

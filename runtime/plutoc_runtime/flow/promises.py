@@ -29,8 +29,8 @@ class Promises:
 
     def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
         self._core, self._states = core, states
-        self._ends: dict[str, Future[None]] = {}
-        """Each is set when the mission of that name has ended, if others wait for it."""
+        self._ends: dict[str, Future[str]] = {}
+        """For each mission that others wait for: set to which mission has ended, when they must look again."""
 
     def start(self, mission: Mission[Any]) -> None:
         """Fix a new mission's promises in seconds since the app started, and record them."""
@@ -59,9 +59,11 @@ class Promises:
                 self._core.trace.note("mission.late", **facts)
 
     def ended(self, mission: Mission[Any]) -> None:
-        """Called when a mission has ended, in any way."""
-        if mission.name in self._ends:
-            self._ends.pop(mission.name).set(None)
+        """Called when a mission has ended, in any way; of one that did not complete all hear that wait for any."""
+        some = [mission.name] if mission.status is COMPLETED else [*self._ends]
+        for name in some:
+            if name in self._ends:
+                self._ends.pop(name).set(mission.name)
 
     async def in_time(self, run: Run[Any]) -> Status:
         """Run a mission's flow once all that it comes after has completed, and its window has opened."""
@@ -69,29 +71,27 @@ class Promises:
         return await self._core.app.flow(run)
 
     async def _may_begin(self, mission: Mission[Any]) -> None:
-        while some := self._under_way(mission):
-            one_more: Future[None] = Future()
-            for name in some:
-                self._ends.setdefault(name, Future()).watch(one_more.set)
-            await one_more
+        names = mission.promises.get("after", ())
+        for name in names:
+            self._refuse_vain(name)
+        for name in names:
+            while not self._states[name].ended:
+                if (ended := await self._ends.setdefault(name, Future())) in names:
+                    self._refuse_vain(ended)
+            self._refuse_vain(name)
         kernel, opens = self._core.kernel, mission.promises.get("opens", 0.0)
         if opens > kernel.now:
             key = mission_key(mission.index)
             await kernel.sleep(opens - kernel.now, EventKind.CLOCK, key)
 
-    def _under_way(self, mission: Mission[Any]) -> list[str]:
-        """Return the missions that it comes after and that have not ended; raise if one was in vain."""
-        some = []
-        for name in mission.promises.get("after", ()):
-            state = self._states.get(name)
-            if state is None:
-                raise MissionFailed(f"it comes after mission {quoted(name)}, which there is not")
-            if not state.ended:
-                some.append(name)
-            elif state.mission.status is not COMPLETED:
-                became = state.mission.status.value
-                raise MissionFailed(f"it comes after mission {quoted(name)}, which is {became}")
-        return some
+    def _refuse_vain(self, name: str) -> None:
+        """Raise if it would be in vain to come after a mission."""
+        state = self._states.get(name)
+        if state is None:
+            raise MissionFailed(f"it comes after mission {quoted(name)}, which there is not")
+        if state.ended and state.mission.status is not COMPLETED:
+            became = state.mission.status.value
+            raise MissionFailed(f"it comes after mission {quoted(name)}, which is {became}")
 
 
 DAY = 86_400.0
@@ -100,13 +100,14 @@ DAY = 86_400.0
 def kept_from(promises: Mapping[str, Any], now: float, of_day: float) -> Mapping[str, Any]:
     """Return promises of a mission that starts now, at this time of day, in seconds since the app started.
 
-    A window that is open now has opened, though that was earlier this day.
+    A window that is open now has opened, though that was earlier this day; one that closes now opens tomorrow.
     """
     deadline, opens = promises.get("deadline"), promises.get("opens")
     found: dict[str, Any] = {**promises}
-    for name, moment in ("deadline", deadline), ("opens", opens):
-        if moment is not None:
-            found[name] = now + _until(moment, of_day)
+    if deadline is not None:  # what is due at this hour is so tomorrow
+        found["deadline"] = now + (_until(deadline, of_day) or DAY * isinstance(deadline, str))
+    if opens is not None:
+        found["opens"] = now + _until(opens, of_day)
     if isinstance(deadline, str) and isinstance(opens, str):
         found["opens"] = found["deadline"] - _until(deadline, time_of_day(opens))
     return found

@@ -231,9 +231,9 @@ def test_names_that_meet_are_told(tmp_path: Path) -> None:
         " rename that, or the area"
     )
     two = area('name = "B"' + FIELD)
-    assert 'there is another area "B", in line 4: names must differ' in said(
-        tmp_path, mission(two, two)
-    )
+    told = said(tmp_path, mission(two, two)).split("\n")
+    assert 'there is another area "B", in line 4: names must differ' in told[0]
+    assert ['makes a trip "B 1"' in line for line in told[1:]] == [True]  # and not each of them
 
 
 def test_a_mission_without_trips_and_areas_has_none(tmp_path: Path) -> None:

@@ -122,7 +122,7 @@ def test_each_reason_is_told() -> None:
     assert one(deadline=5.0) == ['mission "b": it is due after 5 s, and takes 30.9 s at the least']
     short = ['mission "b": its window lasts 10 s, and it takes 30.9 s at the least']
     assert one(opens=60.0, deadline=70.0) == one(opens="08:00", deadline="08:00:10") == short
-    assert one(opens="23:59:50", deadline="00:05") == []
+    assert one(opens="23:59:50", deadline="00:05") == one(opens=1800.0, deadline="00:10") == []
     (after,) = one(after=["a"], deadline=40.0)
     assert after == (
         'mission "b": it comes after "a", which ends after 30.9 s at the soonest; it takes 30.9 s more'
@@ -148,6 +148,15 @@ def test_times_of_day_are_known_where_the_start_is() -> None:
     mission.promises = soon
     assert impossible([mission], APP, fleet, 29_000.0) == []
     assert impossible([mission], APP, fleet, 30_590.0) == [f'mission "a": {said}']
+
+
+def test_a_window_that_mixes_both_kinds_of_time_may_close_before_it_opens() -> None:
+    mission = apps.mission(
+        "a", apps.trip("1", 6.0), promises={"opens": 1800.0, "deadline": "00:10"}
+    )
+    told = impossible([mission], APP, apps.fleet(), 85_800.0)  # at 23:50
+    assert told == ['mission "a": it is due 10 min before its window opens']
+    assert impossible([mission], APP, apps.fleet(), 80_000.0) == []
 
 
 def test_too_few_drones_are_told_once() -> None:

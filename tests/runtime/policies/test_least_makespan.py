@@ -81,6 +81,20 @@ def test_every_plan_comes_to_its_end(
     assert outcome.events == flown().events
 
 
+@pytest.mark.parametrize("count", range(2, 7))
+@pytest.mark.parametrize("away", [4.0, 9.0, 14.0])
+def test_no_drone_flies_two_trips_while_another_could_have_flown_one_sooner(
+    count: int, away: float
+) -> None:
+    """Trips at one spot, and as many drones side by side: each has one, be it near or far."""
+    homes = tuple((0.5 + n, 0.5, 0.0) for n in range(count))
+    missions = [apps.mission(f"m{n}", apps.trip("A", 3.0, away)) for n in range(count)]
+    app = apps.app(apps.flow(policy=least_makespan))
+    fleet = replace(apps.fleet(*homes, after=AfterTrip.NEXT), motion=CRAZYFLIE)
+    given = apps.events(apps.fly(app, *missions, on=fleet), "trip.allocated")
+    assert len({e["drone"] for e in given}) == count
+
+
 def test_of_very_many_those_that_came_first_are_planned(monkeypatch: pytest.MonkeyPatch) -> None:
     """Three at a time."""
     monkeypatch.setattr("pluto_fleet.shared.fleet.least_makespan.MOST", 3)
