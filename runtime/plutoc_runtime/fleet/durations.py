@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import hypot, inf
 from typing import TYPE_CHECKING
 
+from ..domain.status import DroneStatus
+from ..time.kernel import FLEET, EventKind, Timer
 from .reach import chain_of
 
 if TYPE_CHECKING:
-    from ..domain.model import Category, Point
+    from ..domain.model import Category, Drone, Point
     from .needs import Request
+    from .queue import Queue
+
+FLIES = (DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.RETURNING, DroneStatus.CHARGING)
 
 
 def ends(request: Request) -> Point:
@@ -37,3 +42,22 @@ def busy(category: Category, request: Request) -> float:
         there = trip.target
         way, here = way + hypot(here[0] - there[0], here[1] - there[1]), there
     return len(chain) * upright(category, request) + way * pace(category, request)
+
+
+def free_again(drone: Drone, queue: Queue) -> tuple[float, Point]:
+    """Return in about how many seconds a drone is free again, and where it is then."""
+    now = queue.kernel.now
+    then, place = queue.plans["until"].get(drone, (now, drone.location))
+    if drone in queue.low and queue.low[drone][0] < inf:
+        then = queue.low[drone][0]
+    if drone.status is DroneStatus.FREE or then < now:
+        place = drone.location
+    # one that is late will take as long again as it is late by now, for all one knows
+    return abs(then - now), place
+
+
+def look_again(queue: Queue, key: object, seconds: float) -> None:
+    """Serve the queue again in so many seconds: a drone may be late, and nothing else happens."""
+    plans, kernel = queue.plans, queue.kernel
+    plans.pop(key, Timer(int)).cancel()
+    plans[key] = kernel.at(kernel.now + seconds, EventKind.CLOCK, FLEET, queue.changed)

@@ -42,6 +42,7 @@ class Fleet:
         self.drones, self.queue = tuple(drones), queue
         self._kernel, self._trace = kernel, trace
         self._orders, self._after_trip = orders, after_trip
+        queue.stay_out = after_trip is not AfterTrip.HOME
         self.errands: dict[Drone, Task[None]] = {}
         """The tasks of drones that return, land or recover."""
         self._change: Future[None] | None = None
@@ -286,7 +287,7 @@ class Fleet:
 
     def is_low(self, drone: Drone) -> bool:
         """Whether its battery holds little more than the way home takes."""
-        return drone.battery_level < drone.category.reserve + 0.2
+        return drone.battery_level < drone.category.reserve + LOW
 
     def _is_docked(self, drone: Drone) -> bool:
         return drone.telemetry.landed and docked(drone.location, drone.home)
@@ -297,4 +298,5 @@ class Fleet:
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
+LOW = 0.2  # what a battery holds above its reserve when its drone flies home
 LONGEST = 500  # characters of the reason why a drone is lost

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING
 
 from ..domain.model import Category, Drone, Point
 from ..domain.status import DroneStatus
-from ..time.kernel import FLEET, EventKind, Timer
 from .batch import Batch
-from .durations import busy, ends, pace
+from .durations import FLIES, busy, ends, free_again, look_again, pace
 from .needs import Request
 
 if TYPE_CHECKING:
@@ -28,8 +27,6 @@ MOST = 100
 PASSES = 4  # how often each route is improved at one serving, at most
 _PLANNED = 0.85  # of what is left in a battery: the way home is not planned
 _Until = dict[Drone, tuple[float, Point]]  # when a drone is to have flown, and where it is then
-_FREE, _BUSY = DroneStatus.FREE, DroneStatus.BUSY
-_FLIES = (_FREE, _BUSY, DroneStatus.RETURNING, DroneStatus.CHARGING)
 
 
 @Batch
@@ -42,9 +39,7 @@ def least_makespan(
     plan.renew(requests[:MOST], free, queue)
     chosen = plan.next(free)
     if plan.again < inf:  # the other may be late, and nothing else happens
-        plan.timer.cancel()
-        when = queue.kernel.now + plan.again
-        plan.timer = queue.kernel.at(when, EventKind.CLOCK, FLEET, queue.changed)
+        look_again(queue, plan, plan.again)
     why = f"planned so that the last of {len(requests)} waiting trips ends soonest"
     given = dict[Request, "Choice"]()
     for drone, stop in chosen.items():
@@ -80,7 +75,7 @@ class _Route:
         """Begin anew: in so many seconds, and there."""
         drone, kind, self.waits, self.place = self.drone, self.drone.category, waits, place
         left = (drone.battery_level - kind.reserve) * kind.endurance * _PLANNED
-        self.lasts = left - (waits if drone.status is _BUSY else 0.0)
+        self.lasts = left - (waits if drone.status is DroneStatus.BUSY else 0.0)
         self.slower = kind.charge_time / kind.endurance
         self.seconds = self.flown(self.stops)
 
@@ -112,24 +107,17 @@ class _Plan:
     def __init__(self) -> None:
         self.routes: dict[Drone, _Route] = {}
         self.again = inf  # in how many seconds a drone that waits for another may fly for it
-        self.timer = Timer(int)
 
     def renew(self, requests: Sequence[Request], free: Sequence[Drone], queue: Queue) -> None:
         """Bring the routes up to date: what waits no more is gone, and what is new is inserted."""
-        now, new, before, self.routes = queue.kernel.now, set(requests), self.routes, {}
-        until, ready = queue.plans["until"], set(free)
+        new, before, self.routes, ready = set(requests), self.routes, {}, set(free)
         for drone in queue.drones:
-            if drone.status in _FLIES:
+            if drone.status in FLIES:
                 self.routes[drone] = route = before.get(drone) or _Route(drone)
-                then, place = until.get(drone, (now, drone.location))
-                if drone in queue.low and queue.low[drone][0] < inf:
-                    then = queue.low[drone][0]
-                if drone.status is _FREE or then < now:
-                    place = drone.location
+                waits, place = free_again(drone, queue)
                 route.stops = [stop for stop in route.stops if stop.one in new]
                 new.difference_update(stop.one for stop in route.stops)
-                # one that is late will take as long again as it is late by now, for all one knows
-                route.begin(0.0 if drone in ready else abs(then - now), place)
+                route.begin(0.0 if drone in ready else waits, place)
         fresh = [_Stop(one) for one in requests if one in new]
         places = [route.place for route in self.routes.values()]
         fresh.sort(key=lambda stop: -min(_metres(place, stop.goal) for place in places))
