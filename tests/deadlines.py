@@ -13,6 +13,7 @@ from collections.abc import Coroutine, Iterator, Mapping
 from random import Random
 from typing import Any
 
+from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.model import AfterTrip, Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.earliest_deadline import earliest_deadline
@@ -24,6 +25,8 @@ SHARE = 0.95
 """In how many of the plans it is to miss no more, at least."""
 A_TRIP = 30.0
 """About how many seconds a drone is busy with a trip: deadlines are drawn by it."""
+
+TIRELESS = Category(name="scout", flight_time=100_000.0)
 
 Deadlines = Mapping[str, float | None]
 
@@ -52,9 +55,15 @@ class Drawn:
     def _place(self, chance: Random) -> tuple[float, float]:
         return chance.uniform(0.5, self.size - 0.5), chance.uniform(0.5, self.size - 0.5)
 
-    def missed(self, policy: Policy) -> int:
-        """Fly it, and return how many missions end after their deadline."""
-        inner = apps.flow(policy=policy)
+    def flown(
+        self,
+        policy: Policy,
+        kind: Category = TIRELESS,
+        faults: Faults = apps.NO_FAULTS,
+        max_airborne: int | None = None,
+    ) -> apps.SimulationResult:
+        """Fly it; what fails is tried again."""
+        inner = apps.flow(policy=policy, attempts=3)
 
         def flow(run: Run[apps.Mission]) -> Coroutine[Any, Any, Status]:
             run.mission.deadline = self.deadlines[run.mission.name]
@@ -70,9 +79,13 @@ class Drawn:
             )
             for name, places in self.trips.items()
         ]
-        kind = Category(name="scout", flight_time=100_000.0)
         tested = apps.app(flow, categories=(kind,))
-        flown = apps.fly(tested, *missions, on=apps.fleet(*self.homes, after=self.after))
+        fleet = apps.fleet(*self.homes, after=self.after, max_airborne=max_airborne)
+        return apps.fly(tested, *missions, on=fleet, faults=faults)
+
+    def missed(self, policy: Policy) -> int:
+        """Fly it, and return how many missions end after their deadline."""
+        flown = self.flown(policy)
         ends = {str(e["mission"]): float(str(e["t"])) for e in apps.events(flown, "mission.ended")}
         due = ((ends[name], deadline) for name, deadline in self.deadlines.items())
         return sum(deadline is not None and end > deadline for end, deadline in due)

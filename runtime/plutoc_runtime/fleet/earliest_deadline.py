@@ -43,7 +43,8 @@ def earliest_deadline(
                 again = min(again, way)
                 continue
             left.remove(drone)
-            until[drone] = now + way + busy(drone.category, one), ends(one)
+            soon[drone] = seconds, last = way + busy(drone.category, one), ends(one)
+            until[drone] = now + seconds, last
             due = "no deadline" if deadline == inf else f"due in {deadline - now:.0f} s"
             metres = f"{drone.distance(one.goal):.1f} m away"
             chosen[one] = drone, f"{due}; nearest of {len(left) + 1} free: {metres}"
@@ -62,7 +63,7 @@ def _sooner(one: Request, soon: dict[Drone, tuple[float, Point]], least: float) 
     for drone, (waits, place) in soon.items():
         if (way := waits + _way(one, drone, place)) < least and one.ever(drone):
             level = drone.battery_level - waits / drone.category.endurance
-            if level >= max(drone.category.reserve + LOW, one.at_least(drone, place)):
+            if level >= max(drone.category.reserve + LOW, one.at_least(drone, (*place[:2], 0.0))):
                 least, first = way, drone
     return first
 
