@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 
 from .batch import Batch
 from .durations import FLIES, busy, ends, free_again, look_again, pace, upright
-from .fleet import LOW
 from .needs import Request
 from .policies import lowest
+from .reach import LOW
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Point

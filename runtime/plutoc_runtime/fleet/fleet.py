@@ -15,7 +15,7 @@ from ..domain.status import DroneStatus
 from ..domain.text import cut_off, printable
 from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Kernel, Key, Task
-from .reach import docked
+from .reach import LOW, docked
 
 if TYPE_CHECKING:
     from ..domain.model import Drone
@@ -40,9 +40,8 @@ class Fleet:
         after_trip: AfterTrip,
     ) -> None:
         self.drones, self.queue = tuple(drones), queue
-        self._kernel, self._trace = kernel, trace
-        self._orders, self._after_trip = orders, after_trip
-        queue.stay_out = after_trip is not AfterTrip.HOME
+        self._kernel, self._trace, self._orders = kernel, trace, orders
+        self._after_trip, queue.stay_out = after_trip, after_trip is not AfterTrip.HOME
         self.errands: dict[Drone, Task[None]] = {}
         """The tasks of drones that return, land or recover."""
         self._change: Future[None] | None = None
@@ -298,5 +297,4 @@ class Fleet:
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
-LOW = 0.2  # what a battery holds above its reserve when its drone flies home
 LONGEST = 500  # characters of the reason why a drone is lost
