@@ -32,7 +32,7 @@ def test_each_subscriber_hears_at_its_own_rate_of_what_changed() -> None:
             ),
             publisher.subscribe(lambda _, late: looks.append(late), every=0.01, view=landed),
         )
-        while not slow:
+        while not slow or len(looks) < 3:
             await asyncio.sleep(0.01)
         for subscription in subscriptions:
             subscription.cancel()
@@ -44,5 +44,4 @@ def test_each_subscriber_hears_at_its_own_rate_of_what_changed() -> None:
     on_the_ground = dict.fromkeys(field.navigation.telemetry, True)
     assert fast == [on_the_ground, {"cf1": False}]
     assert slow == [{**on_the_ground, "cf1": False}]
-    assert len(looks) > 2
     assert min(looks) >= 0
