@@ -54,13 +54,14 @@ def provide(brain: str) -> None:
 
 
 def _entering(enter: Callable[..., object]) -> Callable[..., object]:
-    """Let a request be made for trips, and not for a mission."""
+    """Let a request be made for trips, too, and not for a mission only."""
 
-    def enter_trips(queue: object, trips: list[object], policy: object, priority: int) -> object:
-        mission = SimpleNamespace(name="", trips=trips, deadline=None)
-        return enter(queue, mission, policy, priority)
+    def enter_either(queue: object, what: object, policy: object, priority: int) -> object:
+        if isinstance(what, list):
+            what = SimpleNamespace(name="", trips=what, deadline=None)
+        return enter(queue, what, policy, priority)
 
-    return enter_trips
+    return enter_either
 
 
 def loaded_again(brain: str) -> object:
