@@ -82,6 +82,12 @@ class HookParam:
     required: bool = True
     passes: bool = False
     """The hook's own parameters are written beside it, and its step gets them by name."""
+    instead: str = ""
+    """The field by which a mission chooses another of the app's hooks of this kind, if there is one.
+
+    What is written beside the hook is for that hook alone: a block for which something is gets the
+    hook's name, too, as `own`. Another hook takes its defaults.
+    """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -95,6 +101,8 @@ class Choice:
     hook: HookKind | None = None
     adapt: Callable[..., Any] | None = None
     """Makes of the app's hook what the options are."""
+    earlier: tuple[str, tuple[int, int]] | None = None
+    """An earlier default, and the first seam whose packages have another: `diff` and `compile` tell of that."""
 
 
 AnyParam = Param | HookParam | Choice

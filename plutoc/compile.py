@@ -58,7 +58,12 @@ def compile_source(
     former, left = left_over(checked, hooks, known)
     warnings += left
     package = package_of(
-        checked, source_name=source_name, optimise=optimise, carry=carry, former=former
+        checked,
+        source_name=source_name,
+        optimise=optimise,
+        carry=carry,
+        former=former,
+        for_all=policies_for_all(checked, hooks),
     )
     return Compiled(checked=checked, hooks=hooks, package=package, warnings=warnings)
 
@@ -100,6 +105,15 @@ def left_over(
     return left_over(checked, hooks, known)
 
 
+def policies_for_all(checked: Checked, hooks: Source | None) -> frozenset[str]:
+    """Return the policies that hooks.py defines as functions of all that wait."""
+    if hooks is None:
+        return frozenset()
+    from plutoc.hooks.check import policies_for_all
+
+    return policies_for_all(checked, hooks)
+
+
 def planned(checked: Checked, *, optimise: bool = True) -> Plan:
     """Return the plan of a checked graph: as good as we can make it, or as plain as it is built."""
     from plutoc.plan.build import build
@@ -115,6 +129,7 @@ def package_of(
     optimise: bool = True,
     carry: bool = False,
     former: Mapping[str, str] = _NONE,
+    for_all: frozenset[str] = frozenset(),
 ) -> Package:
     """Return the files of a checked graph's package."""
     from plutoc.emit.errors import not_embeddable, place_of
@@ -125,7 +140,12 @@ def package_of(
     plan = planned(checked, optimise=optimise)
     try:
         return emit(
-            plan, source_name=source_name, picture=mermaid(checked), carry=carry, former=former
+            plan,
+            source_name=source_name,
+            picture=mermaid(checked),
+            carry=carry,
+            former=former,
+            for_all=for_all,
         )
     except EmbedError as error:  # a block of another package
         raise Rejected([not_embeddable(place_of(checked.graph), str(error))]) from error

@@ -121,7 +121,7 @@ def _param(one: Param | HookParam | Choice) -> str | None:
     if isinstance(one, Param):
         right = type(one.type) is Type and _is_plain(one.default) and _is_plain(one.least)
     elif isinstance(one, HookParam):
-        right = type(one.kind) is HookKind
+        right = type(one.kind) is HookKind and (one.instead == "" or is_name(one.instead))
     else:
         options = isinstance(one.options, Mapping) and all(map(is_name, one.options))
         right = options and one.default in one.options and type(one.hook) in _HOOKS

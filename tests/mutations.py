@@ -161,17 +161,10 @@ class Outcome:
         return [d for d in self.found if d.severity is Severity.ERROR]
 
 
-def mutants(count: int, seed: int) -> Iterator[Mutant]:
-    """Make mutants of all examples, the same for a seed."""
+def mutants(count: int, seed: int, text: str | None = None) -> Iterator[Mutant]:
+    """Make mutants of all examples, or of one text, the same for a seed."""
     dice = random.Random(seed)
-    examples = {}
-    for path in sorted(EXAMPLES.glob("*/app.pluto")):
-        hooks = path.with_name("hooks.py")
-        text = hooks.read_text(encoding="utf-8") if hooks.exists() else None
-        examples[path.parent.name] = (
-            path.read_text(encoding="utf-8"),
-            Source("hooks.py", text) if text is not None else None,
-        )
+    examples = _examples() if text is None else {"one": (text, None)}
     while count:
         example = dice.choice(list(examples))
         mutation = dice.choice(list(MUTATIONS))
@@ -180,6 +173,18 @@ def mutants(count: int, seed: int) -> Iterator[Mutant]:
         if mutated != text:
             count -= 1
             yield Mutant(example=example, mutation=mutation, text=mutated, hooks=hooks_source)
+
+
+def _examples() -> dict[str, tuple[str, Source | None]]:
+    examples: dict[str, tuple[str, Source | None]] = {}
+    for path in sorted(EXAMPLES.glob("*/app.pluto")):
+        hooks = path.with_name("hooks.py")
+        text = hooks.read_text(encoding="utf-8") if hooks.exists() else None
+        examples[path.parent.name] = (
+            path.read_text(encoding="utf-8"),
+            Source("hooks.py", text) if text is not None else None,
+        )
+    return examples
 
 
 def outcome(mutant: Mutant) -> Outcome:

@@ -69,7 +69,7 @@ def test_every_script_says_what_it_is_for_and_does_nothing_else(name: str) -> No
         ("flow.py", ["--rounds", "0"], "argument --rounds: 0 is less than 1"),
         ("flow.py", ["--only", "ours_fre"], "there is no case ours_fre, only ideal_contended,"),
         ("compile.py", ["--sizes", "0", "10"], "argument --sizes: 0 is less than 1"),
-        ("allocation.py", ["--shares", "10x0"], "argument --shares: 0 is less than 1"),
+        ("choosing.py", ["--shares", "10x0"], "argument --shares: 0 is less than 1"),
     ],
 )
 def test_what_cannot_be_measured_is_refused(name: str, arguments: list[str], told: str) -> None:

@@ -82,6 +82,7 @@ def brain(work: Work, flights: Flights, hooks: Any) -> Brain:
         app,
         {
             "drones": [{"id": str(number), "home": HOME} for number in range(work.drones)],
+            "after_trip": "home",
             "silent": flights.hear is None,
         },
         space=import_module("measured._runtime.domain.airspace").Airspace(),

@@ -52,7 +52,8 @@ def copied(example: str, name: str) -> dict[str, str]:
         )
     source = _source(example)
     start, end = _declared(source).name.span
-    others = (*_BESIDE, _HOOKS) if has_hooks(example) else _BESIDE
+    lists = [one.name for one in _home().joinpath(example).iterdir() if one.name.endswith(".csv")]
+    others = [*_BESIDE, *([_HOOKS] if has_hooks(example) else []), *sorted(lists)]
     return {
         f"{name}.pluto": source.text[:start] + name + source.text[end:],
         **{file: _text(example, file) for file in others},

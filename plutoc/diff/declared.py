@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from plutoc.block import HookKind
 from plutoc.diff.blocks import same
 from plutoc.diff.both import Both
-from plutoc.diff.match import Declared, declared, kind_of
+from plutoc.diff.match import Declared, declared
 from plutoc.diff.messages import declared as messages
 from plutoc.diff.model import Change
 from plutoc.graph.categories import PARAMS
+from plutoc.graph.chosen import may_be_chosen
 from plutoc.graph.model import Action, Category, Graph, Hook, Library, Node
 from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.fields import Entity, Field
@@ -103,7 +103,8 @@ def hooks(both: Both) -> Iterator[Change]:
         if was != now:
             yield messages.hook_renamed(before, after)
         yield from _repeats(before, after)
-        yield from _parameters(before, after)
+        yield from _returns(before, after)
+        yield from _parameters(before, after, _by_default(after, both.new.graph))
         yield from _statuses(before, after)
     kept = set(both.hooks.values())
     yield from (messages.hook_removed(one) for one in old.values() if one.name not in both.hooks)
@@ -115,6 +116,11 @@ def _repeats(old: Declared, new: Declared) -> Iterator[Change]:
         yield messages.repeat_changed(old, new)
 
 
+def _returns(old: Declared, new: Declared) -> Iterator[Change]:
+    if isinstance(old, Action) and isinstance(new, Action) and old.returns != new.returns:
+        yield messages.returns_changed(old, new)
+
+
 def _statuses(old: Declared, new: Declared) -> Iterator[Change]:
     if not (isinstance(old, Hook) and isinstance(new, Hook)):
         return
@@ -124,7 +130,14 @@ def _statuses(old: Declared, new: Declared) -> Iterator[Change]:
         yield messages.writes_changed(old, new)
 
 
-def _parameters(old: Declared, new: Declared) -> Iterator[Change]:
+def _by_default(one: Declared, graph: Graph) -> bool:
+    """Return whether missions files can name it without values for all that it takes."""
+    if isinstance(one, Action):
+        return True
+    return any(may_be_chosen(one, node) for node in graph.nodes)
+
+
+def _parameters(old: Declared, new: Declared, by_default: bool) -> Iterator[Change]:
     before = {parameter.name: parameter for parameter in old.parameters}
     after = {parameter.name: parameter for parameter in new.parameters}
     for name, now in after.items():
@@ -133,7 +146,7 @@ def _parameters(old: Declared, new: Declared) -> Iterator[Change]:
             yield messages.parameter_added(old, new, now)
         elif was.type is not now.type:
             yield messages.type_changed(old, new, was, now)
-        elif kind_of(new) is HookKind.ACTION and not same(was.default, now.default):
+        elif by_default and not same(was.default, now.default):
             yield messages.default_changed(old, new, was, now)  # others get theirs from a block
     for name, was in before.items():
         if name not in after:

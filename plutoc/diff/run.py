@@ -11,6 +11,7 @@ from plutoc.diff.declared import app, categories, fields, hooks
 from plutoc.diff.journeys import gained, journeys, reroutes, stops, without_swaps
 from plutoc.diff.messages.blocks import arranged_otherwise
 from plutoc.diff.model import Change, Difference, Importance, Version
+from plutoc.diff.own_fields import own_fields
 from plutoc.diff.warned import warned
 
 
@@ -31,6 +32,7 @@ def compare(old: Version, new: Version) -> Difference:
         *hooks(both),
         *categories(both),
         *fields(both),
+        *own_fields(both),
         *order(both),
     ]
     told += warned(both, told)

@@ -27,6 +27,8 @@ class Gesture:
 
     changes: Sequence[Change]
     names: Sequence[str] = ()
+    note: str = ""
+    """What is left to people."""
 
 
 @dataclass(slots=True)
@@ -38,6 +40,7 @@ class _Drawn:
     app_edits: list[Edits] = field(default_factory=list)
     hooks_edits: list[Edits] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
+    note: str = ""
     moved: dict[str, Point | None] = field(default_factory=dict)
     added: str = ""
     """The block that was added last: operations call it ""."""
@@ -60,7 +63,8 @@ def operations(
         changes.append(_change(files, File.HOOKS, drawn.hooks_edits, drawn.hooks.text))
     if drawn.moved:
         changes.append(files.history.placed(drawn.moved))
-    return Gesture(changes=changes, names=tuple(dict.fromkeys(drawn.names)))
+    names = tuple(dict.fromkeys(drawn.names))
+    return Gesture(changes=changes, names=names, note=drawn.note)
 
 
 def _do(drawn: _Drawn, meant: Operation, files: AppFiles) -> None:
@@ -75,6 +79,7 @@ def _do(drawn: _Drawn, meant: Operation, files: AppFiles) -> None:
         drawn.hooks = Source(drawn.hooks.path, applied(drawn.hooks, edited.hooks))
         drawn.document = files.document_of(drawn.document.text, drawn.hooks)
     drawn.names += edited.names
+    drawn.note = edited.note or drawn.note
     at = files.history.positions
     match meant:
         case AddBlock():

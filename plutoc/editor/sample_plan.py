@@ -7,7 +7,7 @@ from itertools import cycle
 from json import dumps
 
 from plutoc.block import HookKind
-from plutoc.emit.model_file import fields_of
+from plutoc.emit.model_file import all_fields
 from plutoc.graph.model import Category, Graph, Parameter
 from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
@@ -38,7 +38,7 @@ def sample_plan(graph: Graph) -> str:
 
 def _lines(graph: Graph) -> Iterator[str]:
     yield f"# A plan for {graph.name} that was made up: {_MISSIONS} missions of {_TRIPS} trips."
-    fields, actions = fields_of(graph), cycle(_pairs(graph))
+    fields, actions = all_fields(graph), cycle(_pairs(graph))
     for mission in range(1, _MISSIONS + 1):
         yield from ("", "[[mission]]", f'name = "Mission {mission}"')
         yield from _values(graph, fields, Entity.MISSION, mission)
@@ -98,5 +98,7 @@ def _values(graph: Graph, fields: tuple[Field, ...], of: Entity, mission: int) -
                 judges = [one.name for one in graph.hooks if one.kind is HookKind.EVALUATOR]
                 if judges:
                     yield f"{field.name} = {dumps(judges[0])}"
+            case Type() if field.hint:
+                yield f"{field.name} = {_VALUES[field.type]}"
             case _:
                 pass

@@ -253,7 +253,9 @@ class Session:
         given = asked.get("operations", [asked.get("operation")])
         if not isinstance(given, list) or not 0 < len(given) <= _OPERATIONS:
             raise Refused("operations must be a list of objects")
-        return self._do(client, gestures.operations(self.files, given, read.positions(asked)))
+        gesture = gestures.operations(self.files, given, read.positions(asked))
+        answer = self._do(client, gesture)
+        return answer | ({"note": gesture.note} if gesture.note else {})
 
     def _place(self, client: Client, asked: Asked) -> Data:
         positions = read.positions(asked)

@@ -19,6 +19,8 @@ RESERVED = frozenset(
         *("APP", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
         *(
             "OwnAction",
+            "Photo",
+            "TypedAction",
             "Run",
             "Status",
             "Trip",
@@ -30,6 +32,7 @@ RESERVED = frozenset(
             "mission",
         ),
         "partial",
+        *("bool", "float", "int", "str"),
         *("run", "status"),
         *(status.name for status in IN_GRAPH),
     }

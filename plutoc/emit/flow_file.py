@@ -11,10 +11,11 @@ from plutoc.check.model import Checked
 from plutoc.emit.callables import carried_functions, imports_of, names_of
 from plutoc.emit.embed import OURS
 from plutoc.emit.model_file import fields_of
-from plutoc.emit.python import Import, call, import_lines, items, literal, names
+from plutoc.emit.python import Import, call, import_lines, items, literal, names, python_result
 from plutoc.emit.render import render
-from plutoc.emit.statements import Scope, asked_for, body_lines
-from plutoc.graph.model import Action, Graph, Node, Parameter
+from plutoc.emit.statements import Scope, asked_for, body_lines, bound
+from plutoc.graph.hooks import PHOTO
+from plutoc.graph.model import Action, Graph, Hook, Node, Parameter
 from plutoc.plan.bodies import branches, nodes, steps
 from plutoc.plan.model import Arrived, Body, Plan
 from plutoc_runtime.domain.fields import Entity, Field
@@ -94,8 +95,12 @@ def _imports(graph: Graph, written: str) -> list[Import]:
         imports += names("._runtime.flow.declared", "declared")
     if "partial(" in written:
         imports += names("functools", "partial")
-    if graph.actions:
+    if any(action.returns is None for action in graph.actions):
         imports += names("._runtime.flow.own_action", "OwnAction")
+    if any(action.returns for action in graph.actions):
+        imports += names("._runtime.flow.typed_action", "TypedAction")
+    if any(action.returns == PHOTO for action in graph.actions):
+        imports += names("._runtime.domain.model", "Photo")
     if any(action.parameters for action in graph.actions):
         imports += [
             *names("._runtime.domain.actions", "Parameter"),
@@ -118,7 +123,7 @@ def _app(plan: Plan) -> list[str]:
     """Return the arguments of the `App`."""
     graph, entries = plan.checked.graph, plan.checked.entries
     own = "".join(_entry(action) for action in graph.actions)
-    evaluators = [hook.name for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
+    evaluators = [hook for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
     arguments = [
         f"name={literal(graph.name)}",
         f"title={literal(graph.title)}",
@@ -130,12 +135,18 @@ def _app(plan: Plan) -> list[str]:
         f"actions={{\n        **BUILT_IN,\n{own}    }}" if own else "actions=BUILT_IN",
     ]
     if evaluators:
-        functions = "".join(f"{literal(name)}: hooks.{name}," for name in evaluators)
+        functions = "".join(f"{literal(hook.name)}: {_evaluator(hook)}," for hook in evaluators)
         arguments.append(f"evaluators={{{functions}}}")  # a line each
     if entries:
         names = "".join(f"{literal(name)}," for name in entries)
         arguments.append(f"resumes=({names})")
     return arguments
+
+
+def _evaluator(hook: Hook) -> str:
+    """Return an evaluator as missions choose it: with its defaults."""
+    given = ((one.name, one.default) for one in hook.parameters if one.default is not None)
+    return bound(f"hooks.{hook.name}", given)
 
 
 def _entry(action: Action) -> str:
@@ -149,7 +160,9 @@ def _action(action: Action) -> str:
     if action.parameters:
         arguments.append(f"parameters={items(map(_parameter, action.parameters))}")
     arguments += [f"repeat={literal(action.repeat)}", f"hook=hooks.{action.name}"]
-    return call("OwnAction", arguments)
+    if action.returns is None:
+        return call("OwnAction", arguments)
+    return call("TypedAction", [*arguments, f"returns={python_result(action.returns)}"])
 
 
 def _parameter(parameter: Parameter) -> str:

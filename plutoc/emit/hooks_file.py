@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from textwrap import wrap
 
 from plutoc.check.model import Checked
-from plutoc.emit.model_file import fields_of
+from plutoc.emit.model_file import all_fields
 from plutoc.emit.python import (
     LINE_LENGTH,
     PYTHON,
@@ -14,6 +14,7 @@ from plutoc.emit.python import (
     builtins_alias,
     import_lines,
     names,
+    python_result,
     shadows,
 )
 from plutoc.emit.render import formatted, render
@@ -55,7 +56,7 @@ def stub(checked: Checked, name: str) -> str:
 
 
 def _offers(what: str, basics: str, graph: Graph, entity: Entity) -> list[str]:
-    own = [f", `{field.name}`" for field in fields_of(graph) if field.on is entity]
+    own = [f", `{field.name}`" for field in all_fields(graph) if field.on is entity]
     return wrap(
         f"A {what} offers {basics}{''.join(own)}.",
         LINE_LENGTH,
@@ -73,7 +74,8 @@ def _imports(graph: Graph, found: Iterable[Stub]) -> list[Import]:
     parameters = [p for action in graph.actions for p in action.parameters]
     parameters += [p for hook in graph.hooks for p in hook.parameters]
     types = [PYTHON[parameter.type] for parameter in parameters]
-    if shadows(taken, [*types, *("object" for _ in graph.actions)]):
+    types += [python_result(a.returns) if a.returns else "object" for a in graph.actions]
+    if shadows(taken, types):
         alias = builtins_alias(taken)
         imports.append(Import(module="builtins", alias=None if alias == "builtins" else alias))
     return imports

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
+from plutoc.emit.model_file import values_of
 from plutoc.emit.python import Import, call, import_lines, items, literal, names, status_tuple
 from plutoc.emit.render import formatted, render
 from plutoc.emit.stubs import arriving_at, in_order
 from plutoc.emit.test_file import able
-from plutoc.graph.model import Action, Graph, Hook, Parameter
+from plutoc.graph.model import Action, AppField, Graph, Hook, Parameter
 from plutoc_runtime.domain.actions import BUILT_IN, MEASURE
+from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 
@@ -62,7 +64,16 @@ class HookTest:
 
 def testing_file(graph: Graph) -> str:
     """Return the text of `testing.py`, not yet formatted."""
-    return render("testing.py", app=graph.name)
+    given = ["APP", *(f"{on.value}={needed}" for on in Entity if (needed := _needed(graph, on)))]
+    typed = bool(values_of(graph))
+    return render("testing.py", app=graph.name, given=", ".join(given), typed=typed)
+
+
+def _needed(graph: Graph, on: Entity) -> str:
+    """Return a value for each field that must be filled in, by name; nothing, where there is none."""
+    fields = [one for one in graph.fields if one.on is on and one.default is None]
+    given = (f"{literal(one.name)}: {_sample(one)}" for one in fields)
+    return items(given, "{}") if fields else ""
 
 
 def fixtures_file(graph: Graph) -> str:
@@ -70,11 +81,12 @@ def fixtures_file(graph: Graph) -> str:
     return formatted(render("conftest.py", app=graph.name))
 
 
-def hooks_test(checked: Checked) -> str:
-    """Return the text of `tests/test_hooks.py`."""
+def hooks_test(checked: Checked, for_all: frozenset[str] = frozenset()) -> str:
+    """Return the text of `tests/test_hooks.py`; `for_all`: policies that choose for all that wait."""
     graph = checked.graph
     made = {action.name: _action(action, graph) for action in graph.actions}
     made |= {hook.name: _hook(hook, checked) for hook in graph.hooks}
+    made |= {hook.name: _for_all(hook) for hook in graph.hooks if hook.name in for_all}
     tests = [made[name] for name in in_order(graph)]
     modifiers = [hook.name for hook in graph.hooks if hook.kind is HookKind.MODIFIER]
     return formatted(
@@ -138,6 +150,21 @@ def _hook(hook: Hook, checked: Checked) -> HookTest:
             return _modifier(hook, checked)
 
 
+def _for_all(hook: Hook) -> HookTest:
+    made = "Waiting(mission=mission, trip=mission.current, drones=[drone])"
+    return HookTest(
+        name=hook.name,
+        fixtures=("kit", "mission", "drone"),
+        doc="It gives the drone to the trip that waits, or lets it wait.",
+        lines=[
+            f"waiting = [{made}]",
+            f"assignment = {_called(hook, 'waiting', '[drone]', '0.0')}",
+            "assert assignment is not None",
+        ],
+        uses=("Waiting",),
+    )
+
+
 def _evaluator(hook: Hook, graph: Graph) -> HookTest:
     own = (action.name for action in graph.actions)
     flown = next((name for name in (*BUILT_IN, *own) if able(graph, name)), "")
@@ -188,7 +215,7 @@ def _called(hook: Action | Hook, *given: str, by: str = "call") -> str:
     return call(f"kit.{by}", [f"hooks.{hook.name}", *given, *own])
 
 
-def _sample(parameter: Parameter) -> str:
+def _sample(parameter: Parameter | AppField) -> str:
     if parameter.default is not None:
         return literal(parameter.default)
     return _SAMPLES.get(parameter.type, "1.0")

@@ -6,6 +6,10 @@ from dataclasses import dataclass
 
 from plutoc.emit.modules import EmbedError
 from plutoc.emit.python import (
+    PYTHON as OWN_PYTHON,
+)
+from plutoc.emit.python import (
+    UNITS,
     Import,
     annotation,
     builtins_alias,
@@ -15,13 +19,17 @@ from plutoc.emit.python import (
     items,
     literal,
     names,
+    python_result,
     shadows,
 )
 from plutoc.emit.render import render
+from plutoc.emit.stubs import has_policies
 from plutoc.graph import model as graph_model
 from plutoc.graph.categories import PARAMS
-from plutoc.graph.model import Graph
+from plutoc.graph.model import AppField, Graph
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
+from plutoc_runtime.domain.own_fields import OwnField
+from plutoc_runtime.domain.quantities import Type
 
 PYTHON: dict[FieldType, str] = {
     FieldType.TIME: "float | None",
@@ -39,7 +47,8 @@ class Attribute:
 
     name: str
     type: str
-    default: str
+    default: str | None
+    """None: it must be given."""
     doc: str
 
 
@@ -53,11 +62,14 @@ class CategoryEntry:
 
 def model_file(graph: Graph) -> str:
     """Return the text of `model.py`, not yet formatted."""
-    fields = fields_of(graph)
+    fields = all_fields(graph)
     return render(
         "model.py",
         app=graph.name,
-        imports=import_lines(_imports(fields)),
+        imports=import_lines([*_imports(fields, has_policies(graph)), *_imports_of_results(graph)]),
+        policies=has_policies(graph),
+        result=_generic("Result", graph),
+        results=_generic("Results", graph),
         mission=_attributes(fields, Entity.MISSION),
         trip=_attributes(fields, Entity.TRIP),
         fields=[_field(field) for field in fields],
@@ -68,7 +80,7 @@ def model_file(graph: Graph) -> str:
     )
 
 
-def _imports(fields: tuple[Field, ...]) -> list[Import]:
+def _imports(fields: tuple[Field, ...], policies: bool) -> list[Import]:
     imports = [
         *names("dataclasses", "dataclass"),
         *names("._runtime.domain", "model"),
@@ -76,12 +88,39 @@ def _imports(fields: tuple[Field, ...]) -> list[Import]:
         *names("._runtime.domain.model", "Category"),
     ]
     if fields:
-        imports += names("._runtime.domain.fields", "Entity", "FieldType")
+        imports += names("._runtime.domain.fields", "Entity")
+    if any(isinstance(field.type, FieldType) for field in fields):
+        imports += names("._runtime.domain.fields", "FieldType")
+    if any(isinstance(field, OwnField) for field in fields):
+        imports += names("._runtime.domain.own_fields", "OwnField")
+        imports += names("._runtime.domain.quantities", "Type")
+    if policies:
+        imports += names("._runtime.fleet", "own_batch")
     taken = {field.name for field in fields}
     if shadows(taken, (python_type(field) for field in fields)):
         alias = builtins_alias(taken)
         imports.append(Import(module="builtins", alias=None if alias == "builtins" else alias))
     return imports
+
+
+def values_of(graph: Graph) -> tuple[str, ...]:
+    """Return the Python types of what actions give; none, where one of the app's own does not say."""
+    if not graph.actions or any(action.returns is None for action in graph.actions):
+        return ()
+    own = (python_result(action.returns) for action in graph.actions if action.returns)
+    return tuple(dict.fromkeys(("float", "Photo", *own, "None")))
+
+
+def _generic(name: str, graph: Graph) -> str:
+    values = " | ".join(values_of(graph))
+    return f"Typed{name}[Mission, Trip, {values}]" if values else f"model.{name}[Mission, Trip]"
+
+
+def _imports_of_results(graph: Graph) -> tuple[Import, ...]:
+    if not values_of(graph):
+        return ()
+    typed = names("._runtime.hooks.typed_results", "TypedResult", "TypedResults")
+    return (*names("._runtime.domain.model", "Photo"), *typed)
 
 
 def _attributes(fields: tuple[Field, ...], entity: Entity) -> list[Attribute]:
@@ -90,7 +129,7 @@ def _attributes(fields: tuple[Field, ...], entity: Entity) -> list[Attribute]:
         Attribute(
             name=field.name,
             type=annotation(python_type(field), taken),
-            default=literal(field.default),
+            default=None if field.hint else literal(field.default),
             doc=docstring(field.doc),
         )
         for field in fields
@@ -103,12 +142,12 @@ def _field(field: Field) -> str:
     arguments = [
         f"name={literal(field.name)}",
         f"on=Entity.{field.on.name}",
-        f"type=FieldType.{field.type.name}",
+        f"type={type(field.type).__name__}.{field.type.name}",
         f"label={literal(field.label)}",
     ]
     if field.default is not None:
         arguments.append(f"default={literal(field.default)}")
-    return call("Field", arguments)
+    return call(type(field).__name__, arguments)
 
 
 def _category(category: graph_model.Category) -> str:
@@ -124,8 +163,26 @@ def _category(category: graph_model.Category) -> str:
     return call("Category", arguments)
 
 
+def all_fields(graph: Graph) -> tuple[Field, ...]:
+    """Return every field: missions' before trips', and the blocks' before the app's own."""
+    found = (*fields_of(graph), *map(own_field, graph.fields))
+    return tuple(field for entity in Entity for field in found if field.on is entity)
+
+
+def own_field(field: AppField) -> OwnField:
+    """Return a field of the app's own as its package has it."""
+    return OwnField(
+        name=field.name,
+        on=field.on,
+        type=field.type,
+        label=field.name.replace("_", " ").capitalize(),
+        doc=f"Of the app's own{f', {UNITS[field.type]}' if field.type in UNITS else ''}.",
+        default=field.default,
+    )
+
+
 def fields_of(graph: Graph) -> tuple[Field, ...]:
-    """Return every field once: missions' before trips', each in the order of the blocks."""
+    """Return every field of a block once: missions' before trips', each in the order of the blocks."""
     found: dict[tuple[Entity, str], Field] = {}
     for node in graph.nodes:
         for field in node.block.needs:
@@ -140,6 +197,8 @@ def fields_of(graph: Graph) -> tuple[Field, ...]:
 
 def python_type(field: Field) -> str:
     """Return the annotation of a field."""
+    if isinstance(field.type, Type):
+        return OWN_PYTHON[field.type]
     written = PYTHON[field.type]
     optional = field.default is None and "None" not in written
     return f"{written} | None" if optional else written

@@ -43,11 +43,13 @@ def emit(
     picture: str,
     carry: bool = False,
     former: Mapping[str, str] = _NONE,
+    for_all: frozenset[str] = frozenset(),
 ) -> Package:
     """Return the package of a plan; `picture` is its graph in Mermaid, for the README.
 
     `carry`: with the library that flies inside it. `former` are hooks that the app does not declare
-    any more, and hooks.py still defines, with their kinds: the lock remembers them.
+    any more, and hooks.py still defines, with their kinds: the lock remembers them. `for_all`: the
+    policies that hooks.py has for all that wait.
     """
     graph = plan.checked.graph
     app = f"src/{graph.name}"
@@ -80,7 +82,7 @@ def emit(
     once = {f"{app}/hooks.py": hooks_file(plan.checked)}
     if hooks:
         once["tests/conftest.py"] = fixtures_file(graph)
-        once["tests/test_hooks.py"] = hooks_test(plan.checked)
+        once["tests/test_hooks.py"] = hooks_test(plan.checked, for_all)
     return Package(
         name=graph.name,
         owned=dict(sorted(files.items())),

@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
+from plutoc.graph.hooks import PHOTO
 from plutoc.graph.model import Plain
 from plutoc_runtime.domain.quantities import QUANTITIES, Type
 from plutoc_runtime.domain.status import Status
@@ -20,8 +21,24 @@ PYTHON: dict[Type, str] = {
 }
 """The Python type that a hook gets for each type of the language."""
 
+UNITS = {
+    Type.MASS: "in kilograms",
+    Type.LENGTH: "in metres",
+    Type.TIME: "in seconds",
+    Type.ANGLE: "in radians",
+    Type.PERCENT: "a share from 0 to 1",
+    Type.SPEED: "in metres a second",
+    Type.TEMPERATURE: "in kelvin",
+}
+"""How a hook gets a quantity, in words."""
+
 _PLAIN_DOC = re.compile(r'[^\x00-\x1f\x7f"\\]+')
 _BUILTIN = re.compile(r"\b(int|float|bool|str|object)\b")
+
+
+def python_result(name: str) -> str:
+    """Return the Python type of what an action gives, by its name in the language."""
+    return "Photo" if name == PHOTO else PYTHON[Type(name)]
 
 
 def literal(value: Plain | None) -> str:

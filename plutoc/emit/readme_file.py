@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from plutoc.block import Block
 from plutoc.emit.markup import fence, header, markdown, toml_text
-from plutoc.emit.model_file import fields_of
+from plutoc.emit.model_file import all_fields
 from plutoc.emit.render import render
 from plutoc.emit.test_file import able, sample
 from plutoc.graph.model import Graph
@@ -47,7 +47,7 @@ def readme(graph: Graph, source_name: str, picture: str) -> str:
         sample=mission,
         fields=[
             FieldRow(name=field.name, on=field.on.value, doc=markdown(field.doc))
-            for field in fields_of(graph)
+            for field in all_fields(graph)
         ],
         category=toml_text(drone.name),
         hooks=bool(graph.actions or graph.hooks),

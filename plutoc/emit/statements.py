@@ -11,7 +11,7 @@ from plutoc.block import Choice, HookParam, Param
 from plutoc.emit.callables import WATCH, Names, chosen
 from plutoc.emit.embed import Carried
 from plutoc.emit.python import call, items, literal
-from plutoc.graph.model import Node
+from plutoc.graph.model import Node, Plain
 from plutoc.plan.bodies import falls
 from plutoc.plan.model import (
     Arm,
@@ -160,6 +160,8 @@ def _keywords(node: Node, scope: Scope) -> Iterator[str]:
                 yield f"{name}={literal(dict(node.values).get(name))}"
             case HookParam():
                 yield f"hook={_hook(node)}"
+                if param.instead and node.hook and node.passed:
+                    yield f"own={literal(node.hook.name)}"
             case Choice(name=name):
                 yield f"{name}={_choice(node, param, scope)}"
             case _:
@@ -182,7 +184,12 @@ def _hook(node: Node) -> str:
     if node.hook is None:
         return "None"
     function = f"hooks.{node.hook.name}"
-    passed = [f"{name}={literal(value)}" for name, value in node.passed]
+    return bound(function, node.passed)
+
+
+def bound(function: str, values: Iterable[tuple[str, Plain]]) -> str:
+    """Return a function that is given these values each time."""
+    passed = [f"{name}={literal(value)}" for name, value in values]
     return call("partial", (function, *passed)) if passed else function
 
 

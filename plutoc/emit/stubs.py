@@ -6,13 +6,14 @@ from dataclasses import dataclass
 
 from plutoc.block import IN_GRAPH, HookKind
 from plutoc.check.model import Checked
-from plutoc.emit.python import PYTHON, annotation, status_tuple
+from plutoc.emit.python import PYTHON, UNITS, annotation, python_result, status_tuple
 from plutoc.graph.model import Action, Graph, Hook, Parameter
-from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 
 EXPORTS = {
     "ActionFailed": "._runtime.domain.errors",
+    "Again": "._runtime.fleet.own_batch",
+    "Assignment": "._runtime.fleet.own_batch",
     "Category": "._runtime.domain.model",
     "Context": "._runtime.hooks.context",
     "Drone": "._runtime.domain.model",
@@ -26,20 +27,13 @@ EXPORTS = {
     "Status": "._runtime.domain.status",
     "Trip": ".model",
     "Verdict": "._runtime.hooks.context",
+    "Waiting": ".model",
 }
 """The types that hooks are written with, and where they are."""
 _FOR_HOOKS = ("Context", "LiveDrone", "Verdict")
+_FOR_POLICIES = ("Again", "Assignment", "Waiting")
 
 
-UNITS = {
-    Type.MASS: "in kilograms",
-    Type.LENGTH: "in metres",
-    Type.TIME: "in seconds",
-    Type.ANGLE: "in radians",
-    Type.PERCENT: "a share from 0 to 1",
-    Type.SPEED: "in metres a second",
-    Type.TEMPERATURE: "in kelvin",
-}
 OUTCOMES = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 """How a mission can stand when its trip is over."""
 
@@ -68,9 +62,15 @@ def stubs(checked: Checked) -> list[Stub]:
 
 def exports_of(graph: Graph, *, former: bool) -> dict[str, str]:
     """Return what a package offers: without a hook, and without one left over, less is carried."""
-    if graph.hooks or graph.actions or former:
-        return EXPORTS
-    return {name: home for name, home in EXPORTS.items() if name not in _FOR_HOOKS}
+    less: tuple[str, ...] = () if graph.hooks or graph.actions or former else _FOR_HOOKS
+    if not has_policies(graph):
+        less += _FOR_POLICIES
+    return {name: home for name, home in EXPORTS.items() if name not in less}
+
+
+def has_policies(graph: Graph) -> bool:
+    """Return whether the app declares a policy."""
+    return any(hook.kind is HookKind.POLICY for hook in graph.hooks)
 
 
 def in_order(graph: Graph) -> list[str]:
@@ -81,7 +81,9 @@ def in_order(graph: Graph) -> list[str]:
 
 
 def _action(action: Action, taken: set[str]) -> Stub:
-    returns = annotation("object", taken)
+    result = python_result(action.returns) if action.returns else "object"
+    returns = annotation(result, taken)
+    given = _RESULTS.get(result, "None")
     fixed = "drone: Drone, trip: Trip, context: Context"
     return Stub(
         name=action.name,
@@ -94,20 +96,32 @@ def _action(action: Action, taken: set[str]) -> Stub:
             "`context.live(drone)` asks the drone what it measures, and sets what is built onto it.",
             "What it returns goes to the result store; raise ActionFailed if it cannot be done.",
         ],
-        lines=[_log(action.name), "return None"],
-        uses=("Context", "Drone", "Trip"),
+        lines=[_log(action.name), f"return {given}"],
+        uses=("Context", "Drone", "Trip", *(("Photo",) if result == "Photo" else ())),
     )
+
+
+_RESULTS = {
+    "int": "0",
+    "float": "0.0",
+    "bool": "False",
+    "str": '""',
+    "Photo": "Photo(position=trip.target, width=0.0, height=0.0)",
+}
+"""What a stub returns, by its type."""
 
 
 def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
     match hook.kind:
         case HookKind.EVALUATOR:
+            keywords = _keywords(hook.parameters, taken)
+            units = ["", *_units(hook.parameters)] if _units(hook.parameters) else []
             verdict = f"{hook.name} accepts every mission as yet: write it in hooks.py"
             return Stub(
                 name=hook.name,
                 coroutine="",
-                signature="(mission: Mission, results: Results) -> Verdict",
-                doc=["Judge a finished mission by what its actions gave."],
+                signature=f"(mission: Mission, results: Results{keywords}) -> Verdict",
+                doc=["Judge a finished mission by what its actions gave.", *units],
                 lines=[f'return Verdict(ok=True, log=("{verdict}",))'],
                 uses=("Mission", "Results", "Verdict"),
             )

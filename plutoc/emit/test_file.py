@@ -8,6 +8,7 @@ from plutoc.emit.markup import toml_text
 from plutoc.emit.render import render
 from plutoc.graph.model import Action, Category, Graph
 from plutoc_runtime.domain.actions import BUILT_IN, PICK, RELEASE
+from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import Type
 
 _SAMPLES = {Type.INT: "1", Type.BOOL: "true", Type.TEXT: '"text"', Type.PERCENT: "0.5"}
@@ -22,6 +23,8 @@ class MissionTable:
     """A `[[mission]]`, in TOML."""
 
     name: str
+    fields: list[str]
+    """`name = value`, of what must be filled in."""
     trips: list[str]
     actions: tuple[str, ...]
     """What its drone must be able to do."""
@@ -41,18 +44,28 @@ def _missions(graph: Graph) -> list[MissionTable]:
     """Return a mission for each action; items only where drones can do nothing else."""
     own = {action.name: action for action in graph.actions}
     can = [name for name in (*BUILT_IN, *own) if able(graph, name)]
+    needed = _needed(graph, Entity.MISSION)
+    fields = "".join(f", {given}" for given in _needed(graph, Entity.TRIP))
     simple = [name for name in can if name not in (PICK, RELEASE)]
     if not simple:
         parcel = toml_text("parcel")
-        return [MissionTable(name=parcel, trips=_parcel(graph), actions=(PICK, RELEASE))]
+        trips = [f"{trip}{fields}" for trip in _parcel(graph)]
+        return [MissionTable(name=parcel, fields=needed, trips=trips, actions=(PICK, RELEASE))]
     return [
         MissionTable(
             name=toml_text(name),
-            trips=[_trip(name, own.get(name), target) for target in _TARGETS],
+            fields=needed,
+            trips=[f"{_trip(name, own.get(name), target)}{fields}" for target in _TARGETS],
             actions=(name,),
         )
         for name in simple
     ]
+
+
+def _needed(graph: Graph, on: Entity) -> list[str]:
+    """Return the fields of the app's own that must be filled in, as TOML."""
+    fields = [one for one in graph.fields if one.on is on and one.default is None]
+    return [f"{one.name} = {_SAMPLES.get(one.type, '1.0')}" for one in fields]
 
 
 def able(graph: Graph, *actions: str) -> Category | None:

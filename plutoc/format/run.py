@@ -9,7 +9,7 @@ from plutoc.diagnostic import Rejected
 from plutoc.format.canonical import canonical
 from plutoc.source import LARGEST, Source
 from plutoc.syntax.parse import parse
-from plutoc.syntax.tree import File
+from plutoc.syntax.tree import ActionDecl, File
 
 _BOM = "\ufeff"
 
@@ -33,7 +33,7 @@ def format_source(source: Source) -> str:
     words.
     """
     file = parse(source)
-    text = source.text.removeprefix(_BOM)
+    text = _results_first(source.text, file).removeprefix(_BOM)
     formatted = canonical(text)
     if len(formatted.encode()) > LARGEST:
         raise TooLarge
@@ -44,6 +44,20 @@ def format_source(source: Source) -> str:
     if not (same_meaning(file, again) and same_writing(text, formatted)):
         raise MeaningChanged(f"{source.path} would not say the same; it was not changed")
     return formatted
+
+
+def _results_first(text: str, file: File) -> str:
+    """Put what an action gives before the word that says whether it may be repeated.
+
+    Comments stay where they stand, so that one behind that word comes before the arrow.
+    """
+    for one in reversed(file.app.statements):
+        if isinstance(one, ActionDecl) and one.returns and one.repeat:
+            word, end = one.repeat.span, one.returns.span.end
+            if word.end < end:
+                given = text[word.end : end]
+                text = f"{text[: word.start]}{given} {one.repeat.text}{text[end:]}"
+    return text
 
 
 def same_meaning(one: File, other: File) -> bool:

@@ -35,7 +35,7 @@ _INSTALLS = frozenset(
 _NEEDED = frozenset(
     {
         *("cflib", "starlette", "uvicorn", "websockets", "pytest", "matplotlib", "numpy", "scipy"),
-        "tomlkit",  # what flies needs it
+        *("tomlkit", "shapely"),  # what flies needs the one, and areas the other
         *("anyio", "click", "h11", "idna", "sniffio", "typing_extensions"),  # a station needs these
         *("examples", "libusb_package", "lpslib", "packaging", "pyusb", "pyyaml", "sys_test"),
         *("importlib_resources", "tools", "usb", "yaml"),  # to here cflib

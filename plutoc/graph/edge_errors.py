@@ -47,6 +47,17 @@ def kind_in_a_flow(source: Source, name: Name, kind: Name) -> Diagnostic:
     )
 
 
+def type_in_a_flow(source: Source, name: Name, kind: Name) -> Diagnostic:
+    """A declaration of an action without its first word."""
+    return error(
+        "P1032",
+        f"`{kind.text}` is a type, and an arrow leads to a block",
+        source,
+        kind.span,
+        help=f"to declare an action, write `action {name.text} -> {kind.text}`",
+    )
+
+
 def into_start(source: Source, name: Name) -> Diagnostic:
     """An edge to where missions come from."""
     return error(

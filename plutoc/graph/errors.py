@@ -224,12 +224,20 @@ _OTHER_TYPES = {
 """What other languages and people call them."""
 
 
-def unknown_type(source: Source, name: Name) -> Diagnostic:
-    """A parameter of a type that the language does not know."""
-    known = [kind.value for kind in Type]
+_TYPES = tuple(kind.value for kind in Type)
+
+
+def unknown_type(
+    source: Source, name: Name, known: Sequence[str] = _TYPES, mended: str | None = None
+) -> Diagnostic:
+    """A parameter, a field or a result of a type that the language does not know."""
     other = _OTHER_TYPES.get(name.text.lower())
     measured = UNITS[name.text][0].value if name.text in UNITS else None
-    if measured:
+    if mended:
+        help = f"write {mended}"
+    elif name.text.lower() in ("none", "nothing", "void", "null"):
+        help = "where there is nothing to say, leave the type out"
+    elif measured:
         help = f"`{name.text}` is a unit: the type is `{measured}`"
     elif other:
         help = f"did you mean `{other}`?"
@@ -244,14 +252,20 @@ def unknown_type(source: Source, name: Name) -> Diagnostic:
     )
 
 
-def unknown_repeat(source: Source, name: Name, known: Sequence[str]) -> Diagnostic:
+def unknown_repeat(
+    source: Source, name: Name, known: Sequence[str], types: Sequence[str]
+) -> Diagnostic:
     """A last word of an action that is none of the three."""
     return error(
         "P1027",
         f"whether an action may be repeated is said by {either(known)}, not `{name.text}`",
         source,
         name.span,
-        help=meant(name.text, known),
+        help=(
+            f"what it gives stands behind an arrow: `-> {name.text}`"
+            if name.text in types
+            else meant(name.text, known)
+        ),
     )
 
 

@@ -18,9 +18,13 @@ from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 
 REPEATS = ("safe", "once", "ask")
+PHOTO = "photo"
+RETURNS = (*(kind.value for kind in Type), PHOTO)
+"""What an action can give: what its parameters can be, or a photo."""
 
 _ALREADY_THERE = {
     ACTION: frozenset({"drone", "trip", "context"}),
+    HOOK_ROLES["evaluator"]: frozenset({"mission", "results", "run", "status", "hook", "block"}),
     HOOK_ROLES["modifier"]: frozenset({"mission", "context", "run", "status", "hook", "block"}),
 }
 """What a hook, or the step that calls it, gets besides its parameters."""
@@ -28,12 +32,17 @@ _ALREADY_THERE = {
 
 def action(source: Source, declared: tree.ActionDecl, found: list[Diagnostic]) -> Action:
     """Resolve an action of the app's own."""
-    repeat = declared.repeat
-    if repeat is not None and repeat.text not in REPEATS:
-        found.append(errors.unknown_repeat(source, repeat, REPEATS))
+    repeat, returns = declared.repeat, declared.returns
+    if returns is not None and returns.text not in RETURNS:
+        swapped = repeat is not None and returns.text in REPEATS and repeat.text in RETURNS
+        meant = f"`-> {repeat.text} {returns.text}`" if repeat and swapped else None
+        found.append(errors.unknown_type(source, returns, RETURNS, meant))
+    elif repeat is not None and repeat.text not in REPEATS:  # of two wrong words one is told
+        found.append(errors.unknown_repeat(source, repeat, REPEATS, RETURNS))
     return Action(
         name=declared.name.text,
-        parameters=_parameters(source, declared.parameters, ACTION, found),
+        parameters=parameters(source, declared.parameters, ACTION, found),
+        returns=returns.text if returns and returns.text in RETURNS else None,
         repeat=repeat.text if repeat else "once",
         declaration=_declaration(declared),
         span=declared.name.span,
@@ -41,13 +50,17 @@ def action(source: Source, declared: tree.ActionDecl, found: list[Diagnostic]) -
 
 
 def _declaration(declared: tree.ActionDecl) -> str:
-    parameters = ", ".join(
-        f"{one.name.text}: {one.type.text}{f' = {written(one.default)}' if one.default else ''}"
-        for one in declared.parameters
-    )
-    given = f"({parameters})" if parameters else ""
+    given = ", ".join(map(declaration, declared.parameters))
+    given = f"({given})" if given else ""
+    returns = f" -> {declared.returns.text}" if declared.returns else ""
     repeat = f" {declared.repeat.text}" if declared.repeat else ""
-    return f"action {declared.name.text}{given}{repeat}"
+    return f"action {declared.name.text}{given}{returns}{repeat}"
+
+
+def declaration(one: tree.Parameter) -> str:
+    """Return a parameter as it is declared: canonical, texts left out."""
+    default = f" = {written(one.default)}" if one.default else ""
+    return f"{one.name.text}: {one.type.text}{default}"
 
 
 def hook(source: Source, declared: tree.HookDecl, found: list[Diagnostic]) -> Hook:
@@ -61,7 +74,7 @@ def hook(source: Source, declared: tree.HookDecl, found: list[Diagnostic]) -> Ho
     return Hook(
         kind=HookKind(declared.kind),
         name=declared.name.text,
-        parameters=_parameters(source, declared.parameters, HOOK_ROLES[declared.kind], found),
+        parameters=parameters(source, declared.parameters, HOOK_ROLES[declared.kind], found),
         emits=tuple(status for status in IN_GRAPH if status in emitted),
         writes=tuple(dict.fromkeys(name.text for name in declared.writes)),
         span=declared.name.span,
@@ -94,19 +107,23 @@ def statuses(
     return [(name, status) for status, name in resolved.items()]
 
 
-def _parameters(
-    source: Source, declared: Sequence[tree.Parameter], role: str, found: list[Diagnostic]
+def parameters(
+    source: Source,
+    declared: Sequence[tree.Parameter],
+    role: str,
+    found: list[Diagnostic],
+    what: str = "a parameter",
 ) -> tuple[Parameter, ...]:
-    """Resolve parameters. One of an unknown type is left out: the error is told."""
+    """Resolve parameters, or fields. One of an unknown type is left out: the error is told."""
     first: dict[str, tree.Parameter] = {}
-    parameters = []
+    resolved = []
     for parameter in declared:
         name = parameter.name
-        _check_name(source, name, role, found)
         before = first.setdefault(name.text.lower(), parameter)
-        if before is not parameter:
+        if before is parameter:
+            _check_name(source, name, role, found, what)
+        else:
             same = before.name.text == name.text
-            what = "a parameter"
             found.append(
                 errors.declared_twice(source, name, what, before.name, what)
                 if same
@@ -119,14 +136,16 @@ def _parameters(
         default = (
             typed(source, name.text, parameter.default, kind, found) if parameter.default else None
         )
-        parameters.append(Parameter(name=name.text, type=kind, default=default))
-    return tuple(parameters)
+        resolved.append(Parameter(name=name.text, type=kind, default=default))
+    return tuple(resolved)
 
 
 _TYPES = {kind.value: kind for kind in Type}
 
 
-def _check_name(source: Source, name: tree.Name, role: str, found: list[Diagnostic]) -> None:
+def _check_name(
+    source: Source, name: tree.Name, role: str, found: list[Diagnostic], what: str
+) -> None:
     """Check a parameter's name: it becomes a keyword of a Python call, so Python's are not free."""
     if not names.is_well_formed(name.text):
         found.append(errors.malformed_name(source, name))
@@ -135,4 +154,4 @@ def _check_name(source: Source, name: tree.Name, role: str, found: list[Diagnost
     elif name.text in _ALREADY_THERE.get(role, ()):
         found.append(errors.clashing_parameter(source, name, role))
     elif not names.has_style(name.text, Style.SNAKE):
-        found.append(errors.wrong_style(source, name, "a parameter", Style.SNAKE))
+        found.append(errors.wrong_style(source, name, what, Style.SNAKE))

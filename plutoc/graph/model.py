@@ -7,6 +7,7 @@ from functools import cached_property
 
 from plutoc.block import IN_GRAPH, Block, HookKind
 from plutoc.source import Source, Span
+from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 
@@ -34,11 +35,25 @@ class Library:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parameter:
-    """A parameter of an action or a modifier; without a default it must be given."""
+    """A parameter of an action or a hook; without a default it must be given."""
 
     name: str
     type: Type
     default: Plain | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AppField:
+    """A field of missions or trips that the app declares; without a default it must be filled in."""
+
+    on: Entity
+    name: str
+    type: Type
+    default: Plain | None
+    declaration: str
+    """`dose: mass = 50 mg`: canonical, texts left out."""
+    span: Span
+    """Its name."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,10 +62,12 @@ class Action:
 
     name: str
     parameters: tuple[Parameter, ...]
+    returns: str | None
+    """The type of what it gives: one of parameters, or `photo`; None: the app does not say."""
     repeat: str
     """`safe`, `once` or `ask`: may it be repeated after a crash?"""
     declaration: str
-    """`action pollinate(dose: mass = 50 mg) once`: canonical, on one line, texts left out."""
+    """`action spray(dose: mass = 50 mg) -> float once`: canonical, on one line, texts left out."""
     span: Span
 
 
@@ -91,6 +108,8 @@ class Choose:
 
     name: str
     hook: Hook | None
+    is_given: bool = True
+    """Whether the source says so, and not the declaration's default."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -153,6 +172,8 @@ class Graph:
     title: str
     categories: tuple[Category, ...]
     """Never empty: an app without a category has one that can do everything."""
+    fields: tuple[AppField, ...] = ()
+    """Of the app's own: missions' before trips', in the order of the source."""
     actions: tuple[Action, ...]
     hooks: tuple[Hook, ...]
     nodes: tuple[Node, ...]

@@ -110,7 +110,7 @@ def _value(
 
 def _choose(place: Place, param: Choice, argument: Argument | None) -> Choose:
     """Resolve one of the runtime's functions, or a hook of the app in its place."""
-    default = Choose(name=param.default, hook=None)
+    default = Choose(name=param.default, hook=None, is_given=False)
     if argument is None:
         return default
     name = _name(place, argument.value)

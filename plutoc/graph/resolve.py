@@ -9,7 +9,9 @@ from plutoc.block import IN_GRAPH, HookKind, HookParam
 from plutoc.diagnostic import Diagnostic, Severity, accept_or_raise
 from plutoc.graph import categories, errors, hooks
 from plutoc.graph.cascades import each_name_once, told_once
+from plutoc.graph.chosen import without_a_value
 from plutoc.graph.edges import edges
+from plutoc.graph.fields import fields
 from plutoc.graph.model import FIRST_VERSION, Action, Graph, Hook, Node
 from plutoc.graph.nodes import Place, node
 from plutoc.graph.packages import packages_of, unused_packages
@@ -81,6 +83,7 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
     slips = meant_to_declare(source, flows, scope, kinds, found)
     flows = [flow for flow in flows if flow not in slips.values()]
     unsure = replace(unsure, names=unsure.names | slips.keys())
+    found.extend(without_a_value(source, statements, nodes, app_hooks, partial))
     number = version(file, found)
     graph = Graph(
         source=source,
@@ -92,6 +95,7 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
             for declared in category_decls
         )
         or (categories.implicit(),),
+        fields=fields(source, statements, nodes, found),
         actions=tuple(actions),
         hooks=tuple(app_hooks),
         nodes=tuple(nodes),

@@ -16,6 +16,7 @@ from plutoc.syntax.tree import (
     BadStatement,
     BlockDecl,
     CategoryDecl,
+    FieldsDecl,
     File,
     FlowDecl,
     HookDecl,
@@ -85,7 +86,7 @@ def _declarations(file: File) -> list[Declared]:
                 declared.append(Declared(name=statement.name, role=HOOK_ROLES[statement.kind]))
             case BlockDecl():
                 declared.append(Declared(name=statement.name, role=BLOCK))
-            case VersionDecl() | RequiresDecl() | FlowDecl() | BadStatement():
+            case VersionDecl() | RequiresDecl() | FieldsDecl() | FlowDecl() | BadStatement():
                 pass
     return declared
 

@@ -7,6 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from plutoc.block import IN_GRAPH
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import edge_errors as errors
+from plutoc.graph.hooks import RETURNS
 from plutoc.graph.model import END, START, Node
 from plutoc.graph.names import near
 from plutoc.graph.scope import BLOCK, Scope
@@ -36,7 +37,10 @@ def meant_to_declare(
     kinds: Collection[str],
     found: list[Diagnostic],
 ) -> dict[str, FlowDecl]:
-    """Find flows like `wait -> Clock`, which mean `wait = Clock`; return them by that name."""
+    """Find flows like `wait -> Clock`, which mean `wait = Clock`; return them by that name.
+
+    And those like `weigh -> mass`, which lack the word `action`.
+    """
     declaring: dict[str, FlowDecl] = {}
     for flow in flows:
         names = [name for stop in flow.stops for name in stop.names]
@@ -45,6 +49,9 @@ def meant_to_declare(
             free = name.text != START and name.text not in scope
             if free and kind.text in kinds and kind.text not in scope:
                 found.append(errors.kind_in_a_flow(source, name, kind))
+                declaring[name.text] = flow
+            elif free and kind.text in RETURNS and kind.text not in scope:
+                found.append(errors.type_in_a_flow(source, name, kind))
                 declaring[name.text] = flow
     return declaring
 

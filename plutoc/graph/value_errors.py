@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 
 from plutoc.diagnostic import Diagnostic, Fix, Related, error
+from plutoc.graph.model import Hook, Node, Parameter
 from plutoc.graph.wording import a_kind, either, meant, there_are, unit_meant
 from plutoc.source import Source, Span
 from plutoc.syntax.texts import written_out
@@ -194,4 +195,20 @@ def wrong_hook(
         source,
         span,
         related=(Related(source, declared, f"declared as {role}"),),
+    )
+
+
+def chosen_without_a_value(
+    source: Source, span: Span, hook: Hook, parameter: Parameter, node: Node, default: str
+) -> Diagnostic:
+    """A parameter without a default, of a hook that a mission may choose instead of a block's own."""
+    return error(
+        "P1052",
+        f"a mission may choose `{hook.name}` at `{node.name}`, and its `{parameter.name}` has no"
+        " value there",
+        source,
+        span,
+        label="has no default",
+        related=(Related(source, node.span, "what is given here is for its own hook alone"),),
+        help=f"give it a default: `{default}`",
     )

@@ -13,7 +13,7 @@ from json import dumps
 
 from plutoc.block import IN_GRAPH
 from plutoc.graph.model import END, START
-from plutoc.syntax.tokens import SETTINGS, WORDS
+from plutoc.syntax.tokens import HAS, OWNERS, SETTINGS, WORDS
 from plutoc_runtime.domain.quantities import UNITS, Type
 
 _UNITS = "|".join(re.escape(unit) for unit in sorted(UNITS, key=len, reverse=True))
@@ -30,7 +30,7 @@ class Kind(Enum):
     WORD = "a word of the language"
     CONSTANT = "a value, or how an action repeats"
     STATUS = "a status"
-    TYPE = "a parameter's type"
+    TYPE = "a type of a parameter, a field or a result"
     TERMINAL = "start and end"
     BLOCK = "a kind of block"
     ARROW = "->"
@@ -56,9 +56,11 @@ RULES = (
     Rule(kind=Kind.DECLARED, pattern=r"^[ \t]*[A-Za-z]\w*(?=[ \t]*=)"),
     Rule(kind=Kind.WORD, pattern=_one_of(WORDS)),
     Rule(kind=Kind.WORD, pattern=rf'(?<!app ){_one_of(SETTINGS)}(?=[ \t]*")'),
+    Rule(kind=Kind.WORD, pattern=rf"{_one_of(OWNERS)}[ \t]+{HAS}\b(?=[ \t]+[A-Za-z])"),
     Rule(kind=Kind.CONSTANT, pattern=_one_of(("yes", "no", "safe", "once", "ask"))),
     Rule(kind=Kind.STATUS, pattern=_one_of(tuple(status.value for status in IN_GRAPH))),
     Rule(kind=Kind.TYPE, pattern=_one_of(tuple(kind.value for kind in Type))),
+    Rule(kind=Kind.TYPE, pattern=r"(?<=-> )\b(?:photo)\b(?=[ \t]*(?:$|#|safe|once|ask))"),
     Rule(kind=Kind.TERMINAL, pattern=_one_of((START, END))),
     Rule(kind=Kind.BLOCK, pattern=r"\b[A-Z]\w*"),
     Rule(kind=Kind.ARROW, pattern=r"->"),

@@ -11,7 +11,7 @@ from plutoc.graph.names import near
 from plutoc.hooks import errors
 from plutoc.hooks.annotations import Scope
 from plutoc.hooks.awaits import forgotten
-from plutoc.hooks.expected import Expected, expected, probes
+from plutoc.hooks.expected import FOR_ALL, Expected, as_defined, expected, probes
 from plutoc.hooks.module import Function, Module, arg_span, name_span, read, waits, yields
 from plutoc.hooks.python import Unreadable, check_compiles
 from plutoc.hooks.returns import of_returns
@@ -34,6 +34,17 @@ def missing(checked: Checked, hooks: Source) -> tuple[str, ...]:
     except Unreadable:
         return ()
     return tuple(hook.name for hook in expected(checked) if _is_missing(hook, module))
+
+
+def policies_for_all(checked: Checked, hooks: Source) -> frozenset[str]:
+    """Return the policies that choose for all that wait."""
+    defined = read(hooks).defined
+    functions = ((hook, defined.get(hook.name)) for hook in expected(checked))
+    return frozenset(
+        hook.name
+        for hook, function in functions
+        if isinstance(function, Function) and as_defined(hook, function.args).passed == FOR_ALL
+    )
 
 
 def _found(checked: Checked, hooks: Source) -> Iterator[Diagnostic]:
@@ -85,6 +96,8 @@ def _of_definition(
     definition = module.defined.get(hook.name)
     if definition is None:
         return
+    if not isinstance(definition, ast.ClassDef):
+        hook = as_defined(hook, definition.args)
     at = errors.At(
         app=checked.graph.source, hooks=hooks, hook=hook, span=name_span(hooks, definition)
     )

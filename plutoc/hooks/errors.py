@@ -258,6 +258,20 @@ def undeclared_return(at: At, said: str, emits: Sequence[str]) -> Diagnostic:
     )
 
 
+def undeclared_result(at: At, said: str, result: str) -> Diagnostic:
+    """An action that returns a value of another type than it declares."""
+    return error(
+        "P3020",
+        f"`{at.hook.name}` returns {said if said == 'nothing' else f'`{said}`'}, and declares"
+        f" {_article(result)} `{result}`",
+        at.hooks,
+        at.span,
+        label="fails its mission",
+        related=(Related(source=at.app, span=at.hook.span, label="declared here"),),
+        help=f"return {_article(result)} `{result}`, or declare what it returns",
+    )
+
+
 _NO_EMITS = "return nothing, or say behind `emits` with which statuses it goes on"
 
 
@@ -303,4 +317,4 @@ def _first_difference(text: str, other: str) -> Span:
 
 
 def _article(word: str) -> str:
-    return "an" if word[0] in "aeiou" else "a"
+    return "an" if word[0].lower() in "aeiou" else "a"

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import ast
+from dataclasses import dataclass, replace
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
+from plutoc.emit.python import python_result
 from plutoc.emit.stubs import Stub, stubs
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.source import Span
@@ -18,6 +20,8 @@ PASSED = {
     HookKind.POLICY: ("trip", "candidates"),
 }
 """What comes by position: the hook may call it as it likes."""
+FOR_ALL = ("waiting", "drones", "now")
+"""What a policy gets that has three parameters without a default: it chooses for all that wait."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +40,8 @@ class Expected:
     """The statuses that a modifier declares; None for any other hook."""
     may_wait: bool
     """It may be an `async def`."""
+    result: str | None = None
+    """The type that an action declares to return; None for any other hook."""
     span: Span
     """Where the app declares it."""
     first_line: str
@@ -56,6 +62,23 @@ def expected(checked: Checked) -> tuple[Expected, ...]:
     hooks = [_expected(each, drafts[each.name]) for each in graph.hooks]
     hooks += [_expected(each, drafts[each.name]) for each in graph.actions]
     return tuple(sorted(hooks, key=lambda hook: hook.span.start))
+
+
+def as_defined(hook: Expected, arguments: ast.arguments) -> Expected:
+    """Return what is expected of a hook with these parameters: a policy has one of two shapes."""
+    by_place = [*arguments.posonlyargs, *arguments.args]
+    names = {arg.arg for arg in by_place[:2]}
+    needed = len(by_place) - len(arguments.defaults)
+    if hook.kind is not HookKind.POLICY or needed != 3 or names & set(hook.passed):
+        return hook
+    first_line = f"def {hook.name}{_SIGNATURE_FOR_ALL}:"
+    stub = f"{first_line}\n    return ()"
+    return replace(hook, passed=FOR_ALL, returns="Assignment", first_line=first_line, stub=stub)
+
+
+_SIGNATURE_FOR_ALL = (
+    "(waiting: Sequence[Waiting], drones: Sequence[Drone], now: float) -> Assignment"
+)
 
 
 def probes(checked: Checked) -> tuple[Expected, ...]:
@@ -92,6 +115,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
         returns=_returns(hook),
         emits=_emits(hook),
         may_wait=kind is not HookKind.POLICY,
+        result=python_result(hook.returns) if isinstance(hook, Action) and hook.returns else None,
         span=hook.span,
         first_line=first_line,
         stub="\n    ".join([first_line, *draft.lines]),
@@ -100,7 +124,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
 
 def _returns(hook: Action | Hook) -> str:
     if isinstance(hook, Action):
-        return "object"
+        return python_result(hook.returns) if hook.returns else "object"
     if hook.kind is HookKind.MODIFIER:
         return "Status" if hook.emits else "None"
     return "Verdict" if hook.kind is HookKind.EVALUATOR else "Drone"

@@ -1,4 +1,4 @@
-"""What a modifier returns, as far as the text says it, against the statuses that it declares."""
+"""What a hook returns, as far as the text says it, against the statuses or the type it declares."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ _STATUS = ".Status."
 
 def of_returns(at: errors.At, function: Function, scope: Scope) -> Iterator[Diagnostic]:
     """Find what is surely not declared, also where another branch is faster when it flies."""
+    if at.hook.result is not None:
+        yield from _of_result(at, function, at.hook.result)
     emits = at.hook.emits
     if emits is None:
         return
@@ -29,6 +31,20 @@ def of_returns(at: errors.At, function: Function, scope: Scope) -> Iterator[Diag
                 continue
             place = node if isinstance(value, ast.Return) else value
             yield errors.undeclared_return(at.on(node_span(at.hooks, place)), said, names)
+
+
+def _of_result(at: errors.At, function: Function, result: str) -> Iterator[Diagnostic]:
+    """Find constants that are surely of another type than an action declares."""
+    fits = {"float", "int"} if result == "float" else {result}
+    nodes = list(own_nodes(function))
+    if not any(isinstance(node, ast.Return | ast.Raise | ast.While) for node in nodes):
+        yield errors.undeclared_result(at, "nothing", result)
+    for node in nodes:
+        for value in _values(node) if isinstance(node, ast.Return) else ():
+            given = value.value if isinstance(value, ast.Constant) else None
+            if isinstance(value, ast.Return | ast.Constant) and type(given).__name__ not in fits:
+                said = "nothing" if given is None else repr(given)
+                yield errors.undeclared_result(at.on(node_span(at.hooks, value)), said, result)
 
 
 def _values(node: ast.Return) -> Iterator[ast.expr | ast.Return]:

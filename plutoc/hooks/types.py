@@ -22,6 +22,9 @@ _ARRIVES = {
     "mission": "Mission",
     "results": "Results",
     "candidates": "Sequence",
+    "waiting": "Sequence",
+    "drones": "Sequence",
+    "now": "float",
 }
 """The types of what comes by position."""
 
@@ -32,6 +35,9 @@ _TAKES = {
     "Sequence": {"tuple", "list"},
 }
 """Types besides its own that something can be taken for; every one can be for an object."""
+
+_GIVES = {"Assignment": {"Again", "dict", "list", "tuple", "set", "frozenset"}}
+"""What else a hook may say that it returns, where something is wanted."""
 
 _NEVER_WRONG = "object"
 _LONGEST = 40
@@ -55,7 +61,8 @@ def of_types(
         place = at.on(node_span(at.hooks, annotation))
         written = shortened(at.hooks.quote(place.span), _LONGEST)
         if name is None:
-            if arrives not in allowed:
+            fits = {arrives, "int"} if arrives == "float" else {arrives, *_GIVES.get(arrives, ())}
+            if not (allowed <= fits if at.hook.result else allowed & fits):
                 yield errors.wrong_return(place, written, arrives)
         elif not allowed & {arrives, *_TAKES.get(arrives, ())}:
             yield errors.wrong_annotation(place, name, written, arrives)

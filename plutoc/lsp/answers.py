@@ -21,7 +21,7 @@ from plutoc.service.reading import fixes
 from plutoc.service.reading.hints import hints
 from plutoc.service.reading.hover import hover
 from plutoc.service.reading.outline import coloured, folds, outline
-from plutoc.service.symbols import DECLARED, HOOKS, Occurrence, at, same
+from plutoc.service.symbols import DECLARED, HOOKS, Occurrence, Role, at, same
 from plutoc.source import Span
 
 EXPLAIN = "pluto.explain"
@@ -82,6 +82,9 @@ class Answers:
         app, one = found
         if one.declares and one.role in HOOKS:
             return self._function(app, one.name)
+        if one.role is Role.FIELD:
+            spans = (each.span for each in same(app.document.names, one) if each.declares)
+            return [types.Location(uri=app.uri, range=app.places.range(span)) for span in spans]
         return self._declared(app, one.name) if one.role in DECLARED else []
 
     def references(
@@ -102,24 +105,30 @@ class Answers:
     def prepare_rename(self, uri: str, position: types.Position) -> types.Range | None:
         """Return the name that can be renamed at a place."""
         named = self._name(uri, position)
-        if named is None or named[1].role not in DECLARED:
+        if named is None or named[1].role not in {*DECLARED, Role.FIELD}:
             return None
         app, one = named
         declared = any(each.declares for each in same(app.document.names, one))
         return app.places.range(one.span) if declared else None
 
-    def rename(self, uri: str, position: types.Position, new: str) -> types.WorkspaceEdit | None:
-        """Return the changes that rename what stands at a place; raise `CannotEdit` if that cannot be."""
+    def rename(
+        self, uri: str, position: types.Position, new: str
+    ) -> tuple[types.WorkspaceEdit | None, str]:
+        """Return the changes that rename what stands at a place, and what is left to people.
+
+        Raises `CannotEdit` if it cannot be renamed.
+        """
         named = self._name(uri, position)
         if named is None:
-            return None
+            return None, ""
         app, one = named
-        done = renamed(app.document, one.name, new)
+        name = f"{one.owner}.{one.name}" if one.role is Role.FIELD else one.name
+        done = renamed(app.document, name, new)
         changes = {app.uri: words.edits(app.places, done.edits)}
         hooks, places = app.hooks_uri, app.hooks_places()
         if done.hooks and hooks and places:
             changes[hooks] = words.edits(places, done.hooks)
-        return types.WorkspaceEdit(changes=changes)
+        return types.WorkspaceEdit(changes=changes), done.note
 
     def symbols(self, uri: str) -> list[types.DocumentSymbol]:
         """Return the outline of an app."""

@@ -252,9 +252,16 @@ def _change(ls: Server) -> None:
     @ls.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
     def rename(params: types.RenameParams) -> types.WorkspaceEdit | None:
         try:
-            return answers.rename(params.text_document.uri, params.position, params.new_name)
+            changes, note = answers.rename(
+                params.text_document.uri, params.position, params.new_name
+            )
         except CannotEdit as error:
             raise JsonRpcException(str(error), code=types.LSPErrorCodes.RequestFailed) from None
+        if note:
+            ls.window_show_message(
+                types.ShowMessageParams(type=types.MessageType.Info, message=note)
+            )
+        return changes
 
     @ls.command(EXPLAIN)
     async def explain(code: str) -> str:

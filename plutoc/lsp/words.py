@@ -40,6 +40,7 @@ _SYMBOLS = {
     Role.APP: types.SymbolKind.Module,
     Role.CATEGORY: types.SymbolKind.Struct,
     Role.BLOCK: types.SymbolKind.Object,
+    Role.FIELD: types.SymbolKind.Field,
 }
 """All others are functions."""
 
@@ -54,6 +55,7 @@ _COLOURS = {
     Role.POLICY: "function",
     Role.BLOCK: "variable",
     Role.KIND: "class",
+    Role.FIELD: "property",
     Role.PARAMETER: "parameter",
     Role.TYPE: "type",
     Role.STATUS: "enumMember",

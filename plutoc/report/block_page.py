@@ -97,11 +97,11 @@ def _in_si(value: bool | float | str, kind: Type) -> str:
 
 
 def _field(field: Field) -> str:
-    default = "" if field.default is None else f"; default {_number(field.default)}"
+    default = "" if field.default is None else f"; default {_value(field.default)}"
     return f"- `{field.name}` of a {field.on.value}: {_FIELDS[field.type]}{default}. {field.doc}"
 
 
-_FIELDS = {
+_FIELDS: dict[FieldType | Type, str] = {
     FieldType.TIME: "a time",
     FieldType.INT: "a whole number",
     FieldType.ROUNDS: "a number of rounds, or true",

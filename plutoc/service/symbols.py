@@ -13,6 +13,7 @@ from plutoc.syntax.tree import (
     BlockDecl,
     Bool,
     CategoryDecl,
+    FieldsDecl,
     File,
     FlowDecl,
     HookDecl,
@@ -35,6 +36,7 @@ class Role(Enum):
     POLICY = "policy"
     BLOCK = "block"
     KIND = "kind of block"
+    FIELD = "field"
     PARAMETER = "parameter"
     TYPE = "type"
     STATUS = "status"
@@ -57,7 +59,7 @@ class Occurrence:
     span: Span
     declares: bool = False
     owner: str = ""
-    """Of a parameter: the block, category or hook that it belongs to."""
+    """Of a parameter: the block, category or hook that it belongs to; of a field: `mission` or `trip`."""
 
 
 def occurrences(file: File) -> tuple[Occurrence, ...]:
@@ -106,8 +108,13 @@ def _all(file: File, roles: dict[str, Role]) -> Iterator[Occurrence]:
         yield _named(use.alias or use.package, Role.PREFIX, declares=True)
     hooks = {s.name.text: s for s in file.app.statements if isinstance(s, HookDecl | ActionDecl)}
     known = {name: role for name, role in roles.items() if role in HOOKS}
+    of_missions = {f.name.text for s in fields_of(file) if s.on == "mission" for f in s.fields}
     for statement in file.app.statements:
         match statement:
+            case FieldsDecl():
+                for field in statement.fields:
+                    yield _named(field.name, Role.FIELD, declares=True, owner=statement.on)
+                    yield _named(field.type, Role.TYPE)
             case CategoryDecl():
                 yield _named(statement.name, Role.CATEGORY, declares=True)
                 for argument in statement.arguments:
@@ -116,17 +123,28 @@ def _all(file: File, roles: dict[str, Role]) -> Iterator[Occurrence]:
             case ActionDecl():
                 yield _named(statement.name, Role.ACTION, declares=True)
                 yield from _parameters(statement.parameters, statement.name.text)
+                if statement.returns:
+                    yield _named(statement.returns, Role.TYPE)
                 if statement.repeat:
                     yield _named(statement.repeat, Role.OPTION)
             case HookDecl():
                 yield _named(statement.name, Role(statement.kind), declares=True)
                 yield from _parameters(statement.parameters, statement.name.text)
                 yield from (_named(name, Role.STATUS) for name in statement.emits)
-                yield from (_named(name, Role.OPTION) for name in statement.writes)
+                for name in statement.writes:
+                    if name.text in of_missions:
+                        yield _named(name, Role.FIELD, owner="mission")
+                    else:
+                        yield _named(name, Role.OPTION)
             case BlockDecl():
                 yield from _block(statement, known, hooks, file)
             case FlowDecl():
                 yield from _flow(statement)
+
+
+def fields_of(file: File) -> list[FieldsDecl]:
+    """Return the statements that declare fields."""
+    return [one for one in file.app.statements if isinstance(one, FieldsDecl)]
 
 
 def _block(

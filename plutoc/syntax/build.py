@@ -53,9 +53,11 @@ def _statement(node: Node) -> tree.Statement:
             return tree.VersionDecl(version=_text(_token(node.children[0])), span=_span(node))
         case "requires":
             return _requires(node)
+        case "mission" | "trip":
+            return _fields(node)
         case "category":
             return _category(node)
-        case "action":
+        case "action" | "action_behind":
             return _action(node)
         case "block":
             return _block(node)
@@ -70,6 +72,11 @@ def _requires(node: Node) -> tree.RequiresDecl:
     return tree.RequiresDecl(libraries=libraries, span=_span(node))
 
 
+def _fields(node: Node) -> tree.FieldsDecl:
+    # Its span ends with its last field: a comma behind that is nothing of its own.
+    return tree.FieldsDecl(on=str(node.data), fields=_parameters(node), span=_span(node))
+
+
 def _category(node: Node) -> tree.CategoryDecl:
     name, arguments, can = node.children
     return tree.CategoryDecl(
@@ -78,21 +85,22 @@ def _category(node: Node) -> tree.CategoryDecl:
 
 
 def _action(node: Node) -> tree.ActionDecl:
-    name, parameters, repeat = node.children
+    name, parameters, *rest = node.children
+    returns, repeat = rest if node.data == "action" else reversed(rest)
     return tree.ActionDecl(
         name=_name(name),
         parameters=_parameters(parameters),
+        returns=_name(_node(returns).children[0]) if returns else None,
         repeat=_name(repeat) if repeat else None,
         span=_span(node),
     )
 
 
 def _hook(node: Node) -> tree.HookDecl:
-    name, *rest = node.children
-    parameters, emits, writes = rest or (None, None, None)
+    parameters, emits, writes = (*node.children[1:], None, None, None)[:3]
     return tree.HookDecl(
         kind=str(node.data),
-        name=_name(name),
+        name=_name(node.children[0]),
         parameters=_parameters(parameters),
         emits=_names(emits),
         writes=_names(writes),

@@ -12,16 +12,19 @@ from plutoc.source import Source, Span
 from plutoc.syntax import errors
 from plutoc.syntax.characters import slip
 from plutoc.syntax.grammar import State, would_feed
-from plutoc.syntax.hints import conflict, hint, role_of_a_name
+from plutoc.syntax.hints import GOES_ON_ABOVE, conflict, follows_a_comma, hint, role_of_a_name
 from plutoc.syntax.layout import DEEPEST, MOST_DIGITS
 from plutoc.syntax.texts import written_out
 from plutoc.syntax.tokens import (
     CLOSING,
     END,
     EQUAL,
+    HAS,
     NAME,
     NEWLINE,
     OPENING,
+    OWNER_KINDS,
+    OWNERS,
     SETTINGS,
     WORDS,
     expected,
@@ -43,6 +46,7 @@ _ADDABLE = {
     "LSQB": "[",
     "RSQB": "]",
     "LBRACE": "{",
+    "HAS": HAS,
 }
 """Tokens whose lack can be mended by writing them: the first that fits is proposed."""
 _CHOICES = frozenset({EQUAL, "_ARROW"})
@@ -57,6 +61,7 @@ _OTHER_WORDS = {
     **dict.fromkeys(("program", "application", "mission"), "app"),
 }
 """What other languages say."""
+_OTHER_HAS = dict.fromkeys(("have", "had", "can", "with", "takes", "gets"), "has")
 _OTHER_SETTINGS = {
     **dict.fromkeys(("require", "depends", "dependencies", "needs", "install"), "requires"),
     **dict.fromkeys(("release", "revision"), "version"),
@@ -150,17 +155,22 @@ def _help(
     joined_by = _joined_by(state, tokens, i, accepts)
     if joined_by:
         return joined_by
-    if token.type == NAME:
-        word = _word(token, [word for word in WORDS if word.upper() in accepts])
+    if token.type in (NAME, *OWNER_KINDS) or "HAS" in accepts:
+        possible = [word for word in (*WORDS, HAS) if word.upper() in accepts]
+        word = _word(token, possible, _OTHER_WORDS | _OTHER_HAS)
         if word:
             return _meant(state, token, word, rest)
     if i == 1 and first.type == NAME:
-        if token.type == "TEXT":
+        if token == HAS:
+            word = _word(first, OWNERS)
+        elif token.type == "TEXT":
             word = _word(first, SETTINGS, _OTHER_SETTINGS)
         else:
             word = _word(first, [*_STATEMENT_WORDS, *_LINE_WORDS])
         if word and (token.type in (NAME, "TEXT") or word.upper() == token.type):
             return _meant(base, first, word, tokens[1:])
+    if i == 1 and token.type == "COLON" and follows_a_comma(source, first):
+        return GOES_ON_ABOVE, None
     for given, wanted in (("COLON", EQUAL), (EQUAL, "COLON")):
         text = _ADDABLE[wanted]
         if token.type == given and wanted in accepts:

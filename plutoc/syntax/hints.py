@@ -8,17 +8,27 @@ from itertools import pairwise
 from lark import Token
 
 from plutoc.source import Source
-from plutoc.syntax.tokens import ARROW, EQUAL, NAME, NEWLINE, SETTING_KINDS, SETTINGS, span
+from plutoc.syntax.tokens import (
+    ARROW,
+    EQUAL,
+    NAME,
+    NEWLINE,
+    OWNER_KINDS,
+    SETTING_KINDS,
+    SETTINGS,
+    span,
+)
 
 _AMOUNTS = frozenset({"NUMBER", "QUANTITY"})
 _OPENING = frozenset({"LPAR", "LSQB", "LBRACE"})
 _LISTS = frozenset({"WHEN", "EMITS", "CAN", "WRITES"})
 _AS_WRITTEN = {"version": '`version "1.2.0"`', "requires": '`requires "numpy>=2", "requests"`'}
 _GUARDED = frozenset({"WHEN", "EMITS"})
-_TYPED = frozenset({"ACTION", "MODIFIER"})
+_TYPED = frozenset({"ACTION", "MODIFIER", "EVALUATOR"})
 _ALONE = frozenset({"EVALUATOR", "POLICY"})
 _BEFORE_A_NAME = frozenset({"let", "var", "val", "const", "block", "node", "new", "set", "auto"})
 _OF_PYTHON = frozenset({"def", "class", "async", "await", "return", "from", "lambda", "print"})
+GOES_ON_ABOVE = "a list ends with its line: go on in the line above, behind the comma"
 _CONFLICT = ("<<<<<<<", "=======", ">>>>>>>", "|||||||")
 
 
@@ -26,10 +36,11 @@ def hint(source: Source, tokens: Sequence[Token], i: int, accepts: set[str]) -> 
     """Say how it is written, where the i-th token of a line is no accident."""
     if i == 0:
         return "`pluto 1` stands once, on the first line" if tokens[0].type == "PLUTO" else None
-    if i == len(tokens) - 1 and i == 1 and _follows_a_comma(source, tokens[0]):
-        return "a list ends with its line: go on in the line above, behind the comma"
+    if i == len(tokens) - 1 and i == 1 and follows_a_comma(source, tokens[0]):
+        return GOES_ON_ABOVE
     return (
         _of_settings(tokens, i)
+        or _of_fields(tokens, i)
         or _of_values(tokens, i)
         or _of_guards(tokens, i, accepts)
         or _of_flows(tokens, i)
@@ -54,6 +65,21 @@ def _of_settings(tokens: Sequence[Token], i: int) -> str | None:
         return "an app has one version"
     if first in SETTINGS and i == 2 and tokens[1].type == EQUAL and token.type in ("TEXT", "LSQB"):
         return f"write it without the `=`: {_AS_WRITTEN[first]}"
+    return None
+
+
+def _of_fields(tokens: Sequence[Token], i: int) -> str | None:
+    token, before, after = tokens[i], tokens[i - 1], _at(tokens, i + 1)
+    if tokens[0].type not in OWNER_KINDS:
+        return None
+    if before.type == "HAS" and token.type in _OPENING:
+        return "the fields behind `has` stand there without brackets"
+    if before.type != NAME or tokens[i - 2].type not in ("HAS", "COMMA"):
+        return None
+    if token.type == EQUAL and after:
+        return f"a field has a type: `{before}: TYPE = {after}`"
+    if token.type == "COMMA" or i == len(tokens) - 1:
+        return f"a field has a type: `{before}: TYPE`"
     return None
 
 
@@ -118,10 +144,14 @@ def _of_flows(tokens: Sequence[Token], i: int) -> str | None:
 
 def _of_declarations(tokens: Sequence[Token], i: int, accepts: set[str]) -> str | None:
     token, before, first, after = tokens[i], tokens[i - 1], tokens[0], _at(tokens, i + 1)
+    if first.type == "ACTION" and token.type == "COLON" and ARROW in accepts:
+        return "write `->` before the type of what it gives"
+    if token.type == ARROW and first.type in (*_ALONE, "MODIFIER"):
+        return "only an action declares what it gives"
     if first.type in _ALONE and i == 2 and token.type in ("LPAR", "COMMA"):
         if token.type == "COMMA":
             return f"write `{first}` on a line of its own for each of them"
-        return f"remove the brackets: what a hook gets is clear from its being {_a(first)}"
+        return "remove the brackets: what a policy gets is clear from its being one"
     if token.type == NAME and "CAN" in accepts:
         return "write `can` before it"
     if token.type != NAME or before.type != NAME:
@@ -150,14 +180,19 @@ def role_of_a_name(before: Sequence[Token]) -> str:
     if j < 0:
         return "a name"
     kind = before[j].type
+    if before[0].type == "ACTION" and kind == ARROW:
+        return "a type" if j == len(before) - 1 else "a name"
     if kind == ARROW or (kind == "LSQB" and (j == 0 or before[j - 1].type == ARROW)):
         return "a block"
     if (kind == EQUAL and j == 1) or (kind == "DOT" and j == 3):
         return "a kind of block"
-    return {"WHEN": "a status", "EMITS": "a status", "CAN": "an action"}.get(kind, "a name")
+    return {"WHEN": "a status", "EMITS": "a status", "CAN": "an action", "HAS": "a field"}.get(
+        kind, "a name"
+    )
 
 
-def _follows_a_comma(source: Source, token: Token) -> bool:
+def follows_a_comma(source: Source, token: Token) -> bool:
+    """Return whether the line above this one's first token ends with a comma."""
     line = source.line(max(1, source.position(span(token).start)[0] - 1))
     return line.split("#")[0].rstrip().endswith(",")
 
@@ -170,10 +205,6 @@ def _open_bracket(tokens: Sequence[Token], i: int) -> str | None:
 
 def _is_kind(token: Token) -> bool:
     return token[:1].isupper() and not token.isupper()
-
-
-def _a(word: str) -> str:
-    return f"an {word}" if word[0] in "aeiou" else f"a {word}"
 
 
 def _touch(*tokens: Token) -> bool:

@@ -1,8 +1,9 @@
 """From the lexer's tokens to the parser's: which newlines end a statement, which words are names.
 
 A newline ends a statement, except inside brackets and before a line that begins with `->`. Inside
-brackets the language's words are ordinary names; so are `version` and `requires` wherever they do
-not begin a statement of theirs, for apps have blocks of such names. A bracket that was forgotten must
+brackets the language's words are ordinary names; so are `version`, `requires`, `mission` and `trip`
+wherever they do not begin a statement of theirs, and `has` but behind one of these two, for apps have
+blocks of such names. A bracket that was forgotten must
 not swallow the rest of the file: a line that can only be the beginning of a statement closes what
 was left open.
 """
@@ -24,7 +25,9 @@ from plutoc.syntax.tokens import (
     NAME,
     NEWLINE,
     OPENING,
+    OWNER_KINDS,
     SETTING_KINDS,
+    SOFT_KINDS,
     WORDS,
 )
 
@@ -33,9 +36,9 @@ DEEPEST = 64
 MOST_DIGITS = 15
 """How many digits a number has at most: what a 64-bit float keeps."""
 
-_WORDS = SETTING_KINDS | {word.upper() for word in WORDS}
-_LINE_BEGINNERS = BEGINNERS - SETTING_KINDS | {"USE", "APP"}
-_NAMES = SETTING_KINDS | {NAME}
+_WORDS = SOFT_KINDS | {word.upper() for word in WORDS}
+_LINE_BEGINNERS = BEGINNERS - SOFT_KINDS | {"USE", "APP"}
+_NAMES = SOFT_KINDS | {NAME}
 """What may turn out to be a name, of tokens that lie ahead."""
 _FOLLOWS_A_FIRST_NAME = _NAMES | {EQUAL, ARROW}
 _FOLLOWS_A_NAME = CLOSING | {EQUAL, ARROW, "COMMA"}
@@ -106,9 +109,11 @@ def _ended(tokens: Sequence[Token]) -> Iterator[Token]:
 
 
 def _is_a_name(before: str, word: str, behind: str) -> bool:
-    """Return whether a word outside of brackets is a name: a setting's that begins no statement."""
+    """Return whether a word outside of brackets is a name: a soft one that begins no statement."""
+    if word == "HAS":
+        return before not in OWNER_KINDS
     begins = before in (NEWLINE, "LBRACE") and behind not in _FOLLOWS_A_NAME
-    return word in SETTING_KINDS and not begins
+    return word in SOFT_KINDS and not begins
 
 
 def _following(tokens: Sequence[Token]) -> list[str]:

@@ -28,7 +28,7 @@ from plutoc.syntax.lines import (
     lines_of,
 )
 from plutoc.syntax.sections import sections
-from plutoc.syntax.tokens import BEGINNERS, END, EQUAL, NAME, NEWLINE, SETTING_KINDS, made_up, span
+from plutoc.syntax.tokens import BEGINNERS, END, EQUAL, NAME, NEWLINE, SOFT_KINDS, made_up, span
 from plutoc.syntax.tree import BadStatement, File, Name
 
 MOST_MISTAKES = 1_000
@@ -203,7 +203,7 @@ def _declared(source: Source, line: Line) -> tuple[str | None, Name | None, str 
     """Return the kind of a statement, the name that it declares, or else what stands there."""
     tokens = line.tokens
     second = tokens[1].type if len(tokens) > 1 else ""
-    if line.first in SETTING_KINDS:
+    if line.first in SOFT_KINDS:
         return line.first.lower(), None, None
     if line.first in (*BEGINNERS, "USE", "APP") and second != EQUAL:
         kind = line.first.lower()

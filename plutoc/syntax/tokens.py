@@ -20,10 +20,15 @@ WORDS = (
 """The language's own words. Each is a terminal of the grammar, named in capitals."""
 
 SETTINGS = ("version", "requires")
+OWNERS = ("mission", "trip")
+HAS = "has"
+SOFT_WORDS = (*SETTINGS, *OWNERS, HAS)
 """Words too, but only where they begin a statement: elsewhere they are names like any other."""
 
 SETTING_KINDS = frozenset(word.upper() for word in SETTINGS)
-BEGINNERS = SETTING_KINDS | {"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"}
+OWNER_KINDS = frozenset(word.upper() for word in OWNERS)
+SOFT_KINDS = frozenset(word.upper() for word in SOFT_WORDS)
+BEGINNERS = SETTING_KINDS | OWNER_KINDS | {"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"}
 
 _NAMED = {
     "NAME": "a name",
@@ -41,7 +46,7 @@ _NAMED = {
     "RSQB": "`]`",
     "LBRACE": "`{`",
     "RBRACE": "`}`",
-    **{word.upper(): f"`{word}`" for word in (*WORDS, *SETTINGS)},
+    **{word.upper(): f"`{word}`" for word in (*WORDS, *SOFT_WORDS)},
     NEWLINE: "the end of the line",
     END: "the end of the file",
 }
@@ -52,7 +57,7 @@ _GROUPS = (
 )
 """What is too long to tell one by one."""
 
-_IN_A_STATEMENT = SETTING_KINDS | {"ACTION", "EVALUATOR", "POLICY"}
+_IN_A_STATEMENT = SETTING_KINDS | OWNER_KINDS | {"ACTION", "EVALUATOR", "POLICY"}
 
 
 def made_up(kind: str, text: str) -> Token:

@@ -70,7 +70,7 @@ class Argument:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parameter:
-    """`dose: mass = 50 mg`, declared by an action or a modifier."""
+    """`dose: mass = 50 mg`, declared by an action or a hook, or for missions or trips."""
 
     name: Name
     type: Name
@@ -104,6 +104,16 @@ class RequiresDecl:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FieldsDecl:
+    """`mission has patient: text, …`: at least one field."""
+
+    on: str
+    """`mission` or `trip`."""
+    fields: tuple[Parameter, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CategoryDecl:
     """`category scout(payload: 5 g) can take_photo`."""
 
@@ -115,17 +125,18 @@ class CategoryDecl:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ActionDecl:
-    """`action pollinate(dose: mass = 50 mg) once`; `repeat` is the last word, if any."""
+    """`action spray(dose: mass = 50 mg) -> float once`; `repeat` is the last word, if any."""
 
     name: Name
     parameters: tuple[Parameter, ...]
+    returns: Name | None
     repeat: Name | None
     span: Span
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HookDecl:
-    """`evaluator NAME`, `policy NAME`, `modifier NAME(…) emits … writes …`."""
+    """`evaluator NAME(…)`, `policy NAME`, `modifier NAME(…) emits … writes …`."""
 
     kind: str
     """`evaluator`, `modifier` or `policy`."""
@@ -189,7 +200,16 @@ class BadStatement:
 Setting = VersionDecl | RequiresDecl
 """What stands once in an app, and has no name."""
 
-Statement = Setting | CategoryDecl | ActionDecl | HookDecl | BlockDecl | FlowDecl | BadStatement
+Statement = (
+    Setting
+    | FieldsDecl
+    | CategoryDecl
+    | ActionDecl
+    | HookDecl
+    | BlockDecl
+    | FlowDecl
+    | BadStatement
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

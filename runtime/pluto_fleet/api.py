@@ -17,7 +17,7 @@ from .files.fleet import FleetFile, default_fleet, load_fleet
 from .files.fleet_text import fleet_text
 from .files.missions import load_missions
 from .files.missions_text import missions_text
-from .files.plan_check import endless, problems
+from .files.plan_check import endless, problems, wrong_fields
 from .files.reading import shortened
 from .flight.config import End, FlightResult, Stops
 from .flight.lives import FlightObserver, FlightSetup, reopen, run_flight
@@ -181,6 +181,6 @@ def _refuse(
     app: App, missions: Sequence[Mission[Any]], fleet: FleetFile, more: Sequence[str]
 ) -> None:
     """Raise `BadInput` with everything that is wrong with a plan."""
-    found = [*problems(missions, app, fleet, fleet.airspace), *more]
+    found = [*wrong_fields(missions, app), *problems(missions, app, fleet, fleet.airspace), *more]
     if found:
         raise BadInput(shortened(found))

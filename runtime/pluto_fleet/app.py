@@ -22,6 +22,7 @@ from .shared.domain.errors import BadInput
 from .shared.domain.fields import Entity, Field, FieldType
 from .shared.domain.model import Category, Mission, Trip
 from .shared.domain.motion import PEAK
+from .shared.domain.own_fields import OwnField
 from .shared.domain.quantities import Type
 
 if TYPE_CHECKING:
@@ -118,13 +119,10 @@ def bare(name: str, package: str, seam: Seam) -> App:
 
 
 def _field(data: Mapping[str, Any]) -> Field:
-    return Field(
-        name=data["name"],
-        on=Entity(data["on"]),
-        type=FieldType(data["type"]),
-        label=data["label"],
-        default=data["default"],
-    )
+    known = {"name": data["name"], "label": data["label"], "default": data["default"]}
+    if data.get("own"):  # from seam 3.2 on
+        return OwnField(**known, on=Entity(data["on"]), type=Type(data["type"]))
+    return Field(**known, on=Entity(data["on"]), type=FieldType(data["type"]))
 
 
 def _category(data: Mapping[str, Any]) -> Category:

@@ -7,6 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 
 EXTRAS = {
+    "areas": ("shapely",),
     "crazyflie": ("cflib",),
     "plot": ("matplotlib",),
     "station": ("starlette", "uvicorn", "websockets"),

@@ -7,13 +7,13 @@ of them. So the copy stands in for what the app carries, and is driven as any ot
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import spec_from_file_location
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 from . import shared
 
@@ -47,8 +47,21 @@ def provide(brain: str) -> None:
     results = import_module(f"{brain}.domain.model").ResultStore
     results.for_evaluator = import_module(f"{brain}.hooks.context").results_for
     import_module(f"{brain}.flow.run").Run.hook = import_module(f"{brain}.flow.asking").ask
+    queue.Queue.enter = _entering(queue.Queue.enter)
+    batch = import_module(f"{brain}.fleet.batch")
     for name in ("Policy", "Choice", "Able", "Batch", "lowest"):
-        setattr(queue, name, getattr(policies, name))
+        setattr(queue, name, getattr(batch if name == "Batch" else policies, name))
+
+
+def _entering(enter: Callable[..., object]) -> Callable[..., object]:
+    """Let a request be made for trips, too, and not for a mission only."""
+
+    def enter_either(queue: object, what: object, policy: object, priority: int) -> object:
+        if isinstance(what, list):
+            what = SimpleNamespace(name="", trips=what, deadline=None)
+        return enter(queue, what, policy, priority)
+
+    return enter_either
 
 
 def loaded_again(brain: str) -> object:

@@ -75,7 +75,7 @@ class Brain:
         )
         drones = _drones(app, fleet, orders, DroneStatus.OFFLINE if recorded else DroneStatus.FREE)
         queue = Queue(kernel, Reach(app, space), drones, fleet.get("max_airborne"))
-        after_trip = AfterTrip(fleet.get("after_trip", "home"))
+        after_trip = AfterTrip(fleet.get("after_trip", "next"))
         self._core = core = Core(
             app=app,
             kernel=kernel,

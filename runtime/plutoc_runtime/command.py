@@ -13,7 +13,7 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .domain.app import SEAM
+from .domain.app import SEAM, needs_library
 from .domain.errors import BadInput
 from .domain.status import Status
 from .domain.text import counted, duration, printable
@@ -29,7 +29,7 @@ _SEAM = ".".join(map(str, SEAM))
 
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
 _EXTRAS |= dict.fromkeys(("size", "fly", "resume", "journal", "tell", "decide", "--runs"), "")
-_EXTRAS |= dict.fromkeys(("gateway", "crtp", "--jobs"), "")
+_EXTRAS |= dict.fromkeys(("gateway", "crtp", "--jobs", "--start"), "")
 """What needs the library, and with which of its extras."""
 _WORDS = [*_EXTRAS, "check", "simulate", "--version"]
 _WORDS += ["--fleet", "--seed", "--no-spread", "--fail", "--until", "--trace", "--json"]
@@ -102,9 +102,7 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
     flags = [word for word in argv if word.startswith("--")] if argv[:1] == ["simulate"] else []
     for what in (word.partition("=")[0] for word in flags or argv[:1]):
         if what in _EXTRAS:
-            said = f"{name}: {what} needs pluto-fleet, the library that flies: "
-            said += f'pip install "pluto-fleet{_EXTRAS[what]}>={_SEAM}" (without an index, from '
-            raise BadInput(said + f'Pluto\'s sources: pip install "PLUTO/runtime{_EXTRAS[what]}")')
+            raise BadInput(f"{name}: {needs_library(what, _EXTRAS[what])}")
     app = loaded(load)
     try:
         options = _parser(app).parse_args(argv)

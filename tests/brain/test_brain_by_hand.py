@@ -55,6 +55,7 @@ def test_an_order_says_all_that_is_needed_to_carry_it_out() -> None:
         "action": "pick_item",
         "parameters": {},
         "item": item,
+        "beside": False,
     }
     brain.close()
 

@@ -77,6 +77,25 @@ def test_what_needs_the_library_says_so_and_how_to_get_it(run: Run, what: str) -
     assert command.alone("alfalfa", load, [what]) == 2
 
 
+@pytest.mark.parametrize(
+    ("what", "extra", "more"),
+    [("area", "[areas]", "[[mission.area]]\npolygon = 3\n"), ("each", "", 'each = "beds.csv"\n')],
+)
+def test_a_plan_that_only_the_library_reads_says_so(
+    run: Run, tmp_path: Path, what: str, extra: str, more: str
+) -> None:
+    """In one sentence with its mission, and what to install."""
+    file = tmp_path / "m.toml"
+    file.write_text(f'[[mission]]\nname = "North"\n{more}', encoding="utf-8")
+    said = (
+        f'{file}: mission "North": {what} needs pluto-fleet, the library that flies: '
+        f'pip install "pluto-fleet{extra}>={SEAM}" '
+        f'(without an index, from Pluto\'s sources: pip install "PLUTO/runtime{extra}")\n'
+    )
+    for command_ in ("check", "simulate"):
+        assert run(command_, file) == (2, "", said)
+
+
 @pytest.mark.parametrize("flag", ["--runs", "--jobs", "--plot"])
 def test_flags_that_need_the_library_say_so(run: Run, missions: Path, flag: str) -> None:
     """However they are written."""

@@ -24,7 +24,7 @@ from pluto_fleet.shared.alone import files
 from pluto_fleet.shared.alone.files import LARGEST
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
-from tests.runtime.files.an_app import APP, PLAIN
+from tests.runtime.files.an_app import APP, OWN, PLAIN
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App
@@ -357,6 +357,56 @@ def test_what_is_no_plan_file_is_refused_alike(
     assert of_fleet(Path("a\0b")) == ("is not a file name", "is not a file name")
 
 
+OWN_TRIP = f'{TRIP}fragile = true\nwarmth = "21 C"\n'
+O = f'{M}patient = "Ada"\n'
+OWN_MISSIONS = [
+    (f"{O}{OWN_TRIP}", ""),
+    (f"{M}{OWN_TRIP}", "has no patient"),
+    (f"{O}{TRIP}warmth = 294", "has no fragile"),
+    (f"{O}{TRIP}fragile = false", "has no warmth"),
+    (f"{M}patients = 'Ada'\n{OWN_TRIP}", 'unknown key "patients"'),
+    (f"{M}patient = 3\n{OWN_TRIP}", "patient 3 is not a text"),
+    (f"{M}patient = []\n{OWN_TRIP}", "patient [] is not a text"),
+    (f"{O}margin = '3 m'\n{OWN_TRIP}", 'margin "3 m" is a length, not a time'),
+    (f"{O}margin = '3'\n{OWN_TRIP}", ""),
+    (f"{O}margin = 'soon'\n{OWN_TRIP}", 'margin "soon" is not a time'),
+    (f"{O}margin = nan\n{OWN_TRIP}", "margin nan is not a finite number"),
+    (f"{O}margin = 08:00:00\n{OWN_TRIP}", "margin 08:00:00 is not a time"),
+    (f"{O}share = '20 %'\nurgent = true\n{OWN_TRIP}", ""),
+    (f"{O}urgent = 1\n{OWN_TRIP}", "urgent 1 is neither true nor false"),
+    (f"{O}urgent = 'yes'\n{OWN_TRIP}", 'urgent "yes" is neither true nor false'),
+    (f"{O}{OWN_TRIP}layers = 1.5", "layers 1.5 is not a whole number"),
+    (f"{O}{OWN_TRIP}layers = {10**20}", f"layers {10**20} is too large"),
+    (f"{O}{OWN_TRIP}height_over_ground = '40 kg'", 'height_over_ground "40 kg" is a mass, not a length'),
+    (f"{O}{OWN_TRIP}note = {{ a = 1 }}", "note {…} is not a text"),
+    (f"{O}{OWN_TRIP}delay = -1", "delay -1 is less than 0"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "said"), OWN_MISSIONS)
+def test_fields_of_an_apps_own_are_read_alike(tmp_path: Path, text: str, said: str) -> None:
+    path = tmp_path / "missions.toml"
+    path.write_text(text, "utf-8")
+    assert of_missions(path, OWN) == (said, said)
+
+
+def test_what_must_be_filled_in_is_told_with_what_to_write(tmp_path: Path) -> None:
+    """By both, and by the library with the line of the table that lacks it."""
+    path = tmp_path / "missions.toml"
+    path.write_text(f"{M}{TRIP}", "utf-8")
+    says = 'has no patient: write patient = "text"'
+    with pytest.raises(BadInput) as small:
+        files.load_missions(path, OWN, FENCED)
+    assert str(small.value) == f'{path}: mission "north": {says}'
+    with pytest.raises(BadInput) as full:
+        full_missions.load_missions(path, OWN, FENCED)
+    assert str(full.value).split("\n") == [
+        f'{path}:1: mission "north": {says}',
+        f'{path}:3: mission "north", trip 1: has no fragile: write fragile = true',
+        f'{path}:3: mission "north", trip 1: has no warmth: write warmth = "1 K"',
+    ]
+
+
 FLEET = """
 [map]
 size = [20.0, "1200 cm"]
@@ -402,7 +452,29 @@ parameters = {{ dose = "40 mg", share = "20 %", gently = false, note = "x" }}
 repeat = true
 {TRIP}name = "B"
 """
+OWN_FLOWN = f"""
+[[mission]]
+name = "north"
+repeat = 2
+patient = "Ada"
+margin = "3 min"
+share = 0.3
+urgent = true
+{OWN_TRIP}
+delay = "30 s"
+note = "x"
+layers = 3
+height_over_ground = "40 cm"
+[[mission]]
+patient = "Grace"
+{OWN_TRIP}
+"""
 KEYS = [
+    "patient",
+    "margin",
+    "fragile",
+    "layers",
+    "warmth",
     "id",
     "name",
     "category",
@@ -499,6 +571,17 @@ def test_files_with_mistakes_at_random_are_read_alike(fleet: str, missions: str)
         assert small == full
 
 
+@settings(max_examples=200, deadline=None)
+@given(mistaken(OWN_FLOWN))
+def test_fields_with_mistakes_at_random_are_read_alike(missions: str) -> None:
+    """Those of the app's own, and with them the others."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "x.toml")
+        path.write_text(missions, "utf-8")
+        small, full = of_missions(path, OWN)
+        assert small == full
+
+
 def test_the_files_without_mistakes_are_accepted(tmp_path: Path) -> None:
     """So that each change is one."""
     path = tmp_path / "x.toml"
@@ -506,3 +589,5 @@ def test_the_files_without_mistakes_are_accepted(tmp_path: Path) -> None:
     assert of_fleet(path) == ("", "")
     path.write_text(FLOWN)
     assert of_missions(path) == ("", "")
+    path.write_text(OWN_FLOWN)
+    assert of_missions(path, OWN) == ("", "")

@@ -92,6 +92,16 @@ async def test_a_camera_that_is_not_there_fails_the_action(folder: Path) -> None
             await one.navigation.act("take_photo", {}, None)
 
 
+async def test_a_quantity_is_read_from_the_variable_that_the_fleet_file_names(folder: Path) -> None:
+    """So a hook reads by one name from simulated drones and from real ones, and in any world."""
+    async with hangar(folder, {"measure": {"breaths": "bme.humidity", "lost": "no.such"}}) as one:
+        cf = await one.connected()
+        assert await cf.read("breaths") == pytest.approx(40.0)
+        for name in ("lost", "light"):
+            with pytest.raises(Rejected, match=f'measure = {{ {name} = "group.name" }}'):
+                await cf.read(name)
+
+
 async def test_variables_are_read_and_parameters_set(folder: Path) -> None:
     async with hangar(folder) as one:
         cf = await one.connected()
@@ -99,7 +109,7 @@ async def test_variables_are_read_and_parameters_set(folder: Path) -> None:
         assert await cf.read("hlCommander.vtoff") == pytest.approx(0.5)
         await cf.write("hlCommander.vtoff", 0.7)
         assert await cf.read("hlCommander.vtoff") == pytest.approx(0.7)
-        with pytest.raises(Rejected, match="neither a log variable nor a parameter"):
+        with pytest.raises(Rejected, match=r'neither a log variable nor a parameter "no\.such"$'):
             await cf.read("no.such")
         with pytest.raises(Rejected, match=r'no parameter "bme\.humidity"'):
             await cf.write("bme.humidity", 1.0)

@@ -66,7 +66,7 @@ def test_the_page_shows_what_is_really_said() -> None:
 def test_every_kind_of_change_that_can_be_told_has_a_case(changes: list[Change]) -> None:
     """No sentence goes unread."""
     words = "".join(_read(path) for path in (ROOT / "plutoc/diff/messages").glob("*.py"))
-    told_by = r"(?:kind=|kind(?:, said)? = |_set\(|_said\(|_fields\(|_route\(|one_sided\()"
+    told_by = r"(?:kind=|kind(?:, said)? = |_set\(|\btold\(|_fields\(|_route\(|one_sided\()"
     told = re.findall(rf'{told_by}\s*"(\w+)"(?: if is_new else "(\w+)")?', words)
     kinds = [kind for either in told for kind in either if kind]
     assert len(kinds) > 40

@@ -56,3 +56,38 @@ app odd_ "Odd: <b>\\"names\\"</b> `x` ${{ 1 }}" {
 }
 """
 """Names that Python, or the generated code itself, has already."""
+
+TYPED = """\
+pluto 1
+app typed_ {
+  mission has str: text, float: length = 2 m, model: int
+  trip has bool: bool, str: text = "", dataclass: percent = 40 %, builtins: float
+  trip has warmth: temperature
+
+  action float(int: float) -> float safe
+  action weigh -> mass
+  action count -> int ask
+  action look_at(str: text = "x") -> photo
+  action bool -> bool
+  action read_label -> text
+  evaluator str(least: int = 2, share: percent = 20 %)
+  evaluator int(float: float = 0.5)
+  modifier note_it
+
+  create = MissionCreator
+  note = MissionModifier(hook: note_it)
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  judge = MissionEvaluator(hook: int, float: 1.5)
+  retry = PriorityManager
+
+  start -> create -> note -> allocate -> launch -> watch
+  watch -> allocate when STANDBY
+  watch -> retry when FAILED
+  watch -> judge when COMPLETED
+  [retry, judge] -> allocate when STANDBY
+  [retry, judge] -> end otherwise
+}
+"""
+"""Fields of its own, evaluators with parameters, and actions that say what they give; odd names, too."""

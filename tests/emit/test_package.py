@@ -26,12 +26,18 @@ from plutoc.emit.readme_file import readme
 from plutoc.emit.render import owned
 from plutoc.graph.app_names import taken_app_name
 from plutoc.plan.model import Plan
-from tests.emit.apps import ODD_NAMES, PARCELS, PLAIN
+from tests.emit.apps import ODD_NAMES, PARCELS, PLAIN, TYPED
 from tests.emit.plans import plan_of
 
 ROOT = Path(__file__).parent.parent.parent
 ALFALFA = (ROOT / "tests/cases/alfalfa/app.pluto").read_text(encoding="utf-8")
-APPS = {"alfalfa": ALFALFA, "odd_": ODD_NAMES, "plain": PLAIN, "parcels": PARCELS}
+APPS = {
+    "alfalfa": ALFALFA,
+    "odd_": ODD_NAMES,
+    "plain": PLAIN,
+    "parcels": PARCELS,
+    "typed_": TYPED,
+}
 
 
 def package_of(text: str, source_name: str = "app.pluto") -> Package:
@@ -65,7 +71,7 @@ def run(folder: Path, *command: str) -> str:
     return done.stdout
 
 
-@pytest.mark.parametrize("name", ["odd_", "parcels"])
+@pytest.mark.parametrize("name", ["odd_", "parcels", "typed_"])
 def test_package_passes_its_own_tests(name: str, tmp_path: Path) -> None:
     """It flies as it is: all its missions end, and its stubs stand in for what is to be written."""
     folder = write(package_of(APPS[name]), tmp_path)

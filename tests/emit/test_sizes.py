@@ -193,15 +193,17 @@ def test_modules_that_nothing_needs_stay_behind(example: str) -> None:
     assert ("flow.asking" in carried) == bool(hooks - {"policy"})
     assert not carried & set(OF_STRANGERS)
     chosen = re.search(r"policy: (\w+)", text)
-    assert carried & POLICIES == NEEDED.get(chosen[1] if chosen else "nearest", OWN)
+    assert carried & POLICIES == NEEDED.get(chosen[1] if chosen else "least_makespan", OWN)
 
 
 NEEDED = {
-    "batch_optimal": {"fleet.assignment", "fleet.batch_optimal"},
+    "batch_optimal": {"fleet.assignment", "fleet.batch", "fleet.batch_optimal"},
+    "earliest_deadline": {"fleet.batch", "fleet.durations", "fleet.earliest_deadline"},
+    "least_makespan": {"fleet.batch", "fleet.durations", "fleet.least_makespan"},
     **{name: set[str]() for name in ("first", "least_used", "nearest")},
 }
 """The modules of each policy of ours, beside `fleet.policies`."""
-OWN = {"fleet.own_policy"}
+OWN = {"fleet.batch", "fleet.own_batch", "fleet.own_policy"}
 """That of a policy that is a hook of the app's own."""
 POLICIES = OWN.union(*NEEDED.values())
 

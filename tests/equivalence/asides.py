@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import product
+from random import Random
 
 from plutoc_runtime.domain.status import WORST_FIRST
 from tests.equivalence.drawing import C, Drawing, Ends, F, S, Statuses, U, ordered
@@ -86,12 +87,21 @@ def judged(drawing: Drawing, ends: Ends, kinds: Sequence[str] | None = None) -> 
     both = ["evaluator", "repeater"] if drawing.chance(0.8) else ["repeater", "evaluator"]
     for kind in kinds or drawing.rng.choice((both, both[:1], both[1:])):
         if kind == "evaluator":
-            hook = drawing.hook("evaluator", "judge")
-            name = drawing.block("judge", "MissionEvaluator", (S, C, F), f"hook: {hook}")
+            hook, given = _evaluator(drawing)
+            name = drawing.block("judge", "MissionEvaluator", (S, C, F), f"hook: {hook}{given}")
         else:
             name = drawing.block("again", "MissionRepeater", (S, C))
         ends = {**drawing.lead(ends, name, (C,)), name: drawing.emits[name]}
     return ends
+
+
+def _evaluator(drawing: Drawing) -> tuple[str, str]:
+    """Declare an evaluator, and return it with what its block gives to it."""
+    luck = Random(f"{len(drawing.words)}/{len(drawing.blocks)}")
+    if luck.random() < 0.5:
+        return drawing.hook("evaluator", "judge"), ""
+    hook = drawing.hook("evaluator", "judge", "(least: int = 2, share: percent = 20 %)")
+    return hook, luck.choice(("", ", least: 3", ", least: 3, share: 40 %"))
 
 
 def tangle(drawing: Drawing, ends: Ends) -> Ends:

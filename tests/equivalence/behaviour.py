@@ -92,6 +92,10 @@ class Behaviour:
                 context.log(f"{hook.name} says {chance.random():.3f}")
             if chance.random() < 0.2 and len(mission.trips) > 2:
                 mission.trips[1:] = mission.trips[:0:-1]
+            if hasattr(mission, "notes"):
+                mission.notes += 1
+            if mission.trips and hasattr(mission.current, "layers"):
+                mission.current.layers += 1
             return self._said(hook, mission, chance)
 
         async def never_waits(
@@ -119,17 +123,22 @@ class Behaviour:
         return chance.choice(hook.emits if wild else fits)
 
     def _evaluator(self, hook: Hook) -> Callable[..., object]:
-        def judges(mission: AnyMission, results: Results[Any, Any]) -> object:
+        def judges(
+            mission: AnyMission, results: Results[Any, Any], *, least: int = 0, share: float = 0.0
+        ) -> object:
             chance = self._chance(hook.name, mission.name)
             seen = [f"{result.trip.name}/{result.round}/{result.attempt}" for result in results.new]
             self.diary.append(
                 f"{self.clock():.6f} {hook.name} {mission.name} {seen} {len(results.all)}"
+                f" {least} {share} {_own(mission)} {[_own(one) for one in mission.completed_trips]}"
             )
             often = self.calls[hook.name, mission.name] > 3 or self._tired(mission)
             return Verdict() if often else _verdict(mission, chance)
 
-        async def takes_time(mission: AnyMission, results: Results[Any, Any]) -> object:
-            return judges(mission, results)
+        async def takes_time(
+            mission: AnyMission, results: Results[Any, Any], *, least: int = 0, share: float = 0.0
+        ) -> object:
+            return judges(mission, results, least=least, share=share)
 
         plain = self.patient and Random(f"{self.seed}/{hook.name}").random() < 0.5
         return judges if plain else takes_time
@@ -191,6 +200,12 @@ def _fits(status: Status, mission: AnyMission) -> bool:
         return not mission.trips
     waits = bool(mission.trips) and mission.current.status is TripStatus.WAITING
     return waits and (status is Status.STANDBY or not mission.attempts)
+
+
+def _own(of: object) -> list[object]:
+    """Return what an app's own fields hold (graphs.py)."""
+    names = ("owner", "notes", "layers", "gentle", "remark", "share")
+    return [getattr(of, name) for name in names if hasattr(of, name)]
 
 
 def _verdict(mission: AnyMission, chance: Random) -> object:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from pluto_fleet.app import described
@@ -99,7 +98,7 @@ def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool
     if world.entry is not None and world.entry[0] in app.resumes:
         block, status = world.entry
         entry = block, Status(status.value)
-        app = replace(app, flow=partial(_entered, app.flow, entry))
+        app = replace(app, flow=_entered(app.flow, entry))
     flown = described(app)
     missions = world.made(flown)
     ends: Sequence[str]
@@ -130,11 +129,15 @@ def record(package: Package, world: World, *, fly: Fly = simulate, patient: bool
     )
 
 
-async def _entered(flow: Flow, entry: tuple[str, Status], run: Run[Mission[Any]]) -> Status:
-    """Take a mission through its flow from where it was interrupted, though it has flown nothing."""
-    run.core.transitions.create(run.mission)
-    run.at, run.status = entry
-    return await flow(run)
+def _entered(flow: Flow, entry: tuple[str, Status]) -> Flow:
+    """Return a flow from where a mission was interrupted, though it has flown nothing."""
+
+    async def entered(run: Run[Mission[Any]]) -> Status:
+        run.core.transitions.create(run.mission)
+        run.at, run.status = entry
+        return await flow(run)
+
+    return entered
 
 
 def _now(events: Sequence[Event]) -> float:

@@ -26,6 +26,14 @@ ACTIONS = (
 )
 
 
+FIELDS = (
+    "mission has owner: text, notes: int = 0",
+    "trip has layers: int = 1, gentle: bool",
+    'trip has remark: text = "", share: percent = 20 %',
+)
+RESULTS = ("", "", " -> int", " -> float", " -> text")
+
+
 def random_source(rng: Random) -> str:
     """Return an app, sound or not."""
     if rng.random() < 0.1:
@@ -57,6 +65,8 @@ class _Graph:
         for block, statuses in astray.items():
             ends[block] = (*ends.get(block, ()), *statuses)
         self._home(ends)
+        luck = Random(f"{len(drawing.words)}/{len(drawing.blocks)}")
+        drawing.words += [one for one in FIELDS if luck.random() < 0.4]
         return drawing.text()
 
     def _words(self) -> None:
@@ -67,7 +77,11 @@ class _Graph:
         for category in drawing.rng.choice(CATEGORIES):
             can = [name for name in names if drawing.chance(0.9)] or names
             drawing.words.append(f"category {category} can {', '.join(can)}")
-        drawing.words += own
+        # by a luck of its own: the rest is drawn as before these were there
+        luck = Random(f"{len(drawing.words)}/{len(own)}/{drawing.most}/{len(names)}")
+        drawing.words += [
+            f"{one.rpartition(' ')[0]}{luck.choice(RESULTS)} {one.split()[-1]}" for one in own
+        ]
 
     def _to_a_drone(self, ends: Ends) -> Ends:
         """Draw what leads to the first allocator; return what goes astray on the way."""

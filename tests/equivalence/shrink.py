@@ -93,7 +93,7 @@ def _texts(text: str) -> Iterator[str]:
             yield "\n".join(_without(tuple(lines), number)) + "\n"
 
 
-_WORDS = ("category", "action", "evaluator", "modifier", "policy")
+_WORDS = ("category", "action", "evaluator", "modifier", "policy", "mission", "trip")
 
 
 def _without_block(lines: list[str], name: str) -> Iterator[str]:

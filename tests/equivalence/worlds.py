@@ -18,7 +18,7 @@ from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import AfterTrip, Item, Mission, Point, Trip
 from pluto_fleet.shared.domain.motion import STRAIGHT, Motion
-from plutoc.emit.model_file import fields_of
+from plutoc.emit.model_file import fields_of, own_field
 from plutoc.graph.model import Graph
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.quantities import Type
@@ -102,15 +102,13 @@ class World:
 
 def _mission(app: App, place: int, mission: MissionPlan) -> Mission[Any]:
     trips = [_trip(app, number, trip) for number, trip in enumerate(mission.trips)]
-    made = app.mission(name=mission.name, index=place, trips=trips)
-    for name, value in mission.fields.items():
-        setattr(made, name, value)
-    return made
+    fields: Mapping[str, Any] = mission.fields
+    return app.mission(name=mission.name, index=place, trips=trips, **fields)
 
 
 def _trip(app: App, place: int, trip: TripPlan) -> Trip:
     carries = trip.action in ("pick_item", "release_item")
-    made = app.trip(
+    return app.trip(
         name=trip.name,
         action=trip.action,
         target=trip.target,
@@ -118,10 +116,8 @@ def _trip(app: App, place: int, trip: TripPlan) -> Trip:
         index=place,
         parameters=dict(trip.parameters),
         item=ITEM if carries else None,
+        **trip.fields,
     )
-    for name, value in trip.fields.items():
-        setattr(made, name, value)
-    return made
 
 
 def random_world(rng: Random, graph: Graph, times: Sequence[float] = TIMES) -> World:
@@ -139,6 +135,14 @@ def random_world(rng: Random, graph: Graph, times: Sequence[float] = TIMES) -> W
     )
 
 
+OWN_VALUES: dict[object, tuple[Plain, ...]] = {
+    Type.TEXT: ("", "a text"),
+    Type.INT: (0, 3),
+    Type.BOOL: (True, False),
+    Type.PERCENT: (0.0, 0.5, 1.0),
+}
+
+
 class _World:
     def __init__(self, rng: Random, graph: Graph, times: Sequence[float]) -> None:
         self.rng, self.graph, self.times = rng, graph, times
@@ -148,6 +152,7 @@ class _World:
         self.limit: float | None = None
         """All limits of the mission, if they are to fall on one instant."""
         self.fields = fields_of(graph)
+        self.own = tuple(map(own_field, graph.fields))
         own = tuple(action.name for action in graph.actions)
         wanted = (*BUILT_IN, *own, *own)
         known = [each.actions for each in graph.categories]
@@ -208,11 +213,18 @@ class _World:
         return {p.name: "wide" if p.type is Type.TEXT else 0.04 for p in declared}
 
     def values(self, entity: Entity) -> dict[str, Plain]:
-        return {
+        luck = Random(f"{entity.value}/{self.rng.getstate()[1][-1]}")
+        own = {
+            each.name: luck.choice(OWN_VALUES[each.type])
+            for each in self.own
+            if each.on is entity and (each.hint or luck.random() < 0.5)
+        }
+        given = {
             each.name: self.value(each)
             for each in self.fields
             if each.on is entity and self.given(each)
         }
+        return {**given, **own}
 
     def given(self, wanted: Field) -> bool:
         if self.limit is not None and wanted.name in LIMITS:
@@ -232,3 +244,5 @@ class _World:
             case FieldType.EVALUATOR:
                 names = [hook.name for hook in self.graph.hooks if hook.kind.value == "evaluator"]
                 return self.rng.choice((None, *names))
+            case _:
+                raise AssertionError(f"{wanted.name} is the app's own")

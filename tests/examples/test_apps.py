@@ -23,9 +23,12 @@ SEEDS = range(10)
 @pytest.fixture(scope="session")
 def apps(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Example]:
     """Return the examples that these tests look into."""
-    names = ("aerial_mapping", "alfalfa", "drugs_distribution_retry", "object_finder", "pm10")
+    names = (
+        *("aerial_mapping", "alfalfa", "drugs_distribution_retry", "night_round"),
+        *("object_finder", "pm10", "warehouse_item_finder"),
+    )
     folder = tmp_path_factory.mktemp("apps")
-    return {name: built(name, folder) for name in (*names, "warehouse_item_finder")}
+    return {name: built(name, folder) for name in names}
 
 
 def events(trace: Sequence[Event], kind: str, **facts: object) -> list[Event]:
@@ -60,6 +63,22 @@ def test_lifters_carry_what_light_drones_cannot(apps: Mapping[str, Example]) -> 
     carrier = {str(e["mission"]): str(e["drone"]) for e in events(flown.trace, "trip.launched")}
     assert carrier["battery"].startswith("lifter") and carrier["motor"].startswith("lifter")
     assert all(carrier[item].startswith("light") for item in ("screws", "fuse", "label", "sensor"))
+
+
+def test_a_night_round_keeps_its_hours_and_its_order(apps: Mapping[str, Example]) -> None:
+    """Beds first, by the hours of the list; the corridor after all beds, the door after that."""
+    trace = apps["night_round"].fly(0).trace
+
+    def seconds(kind: str, fact: str = "t") -> dict[str, float]:
+        return {str(e["mission"]): float(str(e[fact])) for e in events(trace, kind) if fact in e}
+
+    begun, ended = seconds("mission.created"), seconds("mission.ended")
+    due = seconds("mission.promised", "deadline")
+    beds = [f"Bed {number}" for number in range(1, 9)]
+    assert begun["Corridor"] == max(ended[bed] for bed in beds)
+    assert begun["Door"] == ended["Corridor"]
+    assert all(ended[name] <= when for name, when in due.items()) and due.keys() >= {*beds}
+    assert not events(trace, "mission.late")
 
 
 def test_blooms_are_pollinated_once_and_sick_plants_reported(apps: Mapping[str, Example]) -> None:

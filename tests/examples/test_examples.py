@@ -31,13 +31,14 @@ WARNED = {
 
 
 def test_every_app_of_the_thesis_is_there() -> None:
-    """The applications of the thesis's chapter 6 that Pluto can do."""
+    """The applications of the thesis's chapter 6 that Pluto can do, and a night round."""
     assert NAMES == [
         "aerial_mapping",
         "alfalfa",
         "drugs_distribution",
         "drugs_distribution_retry",
         "drugs_distribution_timer",
+        "night_round",
         "object_finder",
         "pm10",
         "warehouse_item_finder",

@@ -80,10 +80,16 @@ def test_command_of_a_page_is_one_of_the_app(file: Path, command: str) -> None:
 
 
 def test_every_example_says_how_it_is_served() -> None:
-    """With the extra that this needs, under the app's own name."""
+    """With the extra that this needs, under the app's own name; areas need a package more."""
     for page in ROOT.glob("examples/*/README.md"):
         name, text = page.parts[-2], page.read_text(encoding="utf-8")
-        assert f'$ pip install -e "./{name}[station]"\n$ {name} serve --sim' in text, name
+        areas = (
+            ' "shapely>=2"'
+            if "mission.area" in (page.with_name("missions.toml")).read_text()
+            else ""
+        )
+        wanted = f'$ pip install -e "./{name}[station]"{areas}\n$ {name} serve --sim'
+        assert wanted in text, name
 
 
 def test_a_developer_installs_so_that_edits_count() -> None:

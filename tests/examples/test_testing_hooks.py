@@ -34,7 +34,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_hooks_of_the_page_pass_its_tests(package: Path) -> None:
     """And the generated ones, which hold for any."""
     tests = sum(text.count("\ndef test_") for text in blocks(PAGE, "python"))
-    assert tests == 7
+    assert tests == 8
     run = subprocess.run(
         [
             sys.executable,

@@ -10,12 +10,15 @@ from itertools import combinations
 from math import dist, inf
 
 from pluto_fleet.crtp.flight_log import CommandRecord, Point, PositionRecord
+from pluto_fleet.jobs.flown import ACTS_BESIDE
 from tests.flights_crazyflie.flight import Event
 
 NEAR = 0.1
 """Metres that a drone may be beside its target while it does what it came for."""
 APART = 0.5
 """Metres that drones are kept apart in the air, where a fleet file says nothing else."""
+FURTHEST = 1.5
+"""Metres from its target that an action may be done, where another drone has its place."""
 _STILL = (0.35, 0.1)
 """Seconds before an action's end was written down, between which its drone was still there."""
 _STALL = 1.0
@@ -36,17 +39,21 @@ def beside_its_target(
     trace: Sequence[PositionRecord],
     targets: Mapping[tuple[str, str], Point],
 ) -> Iterator[str]:
-    """Yield the trips that were completed where their target was not."""
+    """Yield the trips that were completed where their target was not, or where it was said that they are done."""
+    said: dict[tuple[str, str], Point] = {}
     by_drone: dict[str, list[PositionRecord]] = defaultdict(list)
     for place in trace:
         by_drone[place.drone].append(place)
     for event in events:
+        if event["event"] == ACTS_BESIDE:
+            said[event["mission"], event["trip"]] = event["at"]
         if event["event"] != "trip.completed":
             continue
-        whose, target = (
-            f"{event['mission']}/{event['trip']}",
-            targets[event["mission"], event["trip"]],
-        )
+        which = event["mission"], event["trip"]
+        whose = f"{event['mission']}/{event['trip']}"
+        target = said.pop(which, targets[which])
+        if dist(target, targets[which]) > FURTHEST:
+            yield f"{whose}: was done {dist(target, targets[which]):.2f} m away"
         ended = event["wall"] - _WALL
         places = by_drone[event["drone"]]
         first = bisect_left(places, ended - _STILL[0], key=lambda one: one.time)

@@ -50,6 +50,7 @@ class Measuring:
     parameters: Mapping[str, Plain] = field(default_factory=dict)
     item: Item | None = None
     seconds: float = 1.0
+    beside: bool = True
     number: int = 1
 
     @property

@@ -7,11 +7,11 @@ from random import Random
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from plutoc.syntax.tokens import SETTINGS, WORDS
+from plutoc.syntax.tokens import OWNERS, SOFT_WORDS, WORDS
 from tests.format.layouts import Liberty, laid_out, words_of
-from tests.format.promises import keep, meaning
+from tests.format.promises import formatted, keep, meaning, writing
 
-NAMES = st.sampled_from(["a", "b_1", "STANDBY", "Kind", "ünï", "x" * 30, "yes", "m", *SETTINGS])
+NAMES = st.sampled_from(["a", "b_1", "STANDBY", "Kind", "ünï", "x" * 30, "yes", "m", *SOFT_WORDS])
 """The grammar takes any name anywhere; what it means is for later."""
 INSIDE = NAMES | st.sampled_from(WORDS)
 """In brackets the language's words are names."""
@@ -37,16 +37,24 @@ VALUES = st.recursive(
     lambda values: joined(values).map("[{}]".format),
     max_leaves=8,
 )
+OUTSIDE = NUMBERS | st.builds("{} {}".format, NUMBERS, UNITS) | TEXTS | NAMES
+"""Values where the language's words are words: in no brackets."""
 ARGUMENTS = optional(joined(st.builds("{}: {}".format, INSIDE, VALUES)).map("({})".format))
 PARAMETER = st.builds("{}: {}{}".format, INSIDE, INSIDE, optional(VALUES.map(" = {}".format)))
 PARAMETERS = optional(joined(PARAMETER).map("({})".format))
+FIELD = st.builds("{}: {}{}".format, NAMES, NAMES, optional(OUTSIDE.map(" = {}".format)))
+OWNER = st.sampled_from(OWNERS)
+RESULT = optional(NAMES.map(" -> {}".format))
 LISTED = joined(NAMES, least=1)
 STOPS = NAMES | joined(INSIDE, least=1).map("[{}]".format)
 STATEMENTS = st.one_of(
     st.builds("version {}".format, TEXTS),
     st.builds("requires {}{}".format, joined(TEXTS, least=1), optional(st.just(","))),
     st.builds("category {}{} can {}".format, NAMES, ARGUMENTS, LISTED),
-    st.builds("action {}{}{}".format, NAMES, PARAMETERS, optional(NAMES.map(" {}".format))),
+    st.builds("{} has {}{}".format, OWNER, joined(FIELD, least=1), optional(st.just(","))),
+    st.builds(
+        "action {}{}{}{}".format, NAMES, PARAMETERS, RESULT, optional(NAMES.map(" {}".format))
+    ),
     st.builds(
         "modifier {}{}{}{}".format,
         NAMES,
@@ -54,7 +62,8 @@ STATEMENTS = st.one_of(
         optional(LISTED.map(" emits {}".format)),
         optional(LISTED.map(" writes {}".format)),
     ),
-    st.builds("{} {}".format, st.sampled_from(["evaluator", "policy"]), NAMES),
+    st.builds("evaluator {}{}".format, NAMES, PARAMETERS),
+    st.builds("policy {}".format, NAMES),
     st.builds("{} = {}{}{}".format, NAMES, optional(NAMES.map("{}.".format)), NAMES, ARGUMENTS),
     st.builds(
         "{}{}".format,
@@ -82,3 +91,20 @@ def test_every_file_of_the_language_keeps_its_comments_and_its_meaning(
     """In any layout, and however long its names are."""
     layout = laid_out(words_of(text), Random(seed), Liberty(comments=comments))
     keep(layout, meaning(text))
+
+
+@settings(max_examples=100, derandomize=True, deadline=None)
+@given(NAMES, PARAMETERS, NAMES, NAMES, st.integers(0, 2**32), st.sampled_from([0, 0.3, 1]))
+def test_what_an_action_gives_comes_before_the_word_behind_it(
+    name: str, parameters: str, word: str, result: str, seed: int, comments: float
+) -> None:
+    """However it was written; all words and comments are there, and the meaning is the same."""
+    lines = [f"action {name}{parameters} {word} -> {result}", "a -> b"]
+    text = "pluto 1\napp a {\n" + "\n".join(lines) + "\n}\n"
+    layout = laid_out(words_of(text), Random(seed), Liberty(comments=comments))
+    out = formatted(layout)
+    assert formatted(out) == out
+    assert meaning(out) == meaning(text)
+    assert sorted(writing(out)) == sorted(writing(layout.replace("\r", "").removeprefix("\ufeff")))
+    said = [one for one in writing(out) if not one.startswith("#")]
+    assert said[-6:-4] == [result, word]

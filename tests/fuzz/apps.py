@@ -20,6 +20,34 @@ NAMES = (
     *("Watch", "when", "class", "end", "self", "é", "_a", "match", "x" * 64, "a__b", "True"),
 )
 GOOD_NAMES = NAMES[:28]
+FIELD_NAMES = (
+    *(
+        "patient",
+        "margin",
+        "note",
+        "float",
+        "str",
+        "builtins",
+        "dataclass",
+        "model",
+        "has",
+        "type_",
+    ),
+    *(
+        "delay",
+        "priority",
+        "status",
+        "name",
+        "trip",
+        "mission",
+        "Note",
+        "class",
+        "x",
+        "é",
+        "deadline",
+    ),
+)
+RESULTS = ("", "", " -> float", " -> photo", " -> mass", " -> text", " -> bool", " -> nothing")
 TYPES = (
     *("int", "float", "bool", "text", "mass", "length", "time", "angle", "percent", "speed"),
     "temperature",
@@ -104,6 +132,8 @@ def grown(random: Random) -> str:
         _settings(app)
     if app.chance(0.5):
         _categories(app)
+    if app.chance(0.4):
+        _fields(app)
     _graph(app)
     parts = [app.declared, app.blocks, app.flows]
     if app.chance(0.2):
@@ -133,13 +163,34 @@ def _settings(app: Growth) -> None:
         app.declared.append(f"requires {', '.join(required)}")
 
 
+def _fields(app: Growth) -> None:
+    """Nearly all names are good ones; a field may be declared twice."""
+    for _ in range(app.random.choice((1, 1, 2, 4))):
+        written: list[str] = []
+        for _ in range(app.random.choice((1, 1, 2, 5))):
+            names = FIELD_NAMES if app.chance(0.1) else FIELD_NAMES[:10]
+            kind = app.random.choice(TYPES) if app.chance(0.98) else "photo"
+            default = f" = {app.value(kind)}" if kind != "photo" and app.chance(0.6) else ""
+            written.append(
+                f"{app.random.choice(names)}_{len(app.declared)}{len(written)}: {kind}{default}"
+            )
+            if app.chance(0.1):
+                written[-1] = f"{app.random.choice(names)}: {kind}{default}"
+        comma = "," if app.chance(0.1) else ""
+        app.declared.append(
+            f"{app.random.choice(('mission', 'trip'))} has {', '.join(written)}{comma}"
+        )
+
+
 def _categories(app: Growth) -> None:
     actions = ["measure", "take_photo", "pick_item", "release_item"]
     for i in range(app.random.choice((0, 1, 2))):
         name = app.name(f"act{i}")
         parameters, _ = app.parameters()
         repeat = app.random.choice(("", " safe", " once", " ask"))
-        app.declared.append(f"action {name}{parameters}{repeat}")
+        result = app.random.choice(RESULTS)
+        tail = f"{repeat}{result}" if app.chance(0.2) else f"{result}{repeat}"
+        app.declared.append(f"action {name}{parameters}{tail}")
         actions.append(name)
     for i in range(app.random.choice((1, 2))):
         kinds = {"payload": "mass", "speed": "speed", "flight_time": "time", "reserve": "percent"}
@@ -207,8 +258,12 @@ def _modifier(app: Growth, *emits: str) -> str:
 def _ending(app: Growth, last: str, again: str) -> None:
     if app.chance(0.5):
         hook = app.name("judge_it")
-        app.declared.append(f"evaluator {hook}")
-        judge = app.block("judge", "MissionEvaluator", f"hook: {hook}")
+        parameters, needed = app.parameters()
+        app.declared.append(f"evaluator {hook}{parameters}")
+        given = [f"{name}: {app.value(kind)}" for name, kind in needed]
+        judge = app.block("judge", "MissionEvaluator", f"hook: {hook}", *given)
+        if app.chance(0.2):
+            app.declared.append(f"evaluator {app.name('other_judge')}{app.parameters()[0]}")
         app.flows += [f"{last} -> {judge} when COMPLETED", f"{judge} -> {again} when STANDBY"]
         app.flows.append(f"{judge} -> end when FAILED")
         last = judge

@@ -34,6 +34,7 @@ class Task:
     action: str | None = "pick_item"
     parameters: Mapping[str, Plain] = field(default_factory=dict)
     item: Item | None = PILLS
+    beside: bool = False
     begun: int = 0
 
     @property

@@ -21,7 +21,7 @@ def test_every_parameter_has_a_value() -> None:
         ("level", 0.4),
         ("heat", 293.15),
     )
-    assert node.choices == (("way", Choose(name="left", hook=None)),)
+    assert node.choices == (("way", Choose(name="left", hook=None, is_given=False)),)
 
 
 def test_declaration_is_canonical_and_never_tells_a_text() -> None:

@@ -13,7 +13,7 @@ from pygments import token
 
 from plutoc.highlight.pygments_lexer import PlutoLexer
 from plutoc.highlight.rules import RULES, SCOPES, grammar
-from plutoc.syntax.tokens import SETTINGS, WORDS
+from plutoc.syntax.tokens import OWNERS, SETTINGS, WORDS
 from plutoc_runtime.domain.quantities import UNITS
 
 ROOT = Path(__file__).parents[2]
@@ -46,6 +46,19 @@ def test_the_word_of_a_setting_is_a_keyword_only_there(word: str) -> None:
     assert (token.Keyword, word) in tokens(f'app a {{\n  {word} "1"\n}}')
     assert (token.Keyword, word) not in tokens(f'app {word} "A title" {{')
     assert token.Keyword not in {kind for kind, _ in tokens(f"{word} = K\n{word} -> [a, {word}]")}
+
+
+@pytest.mark.parametrize("owner", OWNERS)
+def test_the_words_before_fields_are_keywords_only_there(owner: str) -> None:
+    """Anywhere else they may be names of blocks."""
+    assert (token.Keyword, f"{owner} has") in tokens(f"app a {{\n  {owner} has a: text = 3\n}}")
+    others = tokens(f"{owner} = K\nhas = K\n{owner} -> has\n[{owner}, has] -> {owner}")
+    assert token.Keyword not in {kind for kind, _ in others}
+
+
+@pytest.mark.parametrize("name", ["float", "mass", "photo"])
+def test_what_an_action_gives_is_a_type(name: str) -> None:
+    assert (token.Keyword.Type, name) in tokens(f"action a(b: int) -> {name} once")
 
 
 @pytest.mark.parametrize("unit", UNITS)

@@ -7,8 +7,9 @@ import ast
 import pytest
 
 from plutoc.check.model import Checked
-from plutoc.compile import analyse, check_hooks
+from plutoc.compile import analyse, check_hooks, policies_for_all
 from plutoc.diagnostic import Rejected
+from plutoc.emit.hooks_tests import hooks_test
 from plutoc.hooks.add import with_stubs
 from plutoc.source import Source
 
@@ -170,3 +171,52 @@ def test_what_tells_whether_an_action_was_done_is_looked_at(
     """It need not be there; where it is, the app can call it after a crash."""
     text = GOOD.replace("import Verdict", "import Drone, Trip, Verdict") + probe
     assert codes(crop, text) == wanted
+
+
+@pytest.mark.parametrize(
+    ("parameters", "found"),
+    [
+        ("(trip, candidates)", []),
+        ("(waiting, drones, now)", []),
+        ("(a, b, c)", []),
+        ("(a, b, c=1)", []),
+        ("(a, b, /, c)", []),
+        ("(*given)", []),
+        ("(waiting)", ["P3005"]),
+        ("(waiting, now, drones)", ["P3006"]),
+        ("(trip, candidates, now)", ["P3008"]),
+        ("(waiting, drones, now, *, more)", ["P3008"]),
+        ("(a, b, c, d)", ["P3008", "P3008"]),
+    ],
+)
+def test_a_policy_has_one_of_two_shapes(crop: Checked, parameters: str, found: list[str]) -> None:
+    """Three parameters without a default are those of all that wait."""
+    hooks = GOOD.replace(
+        "by_battery(trip, candidates): return candidates[0]", f"by_battery{parameters}: ..."
+    )
+    assert codes(crop, hooks) == found
+
+
+def test_help_for_a_policy_that_chooses_for_all_shows_that_shape(crop: Checked) -> None:
+    hooks = GOOD.replace(
+        "def by_battery(trip, candidates)", "async def by_battery(waiting, drones, now)"
+    )
+    with pytest.raises(Rejected) as rejected:
+        check_hooks(crop, Source("hooks.py", hooks))
+    (found,) = rejected.value.diagnostics
+    assert found.help is not None
+    assert (
+        "(waiting: Sequence[Waiting], drones: Sequence[Drone], now: float) -> Assignment"
+        in found.help
+    )
+
+
+def test_the_test_of_such_a_policy_is_written_for_its_shape(crop: Checked) -> None:
+    """It is written once, when there may be a hooks.py already."""
+    hooks = Source(
+        "hooks.py", GOOD.replace("by_battery(trip, candidates)", "by_battery(all, free, at)")
+    )
+    assert policies_for_all(crop, Source("hooks.py", GOOD)) == frozenset()
+    assert policies_for_all(crop, hooks) == {"by_battery"}
+    assert "hooks.by_battery, waiting, [drone], 0.0" in hooks_test(crop, frozenset({"by_battery"}))
+    assert "hooks.by_battery, trip, [drone]" in hooks_test(crop)

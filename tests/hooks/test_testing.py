@@ -45,11 +45,11 @@ APP = App(
 
 
 @pytest.fixture
-def kit() -> AppKit[Mission[Trip], Trip]:
+def kit() -> AppKit[Mission[Trip], Trip, Results[Mission[Trip], Trip]]:
     return AppKit(APP)
 
 
-Kit = AppKit[Mission[Trip], Trip]
+Kit = AppKit[Mission[Trip], Trip, Results[Mission[Trip], Trip]]
 
 
 async def pour(drone: Drone, trip: Trip, context: Context, *, amount: float) -> float:

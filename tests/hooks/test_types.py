@@ -13,6 +13,7 @@ from tests.emit.apps import ODD_NAMES
 from tests.hooks.test_check import APP
 
 HEAD = "from . import Context, Drone, Mission, Results, Status, Trip, Verdict\n"
+WAITING = f"{HEAD}from . import Again, Assignment, Waiting\n"
 HOOKS = {
     "pollinate": "(drone, trip, context, *, dose)",
     "find_blooms": "(mission, results)",
@@ -82,6 +83,14 @@ def written(changed: str, signature: str, *, head: str = HEAD, body: str = "..."
         ("pollinate", "(drone, trip, context, *, dose, more: str = '') -> dict[str, int]", ""),
         ("limit_trip", "(mission, context, *, limit) -> Status", HEAD),
         ("by_battery", "(trip, candidates: tuple[Drone, ...]) -> Drone | None", HEAD),
+        ("by_battery", "(waiting, drones, now)", HEAD),
+        ("by_battery", "(all, free, at: float) -> dict[Waiting, Drone]", WAITING),
+        ("by_battery", "(waiting: list[Waiting], drones: tuple[Drone, ...], now) -> Assignment",
+         WAITING),
+        ("by_battery", "(waiting, drones, now, seed=1) -> list[tuple[Waiting, Drone]]", WAITING),
+        ("by_battery", "(waiting, drones, now) -> Again", WAITING),
+        ("by_battery", "(waiting, drones, now) -> Iterator[tuple[Waiting, Drone]]",
+         f"from collections.abc import Iterator\n{WAITING}"),
         ("by_battery", "(trip, candidates: s.Sequence[Drone])",
          "import collections.abc as s\n" + HEAD),
         ("by_battery", "(trip, candidates: x.Sequence['Drone'])", "import typing as x\n"),
@@ -125,6 +134,10 @@ def test_what_is_right_or_cannot_be_known_is_believed(
         ("limit_trip", "(mission, context, *, limit) -> str", "P3014", "must be `Status`"),
         ("by_battery", "(trip, candidates: Drone)", "P3013", "a `Sequence` arrives here"),
         ("by_battery", "(trip, candidates) -> Trip", "P3014", "must be `Drone`"),
+        ("by_battery", "(waiting, drones, now) -> Drone | None", "P3014", "must be `Assignment`"),
+        ("by_battery", "(waiting, drones, now) -> None", "P3014", "must be `Assignment`"),
+        ("by_battery", "(waiting: Trip, drones, now)", "P3013", "a `Sequence` arrives here"),
+        ("by_battery", "(waiting, drones, now: int)", "P3013", "a `float` arrives here"),
     ],
 )  # fmt: skip
 def test_a_type_of_something_else_is_found_at_its_place(

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.app import App
 from pluto_fleet.cli import main
-from tests.runtime.files.an_app import APP
+from tests.runtime.files.an_app import APP, OWN
 
 MISSIONS = """
 [[mission]]
@@ -17,6 +18,7 @@ name = "North"
 safe_time = "3 min"
 repeat = 2
 at = "08:00"
+deadline = "20 h"
 evaluator = "find_blooms"
   [[mission.trip]]
   name = "A"
@@ -34,6 +36,31 @@ evaluator = "find_blooms"
   action = "release_item"
   item = { name = "pills", mass = "4 g" }
   target = [6.0, 3.0]
+[[mission]]
+name = "South"
+window = ["08:00", "20 h"]
+after = ["North"]
+  [[mission.trip]]
+  action = "take_photo"
+  target = [6.0, 3.0]
+"""
+OWN_MISSIONS = """
+[[mission]]
+name = "North"
+repeat = 1
+patient = "Ada"
+margin = "3 min"
+share = "20 %"
+urgent = true
+  [[mission.trip]]
+  action = "measure"
+  target = [2.0, 1.5]
+  delay = "30 s"
+  fragile = false
+  note = "n"
+  layers = 2
+  height_over_ground = "40 cm"
+  warmth = "21 C"
 """
 FLEET = """
 [map]
@@ -71,12 +98,18 @@ def assignments(text: str) -> list[str]:
     return [line for line in text.splitlines() if "=" in line]
 
 
-def check(folder: Path, missions: bytes, fleet: bytes, capfd: pytest.CaptureFixture[str]) -> str:
+def check(
+    folder: Path,
+    missions: bytes,
+    fleet: bytes,
+    capfd: pytest.CaptureFixture[str],
+    app: App = APP,
+) -> str:
     """Check a plan; it ends with 0, 1 or 2, and with a few lines that a terminal can show."""
     (folder / "m.toml").write_bytes(missions)
     (folder / "f.toml").write_bytes(fleet)
     capfd.readouterr()
-    code = main(APP, ["check", str(folder / "m.toml"), "--fleet", str(folder / "f.toml")])
+    code = main(app, ["check", str(folder / "m.toml"), "--fleet", str(folder / "f.toml")])
     out, err = capfd.readouterr()
     assert code in (0, 1, 2), (err, missions, fleet)
     assert (code == 0) == bool(out)
@@ -102,6 +135,19 @@ def test_any_value_in_any_place_is_taken_or_refused(
             pair = (changed, other) if text is MISSIONS else (other, changed)
             said = check(tmp_path, pair[0].encode(), pair[1].encode(), capfd)
             assert "m.toml" in said or "f.toml" in said or not said
+
+
+PLAIN_FLEET = '[[drone]]\nid = "a"\nhome = [1, 1]\n'
+
+
+@pytest.mark.parametrize("value", VALUES, ids=range(len(VALUES)))
+def test_any_value_of_a_field_of_the_apps_own_is_taken_or_refused(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], value: str
+) -> None:
+    for line in assignments(OWN_MISSIONS):
+        changed = OWN_MISSIONS.replace(line, f"{line.partition('=')[0]}= {value}", 1)
+        said = check(tmp_path, changed.encode(), PLAIN_FLEET.encode(), capfd, OWN)
+        assert "m.toml" in said or not said
 
 
 @pytest.mark.parametrize(

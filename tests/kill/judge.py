@@ -15,6 +15,8 @@ from typing import Any
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.report.sentences import line_of
+from pluto_fleet.trials.invariants import Invariants
+from pluto_fleet.trials.promise_rule import PromisesAreKept
 from tests.kill.painter import painted
 
 Event = dict[str, Any]
@@ -101,6 +103,10 @@ def done_by_the_world(journal: Path) -> Counter[tuple[str, str]]:
 
 def wrong(journal: Path, rows: Sequence[str]) -> Iterator[str]:
     """Yield what is wrong with how it ended, beside the world's own record."""
+    promises = Invariants({}, rules=[PromisesAreKept])
+    for event in events_of(rows):
+        promises.take(event)
+    yield from promises.over()
     done = done_by_the_world(journal)
     for (action, trip), times in done.items():
         if times > 1:

@@ -83,12 +83,12 @@ PLANS = (
     Plan(
         app="warehouse_item_finder",
         missions="".join(
-            _errand(item, item, start, end)
-            for item, start, end in (
-                ("fuse", "1.0, 3.0", "4.0, 1.0"),
-                ("label", "2.0, 3.0", "4.0, 1.5"),
-                ("sensor", "3.0, 3.0", "4.0, 2.0"),
-                ("screw", "4.0, 3.0", "1.0, 1.0"),
+            _errand(item, item, start, end, promises)
+            for item, start, end, promises in (
+                ("fuse", "1.0, 3.0", "4.0, 1.0", 'deadline = "8 s"'),
+                ("label", "2.0, 3.0", "4.0, 1.5", ""),
+                ("sensor", "3.0, 3.0", "4.0, 2.0", 'window = ["6 s", "40 s"]'),
+                ("screw", "4.0, 3.0", "1.0, 1.0", 'after = ["fuse", "label"]\ndeadline = "1 min"'),
             )
         ),
         fleet=fleet("light light lifter", after_trip="stay"),

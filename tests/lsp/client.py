@@ -27,11 +27,13 @@ class Client(LanguageClient):
         super().__init__("tests", "v1")
         self.published: dict[str, types.PublishDiagnosticsParams] = {}
         self.logged: list[str] = []
+        self.told: list[str] = []
         self.shown: list[str] = []
         self.registered: list[str] = []
         self._news = asyncio.Event()
         self._on(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS, self._hear)
         self._on(types.WINDOW_LOG_MESSAGE, self._log)
+        self._on(types.WINDOW_SHOW_MESSAGE, self._tell)
         self._on(types.WINDOW_SHOW_DOCUMENT, self._show)
         self._on(types.CLIENT_REGISTER_CAPABILITY, self._register)
 
@@ -46,6 +48,9 @@ class Client(LanguageClient):
 
     def _log(self, params: types.LogMessageParams) -> None:
         self.logged.append(params.message)
+
+    def _tell(self, params: types.ShowMessageParams) -> None:
+        self.told.append(params.message)
 
     def _show(self, params: types.ShowDocumentParams) -> types.ShowDocumentResult:
         self.shown.append(params.uri)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from tests.flying import EXAMPLES, NAMES, compiled_file
@@ -25,6 +25,8 @@ class Plan:
     """The texts of the app and of its hooks, by the files' names."""
     missions: str
     fleet: str
+    lists: Mapping[str, str] = field(default_factory=dict)
+    """The texts of the lists of which missions are made, by the files' names."""
 
     @property
     def drones(self) -> int:
@@ -39,16 +41,19 @@ class Plan:
         return compiled_file(folder / "app.pluto", folder / self.app) / "src"
 
     def write(self, folder: Path) -> None:
-        """Write both files."""
+        """Write both files, and the lists beside them."""
         folder.mkdir(parents=True)
         (folder / "missions.toml").write_text(self.missions, encoding="utf-8")
         (folder / "fleet.toml").write_text(self.fleet, encoding="utf-8")
+        for name, text in self.lists.items():
+            (folder / name).write_text(text, encoding="utf-8")
 
 
 _CONTENT = {
     "SHARP = 0.7": "SHARP = 0.0",
     "AHEAD = 0.55": "AHEAD = 0.0",
     "ASIDE = 0.25": "ASIDE = 0.0",
+    "LISTENS = 2": "LISTENS = 1",
 }
 """What makes evaluators content with each photo."""
 _ROUNDS = re.compile(r"(?m)^(repeat|every) = .*\n")
@@ -70,6 +75,7 @@ def example(name: str) -> Plan:
         sources=sources,
         missions=_ROUNDS.sub("", (folder / "missions.toml").read_text()),
         fleet=_WORLD.sub("", (folder / "fleet.toml").read_text()) + EMPTY_WORLD,
+        lists={path.name: path.read_text() for path in sorted(folder.glob("*.csv"))},
     )
 
 
@@ -216,6 +222,14 @@ OWN = (
             "F": _photos((7.0, 2.5), (11.0, 2.5)),
         },
         no_fly=tuple((x, y, x + 0.2, y + 1.7) for x in (3.2, 6.2, 9.2) for y in (0.0, 3.3)),
+    ),
+    tour(  # three missions meet twice, each time at one spot
+        "shared spots",
+        size=(10.0, 8.0),
+        cruise=1.2,
+        drones={(1.0 + 1.5 * n, 0.8): "plain" for n in range(3)},
+        missions={name: _photos((5.0, 4.0), (2.5, 6.0)) for name in "ABC"},
+        after_trip="next",
     ),
     tour(
         "three speeds",

@@ -17,7 +17,9 @@ from pluto_fleet import __version__
 from pluto_fleet.seam import NEWEST, written
 from tests.release.environments import ROOT, Finished, compile_app, fresh, run, succeed
 
-EXAMPLES = sorted(path.parent for path in ROOT.glob("examples/*/app.pluto"))
+WITH_PROMISES = ROOT / "examples/night_round"
+"""Its plan says what only the library reads."""
+EXAMPLES = sorted({path.parent for path in ROOT.glob("examples/*/app.pluto")} - {WITH_PROMISES})
 OURS = str(Path(pytest.__file__).parents[1])
 """Where pytest and what the extras bring are installed for these tests; the library is not there."""
 
@@ -89,6 +91,29 @@ def test_an_example_stands_alone_and_flies_with_the_library(
     missing(run(programs / example.name, "fly", "missions.toml", cwd=example), "fly")
 
 
+@pytest.mark.long
+def test_lists_areas_and_promises_need_the_library_and_its_extra(
+    library: Path, types: Path, tmp_path: Path
+) -> None:
+    package = compile_app(WITH_PROMISES / "app.pluto", tmp_path / WITH_PROMISES.name)
+    programs = fresh(tmp_path / "venv")
+    succeed(programs / "pip", "install", "--quiet", package)
+    plan = [str(WITH_PROMISES / name) for name in ("missions.toml", "fleet.toml")]
+    simulate: list[str | Path] = [programs / WITH_PROMISES.name, "simulate", plan[0]]
+    simulate += ["--fleet", plan[1], "--json"]
+    missing(run(*simulate), f'{plan[0]}: mission "Bed {{bed}}": deadline')
+    own_tests_pass(programs, package)
+    is_clean(package, types)
+
+    succeed(programs / "pip", "install", "--quiet", library)
+    without = run(*simulate)
+    assert (without.code, without.out) == (2, "")
+    assert 'pip install "pluto-fleet[areas]"' in without.err
+    together = run(*simulate, PYTHONPATH=OURS)
+    missions = json.loads(together.out)["missions"]
+    assert {mission["status"] for mission in missions} == {"COMPLETED"}, together.err
+
+
 @pytest.mark.long  # tests/runtime/cli has every command; here they are installed
 def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> None:
     """Also those that want an extra, where what it brings is there."""
@@ -105,7 +130,7 @@ def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> 
     assert f"seam {written(NEWEST)}, pluto-fleet {__version__}" in told("--version").out
     own = succeed(programs / "pluto-fleet", "--version")
     assert own.startswith(f"pluto-fleet {__version__}, speaks seam ")
-    assert own.endswith("extras: not installed: crazyflie, plot, station\n")
+    assert own.endswith("extras: not installed: areas, crazyflie, plot, station\n")
 
     fleet = ("--fleet", str(example / "fleet.toml"))
     flight = ("fly", str(example / "missions.toml"), *fleet, "--sim", "--speed", "50")

@@ -138,6 +138,7 @@ def flow(
     repeater: bool = False,
     policy: Policy = nearest,
     within: float | None = None,
+    fail_late: bool = False,
     prepare: Callable[..., object] | None = None,
 ) -> Callable[[Run[Mission]], Coroutine[Any, Any, Status]]:
     """Return create → [clock →] [modifier →] allocate → launch → watch, and what follows."""
@@ -155,6 +156,7 @@ def flow(
             block="allocate",
             policy=policy,
             allocate_within=within,
+            fail_late=fail_late,
             priority=mission.current.priority,
         )
         return await watch(run, launch_trip(run, status))

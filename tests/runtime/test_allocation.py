@@ -169,7 +169,7 @@ def test_drones_go_where_the_fleet_file_says(after: AfterTrip) -> None:
     x = outcome.drones[0].location[0]
     assert x == pytest.approx(6.0 if after is AfterTrip.STAY else 0.5)
     assert outcome.flown["cf1"] == pytest.approx(
-        {"home": 24.8, "stay": 10.3, "next": 18.2}[after.value], abs=0.01
+        {"home": 24.8, "stay": 10.3, "next": 15.8}[after.value], abs=0.01
     )
 
 

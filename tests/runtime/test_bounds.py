@@ -85,7 +85,7 @@ def test_the_exact_level_is_between_its_bounds(
     here, reach.homes = home if stands_at_home else on_map(away), [home]
     source = source and on_map(source)
     trip = apps.Trip(name="1", action=action, target=on_map(target), source=source, item=item)
-    request = Request(reach, [trip], first, (0, -1))
+    request = Request(reach, apps.mission("m", trip), first, (0, -1))
     drone = Drone(id="cf1", category=kind, home=home, telemetry=told(here, 1.0, kind.motion))
     exact = reach.level(kind, home, here, [trip])
     least = request.at_least(drone, here)

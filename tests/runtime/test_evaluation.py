@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import UserList, deque
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,22 @@ def test_a_good_mission_is_completed_and_its_log_is_shown() -> None:
     outcome = judged(lambda mission, results: Verdict(log=("all is well",)))
     assert outcome.completed
     assert outcome.log == ["all is well"]
+
+
+@pytest.mark.parametrize("made", [list, tuple, deque, UserList])
+def test_a_verdict_takes_lists_and_other_sequences(made: Any) -> None:
+    """As its types say: for trips to fly again, for new ones and for lines."""
+
+    def again(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
+        if mission.attempts > 1:
+            return Verdict(log=made(["done"]))
+        new = apps.Trip(name="B", action="measure", target=(2.0, 2.0, 1.2))
+        return Verdict(redo=made(mission.completed_trips), add=made([new]), log=made(["once more"]))
+
+    outcome = judged(again)
+    assert outcome.completed
+    assert outcome.log == ["once more", "done"]
+    assert [trip.name for trip in outcome.missions[0].completed_trips] == ["A", "B"]
 
 
 @pytest.mark.parametrize(

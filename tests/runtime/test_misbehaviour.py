@@ -322,9 +322,9 @@ LINES: Any = "all is well"
 @pytest.mark.parametrize(
     ("verdict", "says"),
     [
-        (Verdict(add=ONE_TRIP), "must give `add` as a tuple, not as Trip"),
-        (Verdict(redo=NONSENSE), "must give `redo` as a tuple, not as NoneType"),
-        (Verdict(log=LINES), "must give `log` as a tuple, not as str"),
+        (Verdict(add=ONE_TRIP), "must give `add` as a list or a tuple, not as Trip"),
+        (Verdict(redo=NONSENSE), "must give `redo` as a list or a tuple, not as NoneType"),
+        (Verdict(log=LINES), "must give `log` as a list or a tuple, not as str"),
         (Verdict(add=A_LIST), "it must be a Trip of this app, not list"),
         (Verdict(fail=A_NUMBER), "5"),
         (Verdict(fail=" "), "did not accept it"),

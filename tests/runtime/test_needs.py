@@ -53,8 +53,10 @@ def requests(
     app = apps.app(apps.flow(), categories=(Category(name="scout", motion=motion),))
     reach = Reach(app, space)
     return app.categories[0], [
-        Request(reach, [apps.Trip(name=str(n), action="take_photo", target=place)], first, (0, -n))
-        for n, place in enumerate(places)
+        Request(reach, apps.mission(f"m{n}", trip), first, (0, -n))
+        for n, trip in enumerate(
+            apps.Trip(name="1", action="take_photo", target=place) for place in places
+        )
     ]
 
 
@@ -114,7 +116,7 @@ WEAK = Category(name="scout", flight_time=200.0, charge_time=400.0)
 
 def of_all(self: Queue) -> Iterator[int]:
     """Look at all that wait, in turn."""
-    yield from range(len(self._waiting) - 1, -1, -1)
+    yield from range(len(self.requests) - 1, -1, -1)
 
 
 @pytest.mark.parametrize("after", list(AfterTrip))

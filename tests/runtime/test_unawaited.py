@@ -150,7 +150,7 @@ def test_what_waits_in_the_hook_is_ended_with_it() -> None:
 
 def test_a_test_of_the_hook_is_told_as_well() -> None:
     """The kit raises what the app is told."""
-    kit = AppKit[Any, Any](apps.app(apps.flow()))
+    kit = AppKit[Any, Any, Any](apps.app(apps.flow()))
     with pytest.raises(RuntimeError, match=r"it does not await Context\.sleep: .*test_unaw.*:\d+"):
         kit.call(dropped, kit.drone(), kit.trip(), kit.context())
 

@@ -37,7 +37,7 @@ def main() -> int:
         print(sentence)
     print(f"{options.sequences} sequences, {sum(whole.done.values())} edits, {len(wrong)} wrong")
     for name, count in whole.done.most_common():
-        print(f"  {name:18} {count:7} done {whole.refused[name]:7} refused")
+        print(f"  {name:24} {count:7} done {whole.refused[name]:7} refused")
     return 1 if wrong else 0
 
 

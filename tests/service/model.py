@@ -27,7 +27,7 @@ from plutoc.service.editing.operations import (
 )
 from plutoc.source import Source, Span
 from plutoc.syntax.parse import read
-from plutoc.syntax.tree import BlockDecl, FlowDecl
+from plutoc.syntax.tree import BlockDecl, FieldsDecl, FlowDecl
 
 Edge = tuple[str, str, frozenset[str], bool]
 
@@ -41,6 +41,8 @@ class App:
     blocks: dict[str, tuple[str, dict[str, str]]]
     """Kind and arguments, as written."""
     edges: frozenset[Edge]
+    fields: tuple[tuple[str, tuple[str, ...]], ...]
+    """The app's own fields in their order: `mission.patient`, and its words."""
     others: frozenset[tuple[str, ...]]
     """The other statements: their words."""
 
@@ -50,7 +52,7 @@ def app_of(text: str) -> App:
     source = Source("a.pluto", text)
     file, found = read(source)
     assert not found, [one.message for one in found]
-    blocks, edges, others = {}, [], []
+    blocks, edges, fields, others = {}, [], [], []
     for one in file.app.statements:
         if isinstance(one, BlockDecl):
             kind = f"{one.prefix.text}.{one.kind.text}" if one.prefix else one.kind.text
@@ -71,14 +73,21 @@ def app_of(text: str) -> App:
                     for a in left.names
                     for b in right.names
                 ]
+        elif isinstance(one, FieldsDecl):
+            fields += [
+                (f"{one.on}.{each.name.text}", _words(_bare(source, each.span)))
+                for each in one.fields
+            ]
         else:
             others.append(_words(_bare(source, one.span)))
+    assert len(fields) == len(dict(fields)), "a field is there twice"
     assert len(edges) == len(set(edges)), "an edge is there twice"
     return App(
         title=file.app.title.value if file.app.title else None,
         uses=frozenset(source.quote(use.span) for use in file.uses),
         blocks=blocks,
         edges=frozenset(edges),
+        fields=tuple(fields),
         others=frozenset(others),
     )
 
@@ -122,6 +131,8 @@ def after(app: App, operation: Operation, names: tuple[str, ...], now: App) -> A
             called = dict(zip(came.blocks, names, strict=True))
             blocks |= {called[name]: one for name, one in came.blocks.items()}
             edges |= {(called.get(a, a), called.get(b, b), w, o) for a, b, w, o in came.edges}
+            new = tuple(one for one in came.fields if one[0] not in dict(app.fields))
+            app = replace(app, fields=app.fields + new)
         case Connect(arrow=arrow):
             edges.add(edge(arrow))
         case Disconnect(arrow=arrow):
@@ -142,7 +153,16 @@ def after(app: App, operation: Operation, names: tuple[str, ...], now: App) -> A
             return replace(app, title=title or None)
         case Declare(text=text):
             came = app_of(f"pluto 1\napp p {{\n{text}\n}}\n")
-            return replace(app, blocks=blocks | came.blocks, others=app.others | came.others)
+            return replace(
+                app,
+                blocks=blocks | came.blocks,
+                fields=app.fields + came.fields,
+                others=app.others | came.others,
+            )
+        case Rewrite(name=name, text=text) if "." in name:
+            on = name.partition(".")[0]
+            (field,) = app_of(f"pluto 1\napp p {{\n{on} has {text}\n}}\n").fields
+            return replace(app, fields=tuple(field if f[0] == name else f for f in app.fields))
         case Rewrite(name=name, text=text):
             came = app_of(f"pluto 1\napp p {{\n{text}\n}}\n")
             if name in blocks:
@@ -150,9 +170,17 @@ def after(app: App, operation: Operation, names: tuple[str, ...], now: App) -> A
             else:
                 rest = {one for one in app.others if one[1] != name}
                 return replace(app, others=frozenset(rest) | came.others)
+        case RemoveDeclaration(name=name) if "." in name:
+            assert name in dict(app.fields)
+            assert not any(
+                name == f"mission.{one}" for words in app.others for one in written(words)
+            )
+            return replace(app, fields=tuple(one for one in app.fields if one[0] != name))
         case RemoveDeclaration(name=name):
             rest = {_without(one, name) for one in app.others if one[1] != name}
             return replace(app, others=frozenset(rest))
+        case Rename(name=name, new=new) if "." in name:
+            return _field_renamed(app, name, new)
         case Rename(name=name, new=new):
             return _renamed(app, name, new)
         case Bracket() | Move():
@@ -183,6 +211,32 @@ def _renamed(app: App, name: str, new: str) -> App:
         ),
         others=app.others if is_block else frozenset(tuple(map(called, one)) for one in app.others),
     )
+
+
+def _field_renamed(app: App, name: str, new: str) -> App:
+    """Return the app with a field called otherwise where it is declared, and where modifiers write it."""
+    on, _, old = name.partition(".")
+    assert name in dict(app.fields)
+
+    def called(words: tuple[str, ...]) -> tuple[str, ...]:
+        those = written(words) if on == "mission" else ()
+        kept = words[: len(words) - len(those)]
+        return (*kept, *(new if word == old else word for word in those))
+
+    return replace(
+        app,
+        fields=tuple(
+            (f"{on}.{new}", (new, *words[1:])) if one == name else (one, words)
+            for one, words in app.fields
+        ),
+        others=frozenset(map(called, app.others)),
+    )
+
+
+def written(words: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what stands behind `writes` of a modifier."""
+    is_modifier = words[0] == "modifier" and "writes" in words
+    return words[words.index("writes") + 1 :] if is_modifier else ()
 
 
 def _without(words: tuple[str, ...], action: str) -> tuple[str, ...]:

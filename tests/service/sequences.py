@@ -49,9 +49,26 @@ DECLARATIONS = (
     "action {} safe",
     "evaluator {}",
     "modifier {}(limit: time = 3 min) emits STANDBY, FAILED",
+    "modifier {} emits FAILED writes f1, f2",
     "policy {}",
     "{} = Clock",
 )
+FIELDS = (
+    "mission has {}: text",
+    'mission has {}: text = "a, # b", {}_too: time = 3 min',
+    "trip has {}: percent = 20 %, {}_too: bool = no  # fields",
+    "trip has {}: mass",
+)
+FIELD = (
+    "{}: text",
+    "{}: length = 30 cm",
+    "{}: bool = yes",
+    '{}: text = "}},"',
+    "{}: int, b: int",
+    "{}: int  # c",
+    "{}",
+)
+"""Of these, some are no field."""
 LENGTH = 12
 """How many edits a sequence has."""
 
@@ -91,6 +108,8 @@ def _dressed(text: str, rng: Random) -> str:
             line = line.replace(" -> ", f"{breaks}\n    -> ", 1)
         if rng.random() < 0.1 and "(" in line and "#" not in line and '"' not in line:
             line = line.replace("(", f"(  # within {rng.randrange(1000)}\n    ", 1)
+        if rng.random() < 0.1 and line.startswith("app "):
+            line += "\n  " + rng.choice(FIELDS).format("f1", "f1")
         if rng.random() < 0.08 and "#" not in line and line.strip():
             line += f"  # beside {rng.randrange(1000)}"
         lines.append(line)
@@ -118,7 +137,7 @@ def run(seed: int, tally: Tally) -> None:
         text = texts[-1]
         app = app_of(text)
         operation = draw(rng, app, text)
-        name = type(operation).__name__
+        name = type(operation).__name__ + " field" * is_of_field(operation)
         try:
             edited = edit(Document(path="a.pluto", text=text), operation)
         except CannotEdit as why:
@@ -160,7 +179,7 @@ def named(operation: Operation, app: App) -> set[str]:
         case SetArgument(owner=owner):
             return {owner}
         case Rewrite(name=name) | RemoveDeclaration(name=name) | Rename(name=name):
-            return {name}
+            return {name.rpartition(".")[2]}
         case Move(name=name):
             return {name}
         case Bracket(source=source, targets=targets):
@@ -203,8 +222,43 @@ def _put(text: str, changes: list[tuple[int, int, str]]) -> str:
     return text
 
 
+def is_of_field(operation: Operation) -> bool:
+    """Return whether it is about a field of the app's own, for the tally."""
+    match operation:
+        case Rewrite(name=name) | RemoveDeclaration(name=name) | Rename(name=name):
+            return "." in name
+        case Declare(text=text) | Paste(text=text):
+            return text.startswith(("mission has", "trip has"))
+    return False
+
+
+def draw_of_fields(rng: Random, app: App) -> Operation:
+    """Draw an operation of the app's own fields; some of them cannot be done."""
+    there = [name for name, _ in app.fields]
+    on = rng.choice(("mission", "trip"))
+    name = rng.choice([*there, *there, f"{on}.f{rng.randrange(9)}"])
+    called = name.partition(".")[2]
+    new = rng.choice((f"f{rng.randrange(9)}", f"f{rng.randrange(99)}", "status", "Big", "class"))
+    match rng.randrange(6):
+        case 0 | 1:
+            one = rng.choice((called, new))
+            return Declare(text=rng.choice(FIELDS).format(one, one))
+        case 2:
+            return Rewrite(
+                name=name, text=rng.choice(FIELD).format(rng.choice((called,) * 4 + (new,)))
+            )
+        case 3:
+            return RemoveDeclaration(name=name)
+        case 4:
+            return Paste(text=f"trip has p{rng.randrange(9)}: text  # pasted\nnew_1 = Clock\n")
+        case _:
+            return Rename(name=name, new=new)
+
+
 def draw(rng: Random, app: App, text: str) -> Operation:
     """Draw an operation; some of them cannot be done."""
+    if rng.random() < 0.2:
+        return draw_of_fields(rng, app)
     blocks = list(app.blocks) or ["none"]
     others = [words[1] for words in sorted(app.others) if words[0] not in ("version", "requires")]
     edges = sorted(app.edges, key=lambda one: (one[0], one[1], sorted(one[2]), one[3]))

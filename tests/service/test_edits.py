@@ -51,7 +51,8 @@ def test_random_sequences_of_edits_do_what_was_meant() -> None:
     tally = Tally()
     for seed in range(60):
         run(seed, tally)
-    assert set(tally.done) == set(KINDS)
+    of_fields = ("Declare", "Paste", "Rewrite", "Rename", "RemoveDeclaration")
+    assert set(tally.done) == {*KINDS, *(f"{kind} field" for kind in of_fields)}
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.parent.name)
@@ -59,6 +60,8 @@ def test_what_a_picture_shows_can_be_drawn_again(path: Path) -> None:
     """From an empty canvas, block by block and edge by edge, an example comes out as it is."""
     written = path.read_text(encoding="utf-8")
     app, text = app_of(written), EMPTY
+    for name, words in app.fields:
+        text = done(text, Declare(text=f"{name.partition('.')[0]} has {_written(words)}"))
     for words in sorted(app.others):
         text = done(text, Declare(text=_written(words)))
     for name, (kind, arguments) in app.blocks.items():

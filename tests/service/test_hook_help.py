@@ -59,8 +59,35 @@ def test_a_hook_that_lacks_is_offered_whole() -> None:
     assert item.insert.startswith("find_blooms(mission: Mission, results: Results) -> Verdict:\n")
 
 
+FOR_POLICIES = {"Again", "Assignment", "Waiting"}
+"""What only packages offer whose app has a policy."""
+
+
 def test_what_can_be_imported_is_offered() -> None:
-    assert set(labels("from . import @")) == set(EXPORTS)
+    assert set(labels("from . import @")) == set(EXPORTS) - FOR_POLICIES
+
+
+WAREHOUSE = Document(
+    path="app.pluto",
+    text=(EXAMPLES / "warehouse_item_finder" / "app.pluto").read_text(encoding="utf-8"),
+)
+
+
+@pytest.mark.parametrize(
+    ("code", "wanted"),
+    [
+        ("from . import @", set(EXPORTS)),
+        ("def weakest_first(trip, candidates):\n    candidates[0].@", {"battery_level"}),
+        ("def weakest_first(waiting, drones, now):\n    waiting[0].@", {"since", "deadline"}),
+        ("def weakest_first(all, free, at):\n    for one in all:\n        one.drones[0].@", {"id"}),
+        ("def weakest_first(all, free, at):\n    for one in all:\n        one.trip.@", {"target"}),
+        ("def weakest_first(waiting, drones, now):\n    return Again(@", {"after=", "pairs="}),
+    ],
+)
+def test_a_policy_of_either_shape_is_helped(code: str, wanted: set[str]) -> None:
+    at = code.index("@")
+    items = complete(WAREHOUSE, code.replace("@", "", 1), at)
+    assert wanted <= {item.label for item in items}
 
 
 @pytest.mark.parametrize("code", ["# mission.@", 'x = "mission.@"', "unknown.@", "1.@"])

@@ -19,6 +19,7 @@ FLEET = """
 [motion]
 legs = "straight"
 [fleet]
+after_trip = "home"
 apart = 0
 [[drone]]
 id = "cf1"
@@ -157,6 +158,30 @@ def test_a_time_of_day_is_for_missions_that_begin_at_one(plan: Path, said: Said)
     code, out, _ = said(plan, "--by", "08:02")
     assert code == 0
     assert "2 drones complete all 3 missions within 2 min" in out
+
+
+def test_so_it_is_where_windows_open(plan: Path, said: Said) -> None:
+    """At a time of day: in a simulation, which begins at midnight, that is hours later."""
+    text = plan.read_text()
+    for number, opens in {1: "08:00", 2: "08:01", 3: "08:00"}.items():
+        window = f'window = ["{opens}", "09:00"]'
+        text = text.replace(f'name = "M{number}"', f'name = "M{number}"\n{window}')
+    plan.write_text(text)
+    assert said(plan, "--by", "2 min")[:2] == said(plan, "--by", "08:02")[:2]
+    assert "2 drones complete all 3 missions within 2 min" in said(plan, "--by", "08:02")[1]
+    plan.write_text(text.replace('"08:00", "09:00"', '"23:00", "09:00"'))  # open since yesterday
+    code, out, _ = said(plan, "--by", "9 h")
+    assert code == 0
+    assert "within 9 h" in out
+
+
+def test_a_mission_that_is_later_than_its_own_deadline_is_told_so(plan: Path, said: Said) -> None:
+    """Whether all must be completed by a time or not."""
+    plan.write_text(plan.read_text().replace('"M1"', '"M1"\ndeadline = "5 s"'))
+    for words in (), ("--by", "1 h"):
+        code, out, _ = said(plan, *words)
+        assert code == 1
+        assert 'runs: mission "M1" is late: its deadline has passed\n' in out
 
 
 @pytest.mark.parametrize(

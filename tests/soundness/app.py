@@ -81,7 +81,7 @@ def read(text: str) -> App:
     for statement in statements:
         if statement.startswith("app "):
             name = statement.split()[1]
-        elif "->" in statement:
+        elif "->" in statement and not statement.startswith("action "):
             arrows.extend(_arrows(statement))
         elif match := BLOCK.fullmatch(statement):
             blocks.append(_block(match[1], match[2], match[3] or "", emits))

@@ -18,6 +18,7 @@ MOST_BLOCKS = 11
 EMITTED: tuple[tuple[Status, ...], ...] = ((), (), (S, C, F), (R, F), (F,), (S,), FIVE)
 """What hooks declare: nothing, what a monitor would say, what it would say too early, anything."""
 WIDEST = 10
+FIELDS = ("mission has owner: text, notes: int = 0", "trip has gentle: bool = yes")
 JUDGES: tuple[tuple[str, Status, tuple[Status, ...]], ...] = (
     ("PriorityManager", F, (S, F)),
     ("MissionEvaluator", C, (S, C, F)),
@@ -56,7 +57,11 @@ class _Drawing:
             self.arrow(last, watch, (R,))
             self.home(watch, (S, C, F))
         self.home(last, [status for status in left if status != R])
-        lines = [*self.hooks, *self.blocks, *self.arrows]
+        luck = Random(
+            len(self.blocks) * 100 + len(self.arrows)
+        )  # of its own: for what changes no way
+        fields = [one for one in FIELDS if luck.random() < 0.2]
+        lines = [*fields, *self.hooks, *self.blocks, *self.arrows]
         return read("\n".join(["pluto 1", "app drawn {", *lines, "}"]))
 
     def home(self, source: str, statuses: Sequence[Status]) -> None:

@@ -8,12 +8,13 @@ import pytest
 
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
-from plutoc.syntax.tokens import SETTINGS, WORDS
+from plutoc.syntax.tokens import OWNERS, SOFT_WORDS, WORDS
 from plutoc.syntax.tree import (
     ActionDecl,
     BlockDecl,
     Bool,
     CategoryDecl,
+    FieldsDecl,
     File,
     FlowDecl,
     HookDecl,
@@ -140,7 +141,7 @@ def test_settings() -> None:
     assert [text.value for text in requires.libraries] == ["numpy>=2", "requests"]
 
 
-@pytest.mark.parametrize("word", SETTINGS)
+@pytest.mark.parametrize("word", SOFT_WORDS)
 def test_words_of_settings_are_names_wherever_no_setting_begins(word: str) -> None:
     """Apps have blocks of such names: they stay as they are."""
     text = f"{word} = K\n{word} -> a\n{word}\n-> a\na -> {word}\na = {word}.K\naction {word} {word}"
@@ -151,7 +152,37 @@ def test_words_of_settings_are_names_wherever_no_setting_begins(word: str) -> No
     assert (file.app.name.text, file.uses[0].package.text) == (word, word)
 
 
-@pytest.mark.parametrize("word", [*WORDS, *SETTINGS])
+@pytest.mark.parametrize("on", OWNERS)
+def test_fields_have_types_and_perhaps_defaults(on: str) -> None:
+    """One statement declares several; their names may be those of the statement itself."""
+    (one,) = statements(f"{on} has has: text, mission: time = 5 min, trip: bool = no,")
+    assert isinstance(one, FieldsDecl)
+    fields = [(field.name.text, field.type.text, field.default is None) for field in one.fields]
+    assert (one.on, fields) == (
+        on,
+        [("has", "text", True), ("mission", "time", False), ("trip", "bool", False)],
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "gives", "repeat"),
+    [
+        ("action a", None, None),
+        ("action a -> float", "float", None),
+        ("action a(b: mass)\n  -> float once", "float", "once"),
+        ("action a() once -> photo", "photo", "once"),
+        ("action a safe", None, "safe"),
+    ],
+)
+def test_an_action_may_say_what_it_gives(text: str, gives: str | None, repeat: str | None) -> None:
+    """Before the word that says whether it may be repeated, or behind it."""
+    (one,) = statements(text)
+    assert isinstance(one, ActionDecl)
+    given = [each and each.text for each in (one.returns, one.repeat)]
+    assert given == [gives, repeat]
+
+
+@pytest.mark.parametrize("word", [*WORDS, *SOFT_WORDS])
 def test_words_are_names_inside_brackets(word: str) -> None:
     """A parameter, a value and a stop in brackets may be called so."""
     (block,) = statements(f"a = K({word}: {word})")

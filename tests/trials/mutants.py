@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -17,10 +18,12 @@ from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.fleet import Fleet
-from pluto_fleet.shared.flow import standing
+from pluto_fleet.shared.flow import restore, standing
 from pluto_fleet.shared.flow.engine import Engine
+from pluto_fleet.shared.flow.promises import Promises
 from pluto_fleet.shared.flow.restore import Restorer
 from pluto_fleet.shared.hooks import plain_data
+from pluto_fleet.shared.time.future import Future
 from pluto_fleet.trials.record import TrialRecord
 
 Plant = Callable[[pytest.MonkeyPatch], None]
@@ -41,13 +44,16 @@ class Mutant:
 
 def free_in_flight(patch: pytest.MonkeyPatch) -> None:
     """A drone is free as soon as its trip is over, and flies home free."""
-    really = Fleet.send_home
 
-    def send_home(self: Fleet, drone: Any) -> None:
-        really(self, drone)
-        self._become(drone, DroneStatus.FREE)
+    def freed(really: Callable[[Fleet, Any], None]) -> Callable[[Fleet, Any], None]:
+        def send(self: Fleet, drone: Any) -> None:
+            really(self, drone)
+            self._become(drone, DroneStatus.FREE)
 
-    patch.setattr(Fleet, "send_home", send_home)
+        return send
+
+    patch.setattr(Fleet, "send_home", freed(Fleet.send_home))
+    patch.setattr(Fleet, "dismiss", freed(Fleet.dismiss))
 
 
 def done_before_the_action(patch: pytest.MonkeyPatch) -> None:
@@ -174,6 +180,57 @@ def delays_go_on_while_stopped(patch: pytest.MonkeyPatch) -> None:
     patch.setattr("pluto_fleet.journal.fold.shift_delays", lambda *_: None)
 
 
+def nothing_is_waited_for(patch: pytest.MonkeyPatch) -> None:
+    """A mission begins at once, whatever was promised."""
+
+    async def at_once(self: Promises, mission: Any) -> None:
+        pass
+
+    patch.setattr(Promises, "_may_begin", at_once)
+
+
+def only_one_is_waited_for(patch: pytest.MonkeyPatch) -> None:
+    """A mission begins when one of those that it comes after has ended, well or not."""
+    really = Promises._may_begin
+
+    async def may_begin(self: Promises, mission: Any) -> None:
+        names = mission.promises.get("after", ())
+        if not any(self._states[name].ended for name in names):
+            one: Future[Any] = Future()
+            for name in names:
+                self._ends.setdefault(name, Future()).watch(one.set)
+            if names:
+                await one
+        alone: Any = SimpleNamespace(
+            promises={**mission.promises, "after": ()}, index=mission.index
+        )
+        await really(self, alone)
+
+    patch.setattr(Promises, "_may_begin", may_begin)
+
+
+def the_past_is_forgiven(patch: pytest.MonkeyPatch) -> None:
+    """A deadline that passed while nothing ran is forgotten."""
+    really = Promises.watch
+
+    def watch(self: Promises, mission: Any) -> None:
+        deadline = mission.promises.get("deadline")
+        if deadline is None or deadline >= self._core.kernel.now:
+            really(self, mission)
+
+    patch.setattr(Promises, "watch", watch)
+
+
+def it_is_late_again(patch: pytest.MonkeyPatch) -> None:
+    """A mission that goes on does not know that it was late."""
+    really = standing.update
+
+    def update(app: Any, mission: Any, record: Any) -> Any:
+        return really(app, mission, {**record, "late": False})
+
+    patch.setattr(restore, "update", update)
+
+
 def ends_are_forgotten(patch: pytest.MonkeyPatch) -> None:
     """A trip that was completed right before the crash is to be flown again."""
     really = Records.take
@@ -225,6 +282,18 @@ MUTANTS: Mapping[str, Mutant] = {
         plant=flies_before_it_is_on_record, says="before that was on record"
     ),
     "a Stop eats up delays": Mutant(plant=delays_go_on_while_stopped, says="waits until"),
+    "nothing that was promised is waited for": Mutant(
+        plant=nothing_is_waited_for, says="begins before its window|before it is"
+    ),
+    "one of several is enough for a barrier": Mutant(
+        plant=only_one_is_waited_for, says="before it is"
+    ),
+    "what passed in between is not late": Mutant(
+        plant=the_past_is_forgiven, says="and is not late"
+    ),
+    "a mission is late again after a crash": Mutant(
+        plant=it_is_late_again, says="is late once more"
+    ),
     "a completed trip is flown again": Mutant(plant=ends_are_forgotten, says="."),
 }
 """By what is wrong with each."""

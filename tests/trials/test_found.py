@@ -181,7 +181,7 @@ NEIGHBOURS = replace(
 )
 
 
-def sprayed(name: str, place: int, target: Point, **fields: float) -> Mission[Any]:
+def sprayed(name: str, place: int, target: Point, **fields: Any) -> Mission[Any]:
     """Return a mission of one trip."""
     trip = SPRAYER.trip(name="1", index=0, action="spray", target=target)
     return SPRAYER.mission(name=name, index=place, trips=[trip], **fields)

@@ -11,6 +11,7 @@ from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.trials.delay_rule import DelaysAreWaited
 from pluto_fleet.trials.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
 from pluto_fleet.trials.invariants import RULES, Invariants, violations
+from pluto_fleet.trials.promise_rule import PromisesAreKept
 from pluto_fleet.trials.rules import (
     AttemptsCountUp,
     CompletedDidEverything,
@@ -29,7 +30,7 @@ ITEMS = {"ward": {"pick": "bed"}}
 
 
 def sound() -> list[dict[str, object]]:
-    """A mission that fails once, brings an item with d1, and is asked for one trip more."""
+    """A mission that fails once, brings an item with d1, is asked for one trip more, and is late."""
 
     def trip(kind: str, name: str, drone: str, attempt: int = 1, **more: object) -> Event:
         return {
@@ -45,7 +46,11 @@ def sound() -> list[dict[str, object]]:
     def given(name: str, drone: str) -> Event:
         return {"event": "trip.allocated", "mission": "ward", "trip": name, "drone": drone}
 
+    promised = {"opens": 3.0, "deadline": 16.5, "after": ["dusk"]}
     events: list[Event] = [
+        {"event": "mission.created", "mission": "dusk", "trips": []},
+        {"event": "mission.ended", "mission": "dusk", "status": "COMPLETED", "reason": ""},
+        {"event": "mission.promised", "mission": "ward", **promised},
         {"event": "mission.created", "mission": "ward", "trips": ["pick", "bed"]},
         given("pick", "d0"),
         trip("launched", "pick", "d0"),
@@ -60,6 +65,7 @@ def sound() -> list[dict[str, object]]:
         trip("launched", "bed", "d1"),
         trip("completed", "bed", "d1"),
         {"event": "drone.returning", "drone": "d1"},
+        {"event": "mission.late", "mission": "ward", "deadline": 16.5},
         {"event": "mission.extended", "mission": "ward", "redo": [], "add": ["look"]},
         {"event": "drone.free", "drone": "d1"},
         given("look", "d1"),
@@ -98,17 +104,17 @@ def back_in_time(trace: list[dict[str, object]]) -> None:
 
 def hangs(trace: list[dict[str, object]]) -> None:
     """The mission never ends."""
-    del trace[place(trace, "mission.ended")]
+    del trace[place(trace, "mission.ended", mission="ward")]
 
 
 def ends_twice(trace: list[dict[str, object]]) -> None:
     """The mission ends again."""
-    trace.append(dict(trace[place(trace, "mission.ended")], t=99.0))
+    trace.append(dict(trace[place(trace, "mission.ended", mission="ward")], t=99.0))
 
 
 def begins_twice(trace: list[dict[str, object]]) -> None:
     """The mission is made once more after its first trip."""
-    trace.append(dict(trace[0], t=99.0))
+    trace.append(dict(trace[place(trace, "mission.created", mission="ward")], t=99.0))
 
 
 def is_impatient(trace: list[dict[str, object]]) -> None:
@@ -119,17 +125,17 @@ def is_impatient(trace: list[dict[str, object]]) -> None:
 
 def ends_oddly(trace: list[dict[str, object]]) -> None:
     """The mission ends while it is on standby."""
-    trace[place(trace, "mission.ended")]["status"] = "STANDBY"
+    trace[place(trace, "mission.ended", mission="ward")]["status"] = "STANDBY"
 
 
 def fails_silently(trace: list[dict[str, object]]) -> None:
     """The mission fails for no reason."""
-    trace[place(trace, "mission.ended")].update(status="FAILED", reason=" ")
+    trace[place(trace, "mission.ended", mission="ward")].update(status="FAILED", reason=" ")
 
 
 def complains(trace: list[dict[str, object]]) -> None:
     """The mission is completed and has a reason all the same."""
-    trace[place(trace, "mission.ended")]["reason"] = "d0 crashed"
+    trace[place(trace, "mission.ended", mission="ward")]["reason"] = "d0 crashed"
 
 
 def haunts(trace: list[dict[str, object]]) -> None:
@@ -206,7 +212,45 @@ def miscounts(trace: list[dict[str, object]]) -> None:
 
 def forgets_a_trip(trace: list[dict[str, object]]) -> None:
     """The mission is completed without the trip that was added."""
-    del trace[place(trace, "trip.allocated", trip="look") : place(trace, "mission.ended")]
+    del trace[
+        place(trace, "trip.allocated", trip="look") : place(trace, "mission.ended", mission="ward")
+    ]
+
+
+def opens_too_soon(trace: list[dict[str, object]]) -> None:
+    """The mission begins before its window."""
+    trace[place(trace, "mission.promised")]["opens"] = 3.5
+
+
+def overtakes(trace: list[dict[str, object]]) -> None:
+    """The mission begins before the one that it comes after has completed."""
+    trace[place(trace, "mission.ended")].update(status="FAILED", reason="it was called off")
+
+
+def forgets_who_goes_first(trace: list[dict[str, object]]) -> None:
+    """The mission that it comes after never ends."""
+    del trace[place(trace, "mission.ended")]
+
+
+def promises_again(trace: list[dict[str, object]]) -> None:
+    """Another deadline takes the place of the first."""
+    trace.append(dict(trace[place(trace, "mission.promised")], t=99.0))
+
+
+def is_late_too_soon(trace: list[dict[str, object]]) -> None:
+    """The mission is late before its deadline."""
+    trace[place(trace, "mission.promised")]["deadline"] = 18.0
+
+
+def is_late_twice(trace: list[dict[str, object]]) -> None:
+    """The mission is late once more."""
+    late = place(trace, "mission.late")
+    trace.insert(late, dict(trace[late]))
+
+
+def hides_that_it_is_late(trace: list[dict[str, object]]) -> None:
+    """The mission ends after its deadline, and nothing is said of it."""
+    del trace[place(trace, "mission.late")]
 
 
 def swaps_drones_with_an_item_aboard(trace: list[dict[str, object]]) -> None:
@@ -247,6 +291,13 @@ PLANTED: list[tuple[Change, Callable[[Say], Rule] | None, str]] = [
     (brings_back_the_lost, StaysDown, "d0 was lost before drone.free"),
     (miscounts, AttemptsCountUp, "flight 2 of pick of ward calls itself attempt 1"),
     (forgets_a_trip, CompletedDidEverything, "look 1 times to do"),
+    (opens_too_soon, PromisesAreKept, "begins before its window, 3.5 s"),
+    (overtakes, PromisesAreKept, "begins, and dusk before it is FAILED"),
+    (forgets_who_goes_first, PromisesAreKept, "begins, and dusk before it is under way"),
+    (promises_again, PromisesAreKept, "ward is promised something once more"),
+    (is_late_too_soon, PromisesAreKept, "ward is late before its deadline"),
+    (is_late_twice, PromisesAreKept, "ward is late once more"),
+    (hides_that_it_is_late, PromisesAreKept, "was due at 16.5 s, and is not late"),
     (swaps_drones_with_an_item_aboard, ITEMS_STAY, "has its item aboard d1, yet takes d2"),
     (serves_another_with_an_item_aboard, ITEMS_STAY, "d1 has the item of ward, yet serves other"),
 ]

@@ -9,7 +9,7 @@ import pytest
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.trials import world
 from pluto_fleet.trials.explore import random_case
-from pluto_fleet.trials.lives import TrialRun, tried
+from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.record import TrialResult
 from tests.trials.examples import example, fleet_of
 
@@ -17,20 +17,10 @@ APP = example("drugs_distribution_retry")
 FLEET = fleet_of("drugs_distribution_retry", APP)
 
 
-class _Measured(TrialRun):
-    """A trial in which each brain records what its drones fly."""
-
-    def start_life(self) -> None:
-        """Start a run, and let it listen."""
-        super().start_life()
-        if self.brain is not None and self.gateway.commander is not None:
-            self.gateway.commander.on_flown(self.brain.life.flown)
-
-
 def _measured(seed: int, monkeypatch: pytest.MonkeyPatch) -> TrialResult:
     with monkeypatch.context() as patch:
         patch.setattr(world, "Gateway", partial(Gateway, measures=True))
-        return _Measured(APP, random_case(APP, FLEET, seed)).run()
+        return tried(APP, random_case(APP, FLEET, seed))
 
 
 @pytest.mark.parametrize("seed", range(12))

@@ -13,7 +13,7 @@ from plutoc.source import Span
 from plutoc_runtime.domain.fields import Entity, Field
 
 
-def _said(
+def told(
     kind: str,
     sentence: str,
     facts: tuple[Fact, Fact] = (None, None),
@@ -21,6 +21,7 @@ def _said(
     now: Span | None = None,
     importance: Importance = Importance.PEOPLE,
 ) -> Change:
+    """Return a change of what is declared at these places."""
     return Change(
         kind=kind,
         importance=importance,
@@ -37,7 +38,7 @@ def _said(
 
 def app_renamed(old: Graph, new: Graph) -> Change:
     """The app has another name."""
-    return _said(
+    return told(
         "app_renamed",
         f"the app is now called `{new.name}`, and so are its package and its program; before,"
         f" `{old.name}`",
@@ -49,7 +50,7 @@ def app_renamed(old: Graph, new: Graph) -> Change:
 
 def title_changed(old: Graph, new: Graph) -> Change:
     """The app has another title."""
-    return _said(
+    return told(
         "title_changed",
         f"the title is now {code(new.title)}; before, {code(old.title)}",
         (old.title, new.title),
@@ -61,7 +62,7 @@ def title_changed(old: Graph, new: Graph) -> Change:
 
 def version_changed(old: Graph, new: Graph) -> Change:
     """The app's package has another version."""
-    return _said(
+    return told(
         "version_changed",
         f"the version is now {new.version}; before, {old.version}",
         (old.version, new.version),
@@ -143,7 +144,7 @@ def _small(doc: str) -> str:
 def category_added(one: Category) -> Change:
     """There is a category more."""
     can = "do everything" if one.actions is None else listed([f"`{a}`" for a in one.actions])
-    return _said(
+    return told(
         "category_added",
         f"fleets can now have drones of the category `{one.name}`, which can {can}",
         (None, one.name),
@@ -153,7 +154,7 @@ def category_added(one: Category) -> Change:
 
 def category_removed(one: Category) -> Change:
     """There is a category less."""
-    return _said(
+    return told(
         "category_removed",
         f"there is no category `{one.name}` any more: fleet files that name it are refused",
         (one.name, None),
@@ -163,7 +164,7 @@ def category_removed(one: Category) -> Change:
 
 def category_renamed(old: Category, new: Category) -> Change:
     """A category has another name, which fleet files say."""
-    return _said(
+    return told(
         "category_renamed",
         f"the category `{old.name}` is now called `{new.name}`, in fleet files, too",
         (old.name, new.name),
@@ -174,7 +175,7 @@ def category_renamed(old: Category, new: Category) -> Change:
 
 def category_changed(old: Category, new: Category, param: Param, was: float, now: float) -> Change:
     """Drones of a category are built otherwise."""
-    return _said(
+    return told(
         "category_changed",
         f"`{param.name}` of the category `{new.name}` is now {amount(now, param.type)};"
         f" before, {amount(was, param.type)}",
@@ -195,7 +196,7 @@ def abilities_changed(
     if lost is None or lost:
         no_more = "do everything" if lost is None else named(lost, "or")
         said.append(f"can no longer {no_more}")
-    return _said(
+    return told(
         "abilities_changed",
         f"drones of the category `{new.name}` {', and '.join(said)}",
         (old.actions, new.actions),
@@ -223,7 +224,7 @@ def hook_added(one: Declared) -> Change:
         HookKind.ACTION: "trips can now have the action",
         HookKind.EVALUATOR: "missions can now be judged by the evaluator",
     }.get(kind, f"there is now the {_WORDS[kind]}")
-    return _said(
+    return told(
         "hook_added",
         f"{use} `{one.name}`, which must be written in hooks.py",
         (None, one.name),
@@ -235,7 +236,7 @@ def hook_removed(one: Declared) -> Change:
     """There is a function less to write."""
     kind = kind_of(one)
     refused = ": missions files that name it are refused" if kind in _IN_PLANS else ""
-    return _said(
+    return told(
         "hook_removed",
         f"there is no {_WORDS[kind]} `{one.name}` any more{refused}",
         (one.name, None),
@@ -247,7 +248,7 @@ def hook_renamed(old: Declared, new: Declared) -> Change:
     """A function has another name."""
     kind = kind_of(new)
     files = "hooks.py and missions files" if kind in _IN_PLANS else "hooks.py"
-    return _said(
+    return told(
         "hook_renamed",
         f"the {_WORDS[kind]} `{old.name}` is now `{new.name}`, declared alike: {files} must say"
         " so, too",
@@ -261,7 +262,7 @@ def repeat_changed(old: Action, new: Action) -> Change:
     """What was begun when the ground station broke down is done once more, or not."""
     again = new.repeat == "safe"
     fate = "it is done once more" if again else "it waits for a person to decide"
-    return _said(
+    return told(
         "repeat_changed",
         f"the action `{new.name}` is now `{new.repeat}`, and before it was `{old.repeat}`:"
         f" after a breakdown in the middle of it, {fate}",
@@ -270,6 +271,18 @@ def repeat_changed(old: Action, new: Action) -> Change:
         new.span,
         Importance.SAFETY,
     )
+
+
+def returns_changed(old: Action, new: Action) -> Change:
+    """What an action gives is of another type, or of one that is declared."""
+    now = f"gives {_given(new)}" if new.returns else "may give anything"
+    before = f"it gave {_given(old)}" if old.returns else "it could give anything"
+    sentence = f"the action `{new.name}` now {now}; before, {before}"
+    return told("returns_changed", sentence, (old.returns, new.returns), old.span, new.span)
+
+
+def _given(one: Action) -> str:
+    return f"values of the type {one.returns}"
 
 
 def parameter_added(old: Declared, new: Declared, one: Parameter) -> Change:
@@ -284,7 +297,7 @@ def parameter_added(old: Declared, new: Declared, one: Parameter) -> Change:
             f"a trip with {_hook(new)} can now name its `{one.name}` ({one.type.value});"
             f" where it names none, it is {without}"
         )
-    return _said("parameter_added", sentence, (None, one.name), old.span, new.span)
+    return told("parameter_added", sentence, (None, one.name), old.span, new.span)
 
 
 def parameter_removed(old: Declared, new: Declared, one: Parameter) -> Change:
@@ -296,7 +309,7 @@ def parameter_removed(old: Declared, new: Declared, one: Parameter) -> Change:
         )
     else:
         sentence = f"{_hook(new)} no longer takes `{one.name}`, in hooks.py, too"
-    return _said("parameter_removed", sentence, (one.name, None), old.span, new.span)
+    return told("parameter_removed", sentence, (one.name, None), old.span, new.span)
 
 
 def type_changed(old: Declared, new: Declared, was: Parameter, now: Parameter) -> Change:
@@ -305,11 +318,17 @@ def type_changed(old: Declared, new: Declared, was: Parameter, now: Parameter) -
         f"`{now.name}` of {_hook(new)} is now of the type {now.type.value};"
         f" before, {was.type.value}"
     )
-    return _said("type_changed", sentence, (was.type.value, now.type.value), old.span, new.span)
+    return told("type_changed", sentence, (was.type.value, now.type.value), old.span, new.span)
 
 
 def default_changed(old: Declared, new: Declared, was: Parameter, now: Parameter) -> Change:
     """A value that a trip need not name is another one, or must be named."""
+    if kind_of(new) is not HookKind.ACTION:
+        sentence = (
+            f"where a mission chooses {_hook(new)}, its `{now.name}` is now"
+            f" {amount(now.default, now.type)}; before, {amount(was.default, was.type)}"
+        )
+        return told("default_changed", sentence, (was.default, now.default), old.span, new.span)
     before = "it had to name one" if was.default is None else amount(was.default, was.type)
     if now.default is None:
         sentence = f"a trip with {_hook(new)} must now name its `{now.name}`; before, {before}"
@@ -320,7 +339,7 @@ def default_changed(old: Declared, new: Declared, was: Parameter, now: Parameter
             f"where a trip with {_hook(new)} names no `{now.name}`, it is now {after};"
             f" before, {before}"
         )
-    return _said("default_changed", sentence, (was.default, now.default), old.span, new.span)
+    return told("default_changed", sentence, (was.default, now.default), old.span, new.span)
 
 
 def emits_changed(old: Hook, new: Hook) -> Change:
@@ -338,7 +357,7 @@ def emits_changed(old: Hook, new: Hook) -> Change:
             + [f"can no longer say {listed(less, 'or')}"] * bool(less)
         )
     sentence = f"{_hook(new)} {said}"
-    return _said("emits_changed", sentence, (was, now), old.span, new.span, Importance.MISSIONS)
+    return told("emits_changed", sentence, (was, now), old.span, new.span, Importance.MISSIONS)
 
 
 def writes_changed(old: Hook, new: Hook) -> Change:
@@ -346,7 +365,7 @@ def writes_changed(old: Hook, new: Hook) -> Change:
     now = f"changes {named(new.writes)}" if new.writes else "changes nothing"
     was = f"it changed {named(old.writes)}" if old.writes else "it changed nothing"
     sentence = f"{_hook(new)} now {now} of a mission; before, {was}"
-    return _said("writes_changed", sentence, (old.writes, new.writes), old.span, new.span)
+    return told("writes_changed", sentence, (old.writes, new.writes), old.span, new.span)
 
 
 def _hook(one: Declared) -> str:

@@ -102,6 +102,17 @@ export function rewrite(name, text) {
   return edit([...renamed, { do: "Rewrite", name: now, text }]);
 }
 
+// A field is called `mission.patient`; under another name it is renamed everywhere first.
+// planned: missions files may have it.
+export async function rewriteField(name, text, { planned = true } = {}) {
+  const [on, called] = name.split(".");
+  const now = /^\s*(\w+)/.exec(text)?.[1] ?? called;
+  const renamed = now === called ? [] : [{ do: "Rename", name, new: now }];
+  const done = await edit([...renamed, { do: "Rewrite", name: `${on}.${now}`, text }]);
+  if (done?.note && planned) tell(`${done.note}.`);
+  return done;
+}
+
 export const removeDeclaration = (name) => edit([{ do: "RemoveDeclaration", name }]);
 
 export async function removeSelected() {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from plutoc.block import IN_GRAPH, HookParam
-from plutoc.graph.hooks import REPEATS
+from plutoc.graph.hooks import PHOTO, REPEATS
 from plutoc.report.block_page import first_line
 from plutoc.service.answers import Sort
 from plutoc.service.completion.arguments import required, units, values_of
@@ -14,8 +14,9 @@ from plutoc.service.completion.hole import Hole
 from plutoc.service.known import Known
 from plutoc.service.reading import describe
 from plutoc.service.symbols import Role
-from plutoc.syntax.tokens import EQUAL
+from plutoc.syntax.tokens import ARROW, EQUAL, NAME
 from plutoc.syntax.tree import BlockDecl
+from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import Type
 
 _NEW = {
@@ -117,8 +118,13 @@ def hook(hole: Hole, known: Known) -> Iterator[Candidate]:
     elif hole.opened:
         yield from _parameters(hole, known)
     elif word == "ACTION":
-        for repeat in REPEATS:
-            yield keyword(repeat)
+        if last == ARROW:
+            yield from _results()
+        elif last in (NAME, "RPAR"):
+            if ARROW not in hole.types:
+                yield Candidate(label="->", kind=Sort.KEYWORD, forms=("-> float",), doc=_GIVES)
+            for repeat in REPEATS:
+                yield keyword(repeat)
     elif word == "MODIFIER":
         lists = [each for each in hole.types if each in ("EMITS", "WRITES")]
         if lists and last in (*lists, "COMMA"):
@@ -146,6 +152,7 @@ def _statuses(hole: Hole) -> Iterator[Candidate]:
 def _attributes(hole: Hole, known: Known) -> Iterator[Candidate]:
     given = {str(token) for token in (*hole.before, *hole.behind)}
     own = [need.name for node in known.graph.nodes for need in node.block.needs]
+    own += [field.name for field in known.graph.fields if field.on is Entity.MISSION]
     for name in dict.fromkeys(("trips", "reason", *own)):
         if name not in given:
             yield Candidate(label=name, kind=Sort.ATTRIBUTE, detail="of the mission")
@@ -164,7 +171,39 @@ def _parameters(hole: Hole, known: Known) -> Iterator[Candidate]:
         for word, kind in () if lacking else free:
             forms = (word, f"{word}: {kind.value}")
             yield Candidate(label=word, kind=Sort.PARAMETER, forms=forms, detail=kind.value)
-    elif last == "COLON":
+    else:
+        yield from _typed(hole)
+
+
+def fields(hole: Hole, known: Known) -> Iterator[Candidate]:
+    """Give what may stand in a statement that declares fields of missions or of trips."""
+    last = hole.types[-1]
+    if len(hole.types) == 1:
+        yield keyword("has", *(f"has {word}: {kind.value}" for kind, word in _TYPICAL.items()))
+    elif last in ("HAS", "COMMA"):
+        given = {str(token) for token in (*hole.before, *hole.behind)}
+        for kind, word in _TYPICAL.items():
+            if word not in given:
+                forms = (word, f"{word}: {kind.value}")
+                yield Candidate(label=word, kind=Sort.PARAMETER, forms=forms, detail=kind.value)
+    else:
+        yield from _typed(hole)
+
+
+_GIVES = "What the action gives to the result store: its type stands behind the arrow."
+
+
+def _results() -> Iterator[Candidate]:
+    """Give the types of what an action can give."""
+    for kind in dict.fromkeys((Type.FLOAT, *_OFTEN, *Type)):
+        yield Candidate(label=kind.value, kind=Sort.TYPE, doc=describe.of_type(kind))
+    yield Candidate(label=PHOTO, kind=Sort.TYPE, doc=describe.of_photo(PHOTO))
+
+
+def _typed(hole: Hole) -> Iterator[Candidate]:
+    """Give the type, or the default, of a parameter or a field."""
+    last = hole.types[-1]
+    if last == "COLON":
         for kind in dict.fromkeys((*_OFTEN, *Type)):
             yield Candidate(label=kind.value, kind=Sort.TYPE, doc=describe.of_type(kind))
     elif last == EQUAL:

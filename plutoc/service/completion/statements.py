@@ -38,6 +38,7 @@ def statement(hole: Hole, known: Known) -> Iterator[Candidate]:
 
 
 _FORMS = ("category", "action", "evaluator", "modifier", "policy", "version", "requires")
+_FIELDS = {"mission": "mission has patient: text", "trip": 'trip has note: text = ""'}
 
 
 def _keywords(known: Known) -> Iterator[Candidate]:
@@ -45,6 +46,7 @@ def _keywords(known: Known) -> Iterator[Candidate]:
     forms = {word: f"{word} {name}" for word, name in first.items()}
     forms["category"] += f" can {', '.join(known.actions)}"
     forms["requires"] = 'requires "numpy>=2"'
+    forms |= _FIELDS
     if not any(isinstance(one, VersionDecl) for one in known.file.app.statements):
         forms["version"] = 'version "0.1.0"'
     has_category = any(isinstance(one, CategoryDecl) for one in known.file.app.statements)

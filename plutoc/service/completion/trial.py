@@ -20,9 +20,19 @@ from plutoc.service.symbols import DECLARED, Occurrence, Role, occurrences
 from plutoc.source import Source
 from plutoc.syntax.again import read_again
 from plutoc.syntax.fragment import statements_of
-from plutoc.syntax.tree import ActionDecl, BadStatement, BlockDecl, File, HookDecl, Statement
+from plutoc.syntax.tree import (
+    ActionDecl,
+    BadStatement,
+    BlockDecl,
+    FieldsDecl,
+    File,
+    HookDecl,
+    Statement,
+)
 
-_NO_NAMES = frozenset({Role.KIND, Role.PARAMETER, Role.TYPE, Role.STATUS, Role.TERMINAL, Role.APP})
+_NO_NAMES = frozenset(
+    {*(Role.KIND, Role.PARAMETER, Role.TYPE, Role.STATUS, Role.TERMINAL, Role.APP), Role.FIELD}
+)
 """What an app does not declare by these names."""
 
 Wrong = frozenset[tuple[str, str]]
@@ -165,6 +175,9 @@ class Trials:
         for statement in new:
             for name in _names(statement, self.file):
                 kept |= self._by_name.get(name.lower(), {}).keys()
+        if any(isinstance(one, FieldsDecl) for one in new):  # blocks bring fields, too
+            fields = FieldsDecl, BlockDecl
+            kept |= {i for i, one in enumerate(statements) if isinstance(one, fields)}
         waiting = list(kept)
         while waiting:
             for name in self._names_of[waiting.pop()]:

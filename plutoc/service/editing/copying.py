@@ -15,10 +15,11 @@ from plutoc.service.editing.declarations import (
     taken,
 )
 from plutoc.service.editing.draft import Draft
+from plutoc.service.editing.fields import taken_in
 from plutoc.service.editing.flows import CannotEdit, among
 from plutoc.service.editing.flows import added as with_flow
 from plutoc.source import Source, Span
-from plutoc.syntax.tree import BlockDecl, FlowDecl, RequiresDecl, Statement, VersionDecl
+from plutoc.syntax.tree import BlockDecl, FieldsDecl, FlowDecl, RequiresDecl, Statement, VersionDecl
 
 
 def copied(draft: Draft, names: Sequence[str]) -> str:
@@ -48,6 +49,8 @@ def pasted(draft: Draft, text: str) -> tuple[Draft, tuple[str, ...]]:
     last = ""
     for one in statements:
         if isinstance(one, VersionDecl | RequiresDecl) or _is_known(one, known):
+            continue
+        if isinstance(one, FieldsDecl) and taken_in(draft, one) is not None:
             continue
         written = _renamed(source, one, called)
         if isinstance(one, FlowDecl):

@@ -19,6 +19,7 @@ from plutoc.syntax.tree import (
     BadStatement,
     BlockDecl,
     CategoryDecl,
+    FieldsDecl,
     File,
     FlowDecl,
     HookDecl,
@@ -28,7 +29,10 @@ from plutoc.syntax.tree import (
 )
 
 Declaration = CategoryDecl | ActionDecl | HookDecl | BlockDecl
-_ORDER = (VersionDecl, RequiresDecl, CategoryDecl, ActionDecl, HookDecl, BlockDecl, FlowDecl)
+_ORDER = (
+    *(VersionDecl, RequiresDecl, FieldsDecl),
+    *(CategoryDecl, ActionDecl, HookDecl, BlockDecl, FlowDecl),
+)
 """Which statements stand before which, where an app is written as ours are."""
 _BESIDE = ({VersionDecl, RequiresDecl}, {ActionDecl, HookDecl})
 """Between these stands no blank line."""

@@ -8,6 +8,7 @@ from plutoc.diagnostic import Fix
 from plutoc.graph.model import END, START
 from plutoc.service.document import Document
 from plutoc.service.editing import declarations as declared
+from plutoc.service.editing import fields
 from plutoc.service.editing import flows as edges
 from plutoc.service.editing.copying import copied, pasted
 from plutoc.service.editing.draft import Draft
@@ -33,7 +34,7 @@ from plutoc.service.editing.operations import (
     SetTitle,
 )
 from plutoc.service.editing.rename import renamed
-from plutoc.syntax.tree import ActionDecl, BlockDecl, CategoryDecl, HookDecl
+from plutoc.syntax.tree import ActionDecl, BlockDecl, CategoryDecl, FieldsDecl, HookDecl
 
 __all__ = ["CannotEdit", "Edited", "edit"]
 
@@ -48,6 +49,8 @@ class Edited:
     """Of hooks.py."""
     names: tuple[str, ...] = ()
     """The blocks that are new, to be selected."""
+    note: str = ""
+    """What is left to people."""
 
 
 def edit(document: Document, operation: Operation) -> Edited:
@@ -58,7 +61,7 @@ def edit(document: Document, operation: Operation) -> Edited:
     before = Draft.of(document.source)
     if isinstance(operation, Rename):
         change = renamed(document, operation.name, operation.new)
-        return Edited(edits=change.edits, hooks=change.hooks)
+        return Edited(edits=change.edits, hooks=change.hooks, note=change.note)
     draft, names = _done(before, operation)
     return Edited(edits=draft.edits(document.source), names=names)
 
@@ -109,12 +112,16 @@ def _changed(draft: Draft, operation: Operation) -> Draft:
             draft = declared.with_argument(draft, owner, parameter, value)
         case SetTitle(title=title):
             draft = declared.with_title(draft, title)
+        case Rewrite(name=name, text=text) if fields.is_field(name):
+            draft = fields.rewritten(draft, name, text)
         case Rewrite(name=name, text=text):
             draft = declared.rewritten(draft, name, text)
         case Move(name=name, before=before):
             draft = declared.moved(draft, name, before)
         case Declare(text=text):
             draft = _declare(draft, text)
+        case RemoveDeclaration(name=name) if fields.is_field(name):
+            draft = fields.without(draft, name)
         case RemoveDeclaration(name=name):
             draft = _remove(draft, name)
     return draft
@@ -144,6 +151,11 @@ def _check_ends(draft: Draft, arrow: Arrow) -> None:
 def _declare(draft: Draft, text: str) -> Draft:
     _, statements = declared.statements_in(text)
     one = statements[0] if len(statements) == 1 else None
+    if isinstance(one, FieldsDecl):
+        twice = fields.taken_in(draft, one)
+        if twice is not None:
+            raise CannotEdit(f"`{twice}` is declared already")
+        return declared.added(draft, declared.one_ending(text).strip(), FieldsDecl)
     if not isinstance(one, CategoryDecl | ActionDecl | HookDecl | BlockDecl):
         raise CannotEdit("this is not one declaration")
     if one.name.text.lower() in declared.taken(draft.file):

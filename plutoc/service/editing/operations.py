@@ -113,7 +113,7 @@ class Declare:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rewrite:
-    """Put another text in the place of a declaration."""
+    """Put another text in the place of a declaration, or of a field: `mission.patient`."""
 
     name: str
     text: str
@@ -121,7 +121,7 @@ class Rewrite:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RemoveDeclaration:
-    """Take out a category, an action, an evaluator, a modifier or a policy."""
+    """Take out a category, a field, an action, an evaluator, a modifier or a policy."""
 
     name: str
 

@@ -11,6 +11,7 @@ from plutoc.graph.names import Style, has_style, is_well_formed, reserved
 from plutoc.hooks.module import Function, name_span, node_span
 from plutoc.hooks.python import Unreadable, parsed
 from plutoc.service.document import Document
+from plutoc.service.editing import fields
 from plutoc.service.editing.declarations import taken
 from plutoc.service.editing.flows import CannotEdit
 from plutoc.service.symbols import DECLARED, HOOKS, Occurrence, Role, occurrences
@@ -24,10 +25,17 @@ class Renamed:
 
     edits: tuple[Fix, ...]
     hooks: tuple[Fix, ...]
+    note: str = ""
+    """What is left to people."""
 
 
 def renamed(document: Document, name: str, new: str) -> Renamed:
     """Return the edits that rename what an app declares; raise `CannotEdit` where that cannot be."""
+    if fields.is_field(name):
+        edits_of_field, of_hooks = fields.renamed(document, name, new)
+        old = name.partition(".")[2]
+        note = f"Missions files are not changed: where one has `{old}`, write `{new}`; `check` tells each"
+        return Renamed(edits=edits_of_field, hooks=of_hooks, note=note if new != old else "")
     found = occurrences(document.file)
     one = next(
         (each for each in found if each.declares and each.name == name and each.role in DECLARED),

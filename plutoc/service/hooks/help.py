@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from plutoc.block import HookKind
-from plutoc.emit.stubs import EXPORTS, stubs
+from plutoc.emit.stubs import exports_of, stubs
 from plutoc.graph.model import Graph
 from plutoc.hooks.expected import PASSED
 from plutoc.service.answers import Hover, Item, Sort
@@ -30,7 +30,7 @@ def complete(document: Document, text: str, offset: int) -> tuple[Item, ...]:
     if _is_said(text, start):
         return ()
     types = types_of(document.graph)
-    place = around(text, offset, types, _passed(document.graph))
+    place = around(text, offset, types, passed_to(document.graph))
     found = _found(document, text, start, place, types)
     prefix = text[start:offset].lower()
     end = offset
@@ -56,7 +56,7 @@ _Found = tuple[str, str, Sort, str, str]
 def _found(
     document: Document, text: str, start: int, place: Around, types: Mapping[str, HookType]
 ) -> Iterator[_Found]:
-    before = text[:start]
+    before, exports = text[:start], exports_of(document.graph, former=True)
     if before.endswith("."):
         chain = chain_before(text, start - 1)
         for member in place.members(place.type_of(chain)) if chain else ():
@@ -64,7 +64,7 @@ def _found(
             yield member.name, member.name, sort, member.signature or member.type, member.doc
         return
     if _IMPORTING.search(before):
-        for name in EXPORTS:
+        for name in exports:
             yield name, name, Sort.TYPE, "", types[name].doc if name in types else ""
         return
     if not place.name or _DEFINING.search(before):
@@ -80,7 +80,7 @@ def _found(
         kind = place.type_of(name)
         doc = types[kind].doc if kind in types else ""
         yield name, name, Sort.PARAMETER, annotation or kind, doc
-    for name in EXPORTS:
+    for name in exports:
         if name in types:
             yield name, name, Sort.TYPE, "", types[name].doc
 
@@ -109,7 +109,7 @@ def hover(document: Document, text: str, offset: int) -> Hover | None:
     if word is None or _is_said(text, start):
         return None
     types = types_of(document.graph)
-    place = around(text, offset, types, _passed(document.graph))
+    place = around(text, offset, types, passed_to(document.graph))
     said = _said(document, text, start, word[0], place, types)
     return Hover(markdown=said, span=Span(start, start + len(word[0]))) if said else None
 
@@ -126,7 +126,7 @@ def _said(
         owner = place.type_of(chain_before(text, start - 1))
         member = place.member(owner, word)
         return _of_member(owner.removeprefix("type "), member) if member else ""
-    if word in _passed(document.graph):
+    if word in passed_to(document.graph):
         return of_hook(document, word)
     if word in types:
         return _code(f"class {word}") + f"\n\n{types[word].doc}"
@@ -144,7 +144,7 @@ def _code(text: str) -> str:
     return f"```python\n{text}\n```"
 
 
-def _passed(graph: Graph) -> dict[str, tuple[str, ...]]:
+def passed_to(graph: Graph) -> dict[str, tuple[str, ...]]:
     """Return what each hook gets by position."""
     found = {hook.name: PASSED[hook.kind] for hook in graph.hooks}
     return found | {action.name: PASSED[HookKind.ACTION] for action in graph.actions}

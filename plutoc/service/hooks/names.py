@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from plutoc.block import HookKind
+from plutoc.hooks.expected import FOR_ALL, PASSED
 from plutoc.service.hooks.types import HookType, Member
 
 _DEF = re.compile(r"^([ \t]*)(?:async[ \t]+)?def[ \t]+(\w+)[ \t]*\(", re.MULTILINE)
@@ -21,6 +23,9 @@ _USUAL = {
     "mission": "Mission",
     "results": "Results",
     "candidates": "Sequence[Drone]",
+    "waiting": "Sequence[Waiting]",
+    "drones": "Sequence[Drone]",
+    "now": "float",
 }
 """The types of what comes by position, by its usual name."""
 
@@ -123,8 +128,14 @@ def around(
         name=inner[2],
         parameters=parameters,
         types=types,
-        passed=passed.get(inner[2], ()),
+        passed=_passed(passed.get(inner[2], ()), parameters),
     )
+
+
+def _passed(usual: tuple[str, ...], parameters: Mapping[str, str]) -> tuple[str, ...]:
+    """Return what a hook gets: a policy with three parameters chooses for all that wait."""
+    is_policy = usual == PASSED[HookKind.POLICY] and not set(usual) & set(parameters)
+    return FOR_ALL if is_policy and len(parameters) == len(FOR_ALL) else usual
 
 
 def chain_before(text: str, end: int) -> str:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from inspect import cleandoc
 from pkgutil import get_data
 
-from plutoc.emit.model_file import fields_of, python_type
+from plutoc.emit.model_file import all_fields, python_type, values_of
 from plutoc.emit.modules import EmbedError
 from plutoc.emit.stubs import EXPORTS
 from plutoc.graph.model import Graph
@@ -48,7 +48,7 @@ def types_of(graph: Graph) -> Mapping[str, HookType]:
     """Return the types that an app's package exports, with the fields that its graph brings in."""
     found = dict(_types())
     try:
-        own = fields_of(graph)
+        own = all_fields(graph)
     except EmbedError:  # two blocks disagree, which is told elsewhere
         own = ()
     for name, entity in (("Mission", Entity.MISSION), ("Trip", Entity.TRIP)):
@@ -59,12 +59,20 @@ def types_of(graph: Graph) -> Mapping[str, HookType]:
         )
         plain = found[name]
         found[name] = HookType(name=name, doc=plain.doc, members=plain.members + added)
+    if values := values_of(graph):
+        plain = found["Result"]
+        members = (
+            replace(one, type=" | ".join(values)) if one.name == "value" else one
+            for one in plain.members
+        )
+        found["Result"] = HookType(name="Result", doc=plain.doc, members=tuple(members))
     return found
 
 
 @cache
 def _types() -> Mapping[str, HookType]:
     wanted = {name: home if "._runtime" in home else _MODEL for name, home in EXPORTS.items()}
+    wanted["Waiting"] = EXPORTS["Assignment"]
     found: dict[str, HookType] = {}
     for home in dict.fromkeys(wanted.values()):
         names = {name for name, place in wanted.items() if place == home}
@@ -77,6 +85,10 @@ def _types() -> Mapping[str, HookType]:
                 found[node.name] = _type(node)
     found["Point"] = HookType(
         name="Point", doc="A place: x, y and z in metres, in the map's frame."
+    )
+    found["Assignment"] = HookType(
+        name="Assignment",
+        doc="Which waiting trips get which drones: a mapping, or pairs; none: all wait. Or `Again`.",
     )
     return found
 

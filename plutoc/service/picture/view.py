@@ -19,7 +19,7 @@ from plutoc.service.document import Document
 from plutoc.service.picture.arguments import argument, arguments_of, parameter_of
 from plutoc.service.picture.layout import laid_out
 from plutoc.service.picture.positions import Positions
-from plutoc.service.symbols import Occurrence, Role
+from plutoc.service.symbols import Occurrence, Role, fields_of
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import (
     ActionDecl,
@@ -82,6 +82,7 @@ class _View:
             "blocks": [self._block(one, spots[name]) for name, one in self.declared.items()],
             "ends": {"start": list(spots[START]), "end": list(spots[END])},
             "edges": [*map(self._edge, self.ways), *(self._implied(*one) for one in implicit)],
+            "fields": list(self._fields()),
             "hooks": list(self._hooks()),
             "categories": list(self._categories()),
             "problems": [
@@ -199,6 +200,20 @@ class _View:
             "to": None,
             "problems": [],
         }
+
+    def _fields(self) -> Iterator[Data]:
+        """Yield the fields of the app's own, as written; each is called `mission.patient`."""
+        for statement in fields_of(self.document.file):
+            for field in statement.fields:
+                yield {
+                    "name": f"{statement.on}.{field.name.text}",
+                    "on": statement.on,
+                    "text": self.document.source.quote(field.span),
+                    "type": field.type.text,
+                    "required": field.default is None,
+                    "line": self._line(field.span.start),
+                    **self._at(field.span),
+                }
 
     def _hooks(self) -> Iterator[Data]:
         """Yield the declarations of code of the developer's own, as written."""

@@ -7,7 +7,8 @@ from types import MappingProxyType
 
 from plutoc.block import IN_GRAPH, AnyParam, Block, Param
 from plutoc.graph.categories import PARAMS
-from plutoc.graph.model import Action, Category, Hook, Node, Parameter, Plain
+from plutoc.graph.hooks import PHOTO
+from plutoc.graph.model import Action, AppField, Category, Hook, Node, Parameter, Plain
 from plutoc.graph.values import EXAMPLES
 from plutoc.report.block_page import page, param_line
 from plutoc.syntax.texts import quoted
@@ -33,6 +34,9 @@ KEYWORDS: Mapping[str, str] = MappingProxyType(
         "otherwise": "Takes every status that no other arrow of the block takes.",
         "version": "The version of the app's package, as PEP 440 writes versions.",
         "requires": "What must be installed for the hooks, as PEP 508 writes requirements.",
+        "mission": "`mission has …` declares fields that the users of the app fill in for missions.",
+        "trip": "`trip has …` declares fields that the users of the app fill in for trips.",
+        "has": "Behind `mission` or `trip`: fields, each with its type, and with a default or none.",
         "safe": "The action may be repeated after a crash of the system.",
         "once": "The action is not repeated after a crash of the system.",
         "ask": "After a crash a person decides whether the action is repeated.",
@@ -165,7 +169,7 @@ def of_param(param: Param) -> str:
 
 
 def of_parameter(parameter: Parameter, owner: str) -> str:
-    """Describe a parameter that an action or a modifier declares."""
+    """Describe a parameter that an action or a hook declares."""
     default = (
         ""
         if parameter.default is None
@@ -177,6 +181,30 @@ def of_parameter(parameter: Parameter, owner: str) -> str:
         else ""
     )
     return f"`{parameter.name}`: {parameter.type.value} of `{owner}`{default}.{unit}"
+
+
+def of_field(field: AppField) -> str:
+    """Describe a field that the app declares for its missions or trips."""
+    written = describe_default(field)
+    need = (
+        "It must be filled in, in missions files and on a station."
+        if field.default is None
+        else "It may be left out."
+    )
+    unit = f" Hooks get it in {_UNIT_OF_HOOK[field.type]}." if field.type in _UNIT_OF_HOOK else ""
+    read = f"Hooks read it as `{field.on.value}.{field.name}`."
+    return paragraphs((code(f"{field.on.value} has {written}"), f"{need}{unit} {read}"))
+
+
+def describe_default(field: AppField | Parameter) -> str:
+    """Write a field or a parameter as an app declares it."""
+    default = "" if field.default is None else f" = {in_units(field.default, field.type)}"
+    return f"{field.name}: {field.type.value}{default}"
+
+
+def of_photo(name: str) -> str:
+    """Describe the type of what an action gives that no parameter can be."""
+    return f"{code(name)}\n\nWhat `take_photo` gives: a `Photo` in hooks." if name == PHOTO else ""
 
 
 def of_category(category: Category) -> str:
@@ -220,10 +248,7 @@ def hook_declaration(hook: Hook | Action) -> str:
     """Write what a hook declares."""
     if isinstance(hook, Action):
         return hook.declaration
-    given = ", ".join(
-        f"{p.name}: {p.type.value}{'' if p.default is None else f' = {in_units(p.default, p.type)}'}"
-        for p in hook.parameters
-    )
+    given = ", ".join(map(describe_default, hook.parameters))
     emits = f" emits {', '.join(s.value for s in hook.emits)}" if hook.emits else ""
     writes = f" writes {', '.join(hook.writes)}" if hook.writes else ""
     return f"{hook.kind.value} {hook.name}{f'({given})' if given else ''}{emits}{writes}"

@@ -56,7 +56,11 @@ def _of_name(document: Document, one: Occurrence) -> str:
             return _of_parameter(document, known, one)
         case Role.TYPE:
             kind = next((kind for kind in Type if kind.value == one.name), None)
-            return describe.of_type(kind) if kind else ""
+            return describe.of_type(kind) if kind else describe.of_photo(one.name)
+        case Role.FIELD:
+            own = document.graph.fields
+            field = next((f for f in own if (f.on.value, f.name) == (one.owner, one.name)), None)
+            return describe.of_field(field) if field else ""
         case Role.STATUS:
             return _of_status(document, one)
         case Role.TERMINAL:

@@ -3,25 +3,28 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from plutoc.service.document import Document
 from plutoc.service.symbols import Role
 from plutoc.source import Span
 from plutoc.syntax.fragment import tokens_of
-from plutoc.syntax.tokens import SETTING_KINDS, WORDS, span
+from plutoc.syntax.tokens import SOFT_KINDS, WORDS, span
 from plutoc.syntax.tree import (
     ActionDecl,
     BadStatement,
     BlockDecl,
     CategoryDecl,
+    FieldsDecl,
     HookDecl,
     Name,
+    Parameter,
     Statement,
 )
 
 _COMMENTS = re.compile(r"(?:^[ \t]*#[^\n]*\n?){2,}", re.MULTILINE)
-_KEYWORDS = SETTING_KINDS | {word.upper() for word in WORDS}
+_KEYWORDS = SOFT_KINDS | {word.upper() for word in WORDS}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,8 +42,7 @@ class Symbol:
 def outline(document: Document) -> tuple[Symbol, ...]:
     """Return the app with what it declares, in the order of the source."""
     app = document.file.app
-    declared = (_declared(document, one) for one in app.statements)
-    children = tuple(one for one in declared if one is not None)
+    children = tuple(one for statement in app.statements for one in _declared(statement))
     if not app.name.text:
         return children
     whole = app.span if app.span.start <= app.name.span.start else app.name.span
@@ -58,23 +60,26 @@ def outline(document: Document) -> tuple[Symbol, ...]:
     )
 
 
-def _declared(document: Document, one: Statement) -> Symbol | None:
+def _declared(one: Statement) -> Iterator[Symbol]:
     match one:
+        case FieldsDecl():
+            for field in one.fields:
+                detail = f"{one.on} has, {field.type.text}"
+                yield _symbol(field.name, detail, Role.FIELD, field)
         case CategoryDecl():
-            return _symbol(one.name, ", ".join(name.text for name in one.can), Role.CATEGORY, one)
+            yield _symbol(one.name, ", ".join(name.text for name in one.can), Role.CATEGORY, one)
         case ActionDecl():
-            return _symbol(one.name, "action", Role.ACTION, one)
+            yield _symbol(one.name, "action", Role.ACTION, one)
         case HookDecl():
-            return _symbol(one.name, one.kind, Role(one.kind), one)
+            yield _symbol(one.name, one.kind, Role(one.kind), one)
         case BlockDecl():
             prefix = f"{one.prefix.text}." if one.prefix else ""
-            return _symbol(one.name, prefix + one.kind.text, Role.BLOCK, one)
+            yield _symbol(one.name, prefix + one.kind.text, Role.BLOCK, one)
         case BadStatement(name=Name() as name) if name.span.start >= one.span.start:
-            return _symbol(name, "cannot be read", Role.BLOCK, one)
-    return None
+            yield _symbol(name, "cannot be read", Role.BLOCK, one)
 
 
-def _symbol(name: Name, detail: str, role: Role, one: Statement) -> Symbol:
+def _symbol(name: Name, detail: str, role: Role, one: Statement | Parameter) -> Symbol:
     return Symbol(name=name.text, detail=detail, role=role, span=one.span, name_span=name.span)
 
 

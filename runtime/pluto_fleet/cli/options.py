@@ -13,7 +13,9 @@ from ..shared import output
 from ..shared.alone.faults import FAULTS, shares
 from ..shared.command_line import CommandLine
 from ..shared.domain.errors import BadInput
+from ..shared.domain.fields import time_of_day
 from ..shared.domain.quantities import time_from, typed
+from ..shared.domain.text import quoted
 from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_flies
 from .size_flags import Deadline, add_size
 
@@ -40,6 +42,7 @@ class Options:
     swap: float | None = None
     write: Path | None = None
     until: float | None = None
+    start: float | None = None
     fail: dict[str, float] = field(default_factory=dict)
     trace: Path | None = None
     plot: Path | None = None
@@ -125,7 +128,15 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     _chance(size)
     _jobs(size)
     add_size(size, typed(time_from))
-    _files(command("check", "Say whether the fleet can fly the missions; nothing flies."))
+    check = command("check", "Say whether the fleet can fly the missions; nothing flies.")
+    _files(check)
+    _start(check, "check", "what is promised by a time of day is not checked")
+    check.add_argument(
+        "--write",
+        metavar="P.toml",
+        type=Path,
+        help="write the missions into a new file, with plain trips instead of areas and lists",
+    )
     fly = command("fly", "Fly the missions in real time.")
     _files(fly)
     how_it_flies(fly)
@@ -222,6 +233,22 @@ def _chance(parser: ArgumentParser, only: str = "") -> None:
     )
 
 
+def _time_of_day(text: str) -> float:
+    try:
+        return time_of_day(text.strip())
+    except ValueError as error:
+        raise ValueError(f"{quoted(text)} {error}") from None
+
+
+def _start(parser: ArgumentParser, does: str, default: str) -> None:
+    parser.add_argument(
+        "--start",
+        metavar="HH:MM",
+        type=typed(_time_of_day),
+        help=f"{does} a plan that is started at this time of day; default: {default}",
+    )
+
+
 def _jobs(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--jobs",
@@ -257,6 +284,7 @@ def _simulation(parser: ArgumentParser) -> None:
         type=typed(time_from),
         help='stop at this simulated time, such as "2 h"',
     )
+    _start(parser, "simulate", "midnight")
     parser.add_argument(
         "--trace", metavar="FILE", type=Path, help="write every event there, a JSON object a line"
     )

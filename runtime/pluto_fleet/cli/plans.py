@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,8 +11,10 @@ from typing import TYPE_CHECKING, Any
 from ..files.crtp_fleet import fleet_from, missing_categories
 from ..files.fleet import FleetFile, fleet_of, too_fast
 from ..files.missions import missions_of
+from ..files.missions_text import missions_text
 from ..files.plan_check import endless, look_alikes, problems
-from ..files.reading import parsed, shortened, text_of
+from ..files.promise_check import impossible
+from ..files.reading import parsed, read, shortened, text_of
 from ..shared import output
 from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
@@ -19,7 +22,10 @@ from ..shared.domain.text import counted, printable
 from ..shared.fleet.reach import idle_actions
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..app import App
+    from ..files.reading import MadeOfArea
     from ..shared.domain.model import Mission
     from .options import Options
 
@@ -32,20 +38,31 @@ class LoadedPlan:
     """Its drones move as the fleet's."""
     missions: list[Mission[Any]]
     fleet: FleetFile
-    missions_text: str = ""
-    """The file's text."""
-    fleet_text: str | None = None
-    """The same; None: there was none."""
+    file_text: str | None
+    """The text of the missions file; None: it makes missions or trips of lists or areas."""
+    fleet_text: str | None
+    """The text of the fleet file; None: there was none."""
+    areas: Sequence[MadeOfArea]
+    """What the areas of the missions file have become."""
+
+    @property
+    def missions_text(self) -> str:
+        """A missions file with these missions: without what lies beside the one that was read."""
+        if self.file_text is None:
+            return missions_text(self.app, self.missions)
+        return self.file_text
 
 
 def load(app: App, options: Options) -> LoadedPlan:
     """Return the plan of a command's files; raise `BadInput` if it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
+    if options.start is not None:
+        fleet = replace(fleet, midnight=options.start)
     if options.no_spread or options.dry_run:
         fleet = replace(fleet, motion=fleet.motion.exact)
     app = moving(app, fleet.motion)
-    missions_text = text_of(options.missions)
-    missions = missions_of(parsed(str(options.missions), missions_text), app, fleet.airspace)
+    document = read(options.missions)
+    missions = missions_of(document, app, fleet.airspace)
     sizes = options.command == "size"  # it says what no fleet can do
     found = [] if sizes else problems(missions, app, fleet, fleet.airspace)
     if (sizes or options.command == "simulate" or options.dry_run) and options.until is None:
@@ -53,15 +70,27 @@ def load(app: App, options: Options) -> LoadedPlan:
     if found:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
     if not options.supervised:  # its supervisor has said so
-        for sentence in look_alikes(missions, fleet.drones):
+        warnings = [*look_alikes(missions, fleet.drones)]
+        if options.command != "check":
+            warnings += impossible(missions, app, fleet, _of_day(options))
+        for sentence in warnings:
             output.tell(f"{options.missions}: warning: {sentence}")
     return LoadedPlan(
         app=app,
         missions=missions,
         fleet=fleet,
-        missions_text=missions_text,
+        file_text=None if document.is_made else document.text,
+        areas=document.areas,
         fleet_text=fleet_text,
     )
+
+
+def _of_day(options: Options) -> float:
+    """Return at which time of day what is loaded is to be started."""
+    if options.command == "fly" and not options.dry_run:
+        now = time.localtime()
+        return now.tm_hour * 3600.0 + now.tm_min * 60.0 + now.tm_sec
+    return options.start or 0.0
 
 
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
@@ -104,11 +133,27 @@ def _missions(options: Options) -> Path | None:
             return None
 
 
+_MOST_AREAS = 50
+"""The most areas of which `check` says what they have become."""
+
+
 def check(app: App, options: Options) -> int:
-    """Confirm that the fleet can fly the missions; else loading has raised an error."""
+    """Confirm that the fleet can fly the missions, and keep its promises; else loading has raised an error."""
+    if options.write is not None and os.path.lexists(options.write):
+        raise BadInput(f"{options.write}: it is there already, and is not replaced")
     plan = load(app, options)
     for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
+    broken = impossible(plan.missions, plan.app, plan.fleet, options.start)
+    if broken:
+        output.tell(shortened([f"{options.missions}: {sentence}" for sentence in broken]))
+        return 1
+    for area in plan.areas[:_MOST_AREAS]:
+        output.line(printable(area.sentence))
+    if (more := len(plan.areas) - _MOST_AREAS) > 0:
+        output.line(f"… and {counted(more, 'more area')}")
+    if options.write is not None:
+        _write(options.write, plan.missions_text)
     trips = sum(len(mission.trips) for mission in plan.missions)
     missions, drones = len(plan.missions), len(plan.fleet.drones)
     output.line(
@@ -116,3 +161,13 @@ def check(app: App, options: Options) -> int:
         f"a fleet of {counted(drones, 'drone')} can fly them"
     )
     return 0
+
+
+def _write(path: Path, text: str) -> None:
+    """Write missions into a new file."""
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(text)
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise BadInput(f"{path}: the missions cannot be written: {why}") from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, floor
@@ -11,9 +12,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..process.text import in_shell
 from ..process.workers import WorkerDied, cores, in_workers
-from ..report.report import exit_code, last_line, table
+from ..report.report import exit_code, last_line, simulation_data, table
 from ..shared import output
-from ..shared.alone.simulate import outcome_data, trips_data
+from ..shared.alone.simulate import trips_data
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import COMPLETED
 from ..shared.domain.text import (
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
 BROKEN = 70
 """The exit code of a run that violates an invariant, which is a bug of Pluto."""
 
-_MOST_VIOLATIONS = 10
+_MOST_VIOLATIONS = _MOST_LATE = 10
 
 
 class _Run(NamedTuple):
@@ -65,7 +66,7 @@ def often(
         figures = run_of(seed, outcome, items)
         code = BROKEN if figures.violations else exit_code(outcome)
         if options.json:
-            return _Run(figures, code, "", outcome_data(app.name, seed, outcome))
+            return _Run(figures, code, "", simulation_data(app.name, seed, outcome))
         why = f"; given up: {printable(outcome.given_up)}" if outcome.given_up else ""
         return _Run(figures, code, f"seed {seed}: {last_line(outcome)}{why}", None)
 
@@ -114,6 +115,17 @@ def _said(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[st
         yield from _broken(app, options, broken)
         yield ""
     yield _in_words(runs)
+    late = _late(runs)
+    for name, count in [*late.items()][:_MOST_LATE]:
+        share = percent(count / len(runs))
+        yield f"late: {printable(name)} in {count} of {counted(len(runs), 'run')} ({share})"
+    if len(late) > _MOST_LATE:
+        yield f"and {counted(len(late) - _MOST_LATE, 'more mission')}"
+
+
+def _late(runs: Sequence[RunFigures]) -> dict[str, int]:
+    """Return in how many runs missions were late, the most often first."""
+    return dict(Counter(name for run in runs for name in run.late).most_common())
 
 
 def _figures(runs: Sequence[RunFigures]) -> Iterator[str]:
@@ -194,6 +206,8 @@ class RunFigures:
     """Missions that were completed."""
     battery: float | None = None
     """The lowest battery level at a landing; None: no drone flew."""
+    late: tuple[str, ...] = ()
+    """The missions that were late."""
     violations: tuple[str, ...] = ()
     """The invariants that this run violated."""
 
@@ -217,6 +231,7 @@ def run_of(seed: int, outcome: SimulationResult, items: Items) -> RunFigures:
         failed=trips["failed"],
         completed=sum(mission.status is COMPLETED for mission in outcome.missions),
         battery=min(levels, default=None),
+        late=tuple(mission.name for mission in outcome.missions if mission.late),
         violations=tuple(invariants.over() if whole else invariants.found),
     )
 
@@ -237,6 +252,7 @@ def summary(runs: Sequence[RunFigures]) -> dict[str, object]:
         "attempts": spread([float(run.attempts) for run in runs]),
         "failed_trips": spread([float(run.failed) for run in runs]),
         "battery_level": spread([run.battery for run in runs if run.battery is not None]),
+        **({"late": late} if (late := _late(runs)) else {}),
         "failed_seeds": bad[:MOST_SEEDS],
         "violations": [
             {"seed": run.seed, "what": sentence} for run in runs for sentence in run.violations

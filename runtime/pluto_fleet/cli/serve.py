@@ -189,7 +189,8 @@ def _plan(app: App, options: Options, config: StationConfig) -> MissionPlan:
     plan = MissionPlan(app, config.fleet, config.own_folder / "plan.json")
     if options.plan is not None:
         if plan.is_empty:
-            plan.import_toml(text_of(options.plan), plan.revision, str(options.plan))
+            text, folder = text_of(options.plan), options.plan.parent
+            plan.import_toml(text, plan.revision, str(options.plan), folder)
         elif not options.going_on:  # after a crash it has been said already
             output.tell(f"the plan that was drawn here stays: {options.plan} is not read")
     return plan

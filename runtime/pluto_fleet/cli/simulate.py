@@ -13,11 +13,10 @@ from ..flight.simulate import simulate as simulated
 from ..journal.event_line import line
 from ..process.signal_guard import Interrupted
 from ..report.progress import Progress, simulation_progress
-from ..report.report import exit_code, report
+from ..report.report import exit_code, report, simulation_data
 from ..report.sentences import line_of
 from ..shared import output
 from ..shared.alone.faults import Faults
-from ..shared.alone.simulate import outcome_data
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import duration
 from ..shared.domain.trace import Event, dumped
@@ -75,7 +74,7 @@ def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> i
             raise halt.error from None
         progress.clear()
         if options.json:
-            output.line(dumped(outcome_data(app.name, options.seed, outcome)))
+            output.line(dumped(simulation_data(app.name, options.seed, outcome)))
         else:
             output.line()
             for line in report(app, outcome, plan.fleet.apart):

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..files.fleet_text import fleet_text
 from ..process.workers import WorkerDied, cores
@@ -12,7 +13,7 @@ from ..report.progress import Progress, simulation_progress
 from ..shared import output
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
-from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.fields import Entity, FieldType, time_of_day
 from ..shared.domain.text import counted, duration
 from ..shared.domain.trace import dumped
 from ..sizing.answer import Answer, sized
@@ -26,6 +27,7 @@ from .plans import load
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..shared.domain.model import Mission
     from ..sizing.tries import Tally
     from .options import Options
     from .plans import LoadedPlan
@@ -80,7 +82,7 @@ def _question(plan: LoadedPlan, options: Options) -> Question:
         if begin is None:
             raise BadInput(
                 f"{options.missions}: --by {by.text} is a time of day, and not all missions begin at one"
-                ' (at = "08:00"): say how long they may take, such as --by "20 min"'
+                ' (at = "08:00", or a window): say how long they may take, such as --by "20 min"'
             )
         ends: float | None = begin + (by.seconds - begin) % DAY
     else:
@@ -104,8 +106,19 @@ def _begin(plan: LoadedPlan) -> float | None:
         for one in plan.app.fields
         if one.on is Entity.MISSION and one.type is FieldType.TIME_OF_DAY
     ]
-    times = [getattr(mission, name) for mission in plan.missions for name in names]
-    return None if not times or None in times else min(times)
+    times = [
+        [*filter(lambda at: at is not None, (getattr(one, name) for name in names)), *_opens(one)]
+        for one in plan.missions
+    ]
+    return min(map(max, times)) if times and all(times) else None
+
+
+def _opens(mission: Mission[Any]) -> Iterator[float]:
+    """Yield when a mission's window opens in a simulation, if that is a time of day: it begins at midnight."""
+    opens, closes = (mission.promises.get(name) for name in ("opens", "deadline"))
+    if isinstance(opens, str):
+        at = time_of_day(opens)
+        yield 0.0 if isinstance(closes, str) and time_of_day(closes) < at else at
 
 
 def _show(progress: Progress, tally: Tally, rule: Rule) -> None:

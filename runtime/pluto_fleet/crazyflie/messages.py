@@ -166,6 +166,13 @@ def no_parameter(drone: str, name: str) -> str:
     return f"{drone} has no parameter {quoted(name)}"
 
 
+def nothing_to_read(drone: str, name: str) -> str:
+    said = f"{drone} has neither a log variable nor a parameter {quoted(name)}"
+    if "." in name:
+        return said
+    return f'{said}; what a quantity is read from, the fleet file says: measure = {{ {name} = "group.name" }}'
+
+
 def bad_value(drone: str, name: str, value: float, kind: str) -> str:
     return f"{drone}: {number(value)} is no value for {quoted(name)}, which is a {kind}"
 

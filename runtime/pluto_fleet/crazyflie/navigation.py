@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
 from ..drones.protocol import LINK_LOST, DroneEvent, DroneTelemetry
-from ..shared.domain.text import quoted
 from . import (
     actions,
     connection,
@@ -222,13 +221,14 @@ class Crazyflie:
         return await actions.act(session, self._reader(), self._options, folder, action, parameters)
 
     async def read(self, name: str) -> float:
-        """Return a log variable, or else a parameter."""
+        """Return a log variable, a parameter, or else a quantity, by the variable that the fleet file names for it."""
         session = self._linked()
-        if logs.has(session.cf, name):
-            return await self._reader().mean(name, 0.0)
-        if parameters.element_of(session.cf, name) is None:
-            raise Rejected(f"{self._id} has neither a log variable nor a parameter {quoted(name)}")
-        return await parameters.read(session, name)
+        if not logs.has(session.cf, name) and parameters.element_of(session.cf, name) is not None:
+            return await parameters.read(session, name)
+        variable = name if logs.has(session.cf, name) else self._options.variable_of(name)
+        if variable is None or not logs.has(session.cf, variable):
+            raise Rejected(messages.nothing_to_read(self._id, name))
+        return await self._reader().mean(variable, 0.0)
 
     async def write(self, name: str, value: float) -> None:
         """Set a parameter, and verify it."""

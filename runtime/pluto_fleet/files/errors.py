@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from ..shared.domain.text import number, quoted
+from .filled import Filled, is_number
+
+if TYPE_CHECKING:
+    from ..shared.domain.fields import Field
 
 
 def listed(words: Iterable[str]) -> str:
@@ -34,6 +39,10 @@ def missing(key: str) -> str:
     return f"has no {key}"
 
 
+def field_missing(field: Field) -> str:
+    return f"{missing(field.name)}{field.hint}"
+
+
 def unknown_key(key: str, keys: Sequence[str], what: str) -> str:
     hint = near(key, keys)
     end = " " if hint else "; "
@@ -42,9 +51,13 @@ def unknown_key(key: str, keys: Sequence[str], what: str) -> str:
 
 def no_such_field(key: str, what: str, keys: Sequence[str]) -> str:
     return (
-        f"unknown key {quoted(key)}: this app's graph has no block that needs it; a {what} of this "
+        f"unknown key {quoted(key)}: this app's graph has no block that needs it; {what} of this "
         f"app has: {listed(keys)}"
     )
+
+
+def no_promises(key: str, app: str) -> str:
+    return f"{key} needs a newer package than {app} is: compile it anew, and install it"
 
 
 def not_a_table(header: str) -> str:
@@ -62,8 +75,8 @@ def none_given(header: str) -> str:
 # Names
 
 
-def not_unique(what: str, name: str, line: int | None) -> str:
-    where = f", in line {line}" if line else ""
+def not_unique(what: str, name: str, line: int | None, row: str = "") -> str:
+    where = f", of {row}" if row else f", in line {line}" if line else ""
     return f"there is another {what} {quoted(name)}{where}: names must differ"
 
 
@@ -95,6 +108,91 @@ def item_missing(action: str) -> str:
 
 def item_unwanted(action: str, carriers: Sequence[str]) -> str:
     return f"{action} takes no item: only {' and '.join(carriers)} do"
+
+
+# Areas
+
+
+def area_too_high(height: float, ceiling: float) -> str:
+    return f"height, {number(height)} m, is above the ceiling, {number(ceiling)} m"
+
+
+def item_in_area(action: str) -> str:
+    return f"{action} takes an item, and an area has none: write [[mission.trip]]"
+
+
+def too_many_places(spacing: float, most: int) -> str:
+    return f"spacing {number(spacing)} m makes more than {most:,} trips of this area: widen it"
+
+
+def too_many_in_all(most: int) -> str:
+    return f"with this area the file makes more than {most:,} trips: widen the spacing"
+
+
+def nothing_permitted() -> str:
+    return "polygon covers nothing that may be flown over: it lies in no-fly areas, or off the map"
+
+
+def makes_another(name: str, line: int | None) -> str:
+    where = f", in line {line}" if line else ""
+    return f"makes a trip {quoted(name)}, and there is another{where}: rename that, or the area"
+
+
+def no_shapely() -> str:
+    return (
+        "an area needs shapely, the extra `areas` of pluto-fleet:"
+        ' pip install "pluto-fleet[areas]", or "shapely>=2"'
+    )
+
+
+# Lists
+
+
+def of_cells(cells: Sequence[Filled]) -> str:
+    """Say from which columns a value comes; of several, from those that are no numbers, if any are not."""
+    odd = [cell for cell in cells if not is_number(cell)] or cells
+    columns = [*dict.fromkeys(column for cell in odd for column in cell.columns)]
+    if not columns:
+        return ""
+    said = f"column{'s' * (len(columns) > 1)} {' and '.join(map(quoted, columns))}"
+    if len(odd) == 1 < len(cells):
+        said += f": {quoted(odd[0])}"
+    comma = next(
+        (cell for cell in odd if is_number(cell.replace(",", ".", 1)) and "," in cell), None
+    )
+    if comma is not None:
+        said += f"; a number has a point: {comma.replace(',', '.')}"
+    return f" ({said})"
+
+
+def no_folder(name: str) -> str:
+    return (
+        f"each {quoted(name)} lies beside a missions file, and this one is in no folder: start with"
+        " that file, --missions M.toml"
+    )
+
+
+def same_for_all(name: object, columns: Sequence[str]) -> str:
+    such = quoted(f"{name} {{{columns[0]}}}")
+    return f"name is the same for every row, and names must differ: put a column into it, such as {such}"
+
+
+def unknown_column(key: str, column: str, columns: Sequence[str]) -> str:
+    said = unknown_name("column", column, columns, "the list has")
+    return f"{key} has an {said}" + ("" if "{" in column else "; a brace itself is written {{")
+
+
+def brace_alone(key: str) -> str:
+    return f"{key} has a brace that is not one of a pair: a brace itself is written {{{{ or }}}}"
+
+
+def other_width(row: int, values: int, columns: int) -> str:
+    given = "1 value" if values == 1 else f"{values} values"
+    return f"has {given} in row {row}, and its first line names {columns}"
+
+
+def too_many_rows(most: int) -> str:
+    return f"has more than {most:,} rows"
 
 
 # Fleet

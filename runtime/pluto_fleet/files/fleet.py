@@ -45,7 +45,7 @@ OWN = "own"
 class Behaviour:
     """`[fleet]`."""
 
-    after_trip: AfterTrip = AfterTrip.HOME
+    after_trip: AfterTrip = AfterTrip.NEXT
     apart: float = APART
     max_airborne: int | None = None
     navigation: str = CRAZYFLIE
@@ -60,7 +60,7 @@ def read_behaviour(top: Table) -> Behaviour:
     table.only(("after_trip", "apart", "max_airborne", "navigation", "localization"), "[fleet]")
     apart = table.read("apart", BETWEEN)
     return Behaviour(
-        after_trip=table.read("after_trip", values.after_trip) or AfterTrip.HOME,
+        after_trip=table.read("after_trip", values.after_trip) or AfterTrip.NEXT,
         apart=APART if apart is None else apart,
         max_airborne=table.read("max_airborne", values.count),
         navigation=table.read("navigation", values.name) or CRAZYFLIE,

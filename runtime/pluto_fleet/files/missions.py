@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,10 @@ from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.model import Item, Point, Trip
 from ..shared.domain.text import quoted
 from ..shared.domain.values import wrongly_carried
+from . import areas as areas_of
 from . import errors
+from .lists import each_row
+from .promises import KEYS, misplaced, read_promises
 from .reading import Document, Table, read
 
 if TYPE_CHECKING:
@@ -28,25 +31,32 @@ ELSEWHERE = {
 """Fields that other apps have: the message says why this app has none."""
 
 
-def only_fields(table: Table, app: App, entity: Entity, basic: Sequence[str]) -> None:
+def only_fields(
+    table: Table, app: App, entity: Entity, basic: Sequence[str], what: str | None = None
+) -> None:
     """Report the keys that are neither basic ones nor fields that the app's graph needs."""
     keys = [*basic, *(field.name for field in app.fields if field.on is entity)]
+    what = what or f"a {entity.value}"
     for key in table.data:
         if key not in keys:
-            table.problem(_unknown(key, keys, entity), key)
+            table.problem(_unknown(key, keys, entity, what), key, of_key=True)
 
 
-def _unknown(key: str, keys: Sequence[str], entity: Entity) -> str:
+def _unknown(key: str, keys: Sequence[str], entity: Entity, what: str) -> str:
     if key in ELSEWHERE[entity]:
-        return errors.no_such_field(key, entity.value, keys)
-    return errors.unknown_key(key, keys, f"a {entity.value} of this app")
+        return errors.no_such_field(key, what, keys)
+    return errors.unknown_key(key, keys, f"{what} of this app")
 
 
 def read_fields(table: Table, app: App, entity: Entity) -> dict[str, Any]:
-    """Return the fields beyond the basic ones."""
+    """Return the fields beyond the basic ones, and report those that must be there and are not."""
     given: dict[str, Any] = {}
     for field in app.fields:
-        if field.on is not entity or field.name not in table.data:
+        if field.on is not entity:
+            continue
+        if field.name not in table.data:
+            if field.hint:
+                table.problem(table.document.words.field_missing(field), field.name)
             continue
         value = table.read(field.name, values.FIELD[field.type])
         if value is not None:
@@ -68,11 +78,50 @@ def read_trips(mission: Table, app: App, airspace: Airspace) -> list[Trip]:
     trips: list[tuple[Trip, Table]] = []
     for index, table in enumerate(mission.tables("trip", "mission.trip")):
         trips.append((_trip(table, index, app, airspace, names), table))
-    if mission.data.get("trip", []) == []:
+    if mission.data.get("trip", []) == [] == mission.data.get("area", []):
         mission.problem(mission.document.words.no_trips())
     for place, problem in wrongly_carried([trip for trip, _ in trips]):
         trips[place][1].problem(problem, "item")
-    return [trip for trip, _ in trips]
+    found = [trip for trip, _ in trips]
+    areas: dict[str, Table] = {}
+    for number, table in enumerate(mission.tables("area", "mission.area"), 1):
+        prefix = areas_of.named(table, number, areas)
+        found += _trips_of_area(table, prefix, found, app, airspace, names)
+    return found
+
+
+def _trips_of_area(
+    table: Table,
+    prefix: str,
+    before: Sequence[Trip],
+    app: App,
+    airspace: Airspace,
+    names: dict[str, Table],
+) -> list[Trip]:
+    """Return the trips that an area makes."""
+    only_fields(table, app, Entity.TRIP, areas_of.BASIC, "an area")
+    action = _action(table, app)
+    if action is not None and action.name in (PICK, RELEASE):
+        table.problem(errors.item_in_area(action.name), "action")
+    parameters = _parameters(table, action) if action else {}
+    given = read_fields(table, app, Entity.TRIP)
+    last, trips, is_told = before[-1].target if before else None, list[Any](), False
+    for count, place in enumerate(areas_of.read_places(table, airspace, last), 1):
+        name = f"{prefix}{count}"
+        other = names.setdefault(name, table)
+        if other is not table and not is_told:
+            table.problem(errors.makes_another(name, other.line("name")))
+            is_told = True  # one says all
+        trip = app.trip(
+            name=name,
+            action=action.name if action else "",
+            target=place,
+            parameters={**parameters},
+            index=len(before) + count - 1,
+            **given,
+        )
+        trips.append(trip)
+    return trips
 
 
 def _trip(table: Table, index: int, app: App, airspace: Airspace, names: dict[str, Table]) -> Trip:
@@ -156,17 +205,23 @@ def missions_of(document: Document, app: App, airspace: Airspace) -> list[Missio
     return missions
 
 
-def read_missions(document: Document, app: App, airspace: Airspace) -> list[Mission[Any]]:
-    """Return the missions as far as they are valid; the document collects what is wrong."""
+def read_missions(
+    document: Document, app: App, airspace: Airspace, known: Collection[str] = ()
+) -> list[Mission[Any]]:
+    """Return the missions as far as they are valid; the document collects what is wrong.
+
+    `known` are the missions that fly already.
+    """
     top = Table(document, document.data)
     top.only(("mission",), "a missions file")
     names: dict[str, Table] = {}
-    missions = [
-        _mission(table, index, app, airspace, names)
-        for index, table in enumerate(top.tables("mission", "mission"))
-    ]
+    tables = [*each_row(top)]
+    missions = [_mission(table, index, app, airspace, names) for index, table in enumerate(tables)]
     if document.data.get("mission", []) == []:
         top.problem(errors.none_given("mission"))
+    for place, said in misplaced(missions, known) if document.problems == [] else ():
+        tables[place].problem(said, "after")
+    document.given = [None if table.row else table.data for table in tables]
     return missions
 
 
@@ -176,9 +231,12 @@ def _mission(
     number = str(index + 1)
     known = table.valid_name("name") or ("name" not in table.data and number)
     table.who = f"mission {quoted(known) if known else number}"
-    only_fields(table, app, Entity.MISSION, ("name", "trip"))
+    if table.row:
+        table.who += f" ({table.row})"
+    only_fields(table, app, Entity.MISSION, ("name", "trip", "area", *KEYS))
     name = table.read("name", values.name) or number
     table.differs("mission", "name", name, names)
     given = read_fields(table, app, Entity.MISSION)
+    promises = read_promises(table, app)
     trips = read_trips(table, app, airspace)
-    return app.mission(name=name, trips=trips, index=index, **given)
+    return app.mission(name=name, trips=trips, index=index, promises=promises, **given)

@@ -15,12 +15,23 @@ if TYPE_CHECKING:
 
 def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
     """Return the missions file."""
-    return toml_text({"mission": [_mission(app, mission) for mission in missions]})
+    return toml_text({"mission": [mission_table(app, mission) for mission in missions]})
 
 
-def _mission(app: App, mission: Mission[Any]) -> dict[str, Any]:
+def mission_table(app: App, mission: Mission[Any]) -> dict[str, Any]:
+    """Return one mission of a missions file."""
     trips = [_trip(app, trip) for trip in mission.trips]
-    return {"name": mission.name, **_fields(app, Entity.MISSION, mission), "trip": trips}
+    fields = {**_promises(mission), **_fields(app, Entity.MISSION, mission)}
+    return {"name": mission.name, **fields, "trip": trips}
+
+
+def _promises(mission: Mission[Any]) -> dict[str, Any]:
+    """Return what is promised of a mission as a file says it."""
+    said = mission.promises
+    when = {} if "deadline" not in said else {"deadline": said["deadline"]}
+    if "opens" in said:
+        when = {"window": [said["opens"], said["deadline"]]}
+    return when | ({"after": [*said["after"]]} if "after" in said else {})
 
 
 def _trip(app: App, trip: Trip) -> dict[str, Any]:

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 from unicodedata import normalize
 
 from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.own_fields import OwnField
 from ..shared.domain.text import quoted
+from ..shared.domain.values import shown
 from ..shared.fleet.reach import Lacks, Miss, chain_of, miss_of
 
 if TYPE_CHECKING:
@@ -42,6 +44,21 @@ def problems(
 ) -> list[str]:
     """Return a sentence for each trip that no drone of the fleet could ever do."""
     return [f"{one.called}: {one.reason}" for one in unflyable(missions, app, fleet, airspace)]
+
+
+def wrong_fields(missions: Sequence[Mission[Any]], app: App) -> Iterator[str]:
+    """Yield a sentence for each field of the app's own that a script has left out, or filled in wrongly."""
+    own = [one for one in app.fields if isinstance(one, OwnField)]
+    for mission in missions:
+        who = f"mission {quoted(mission.name)}"
+        for of, called in ((mission, who), *((t, f"{who}, trip {t.name}") for t in mission.trips)):
+            for field in own:
+                if field.on is (Entity.MISSION if of is mission else Entity.TRIP):
+                    value = getattr(of, field.name)
+                    if value is None and field.hint:
+                        yield f"{called}: has no {field.name}"
+                    elif wanted := field.wanted(value, ()):
+                        yield f"{called}: {field.name} must be {wanted}, not {shown(value)}"
 
 
 def unflyable(

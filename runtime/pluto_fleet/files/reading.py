@@ -8,17 +8,20 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..shared.alone import files
 from ..shared.domain.errors import BadInput
+from ..shared.domain.text import counted, number, percent
 from ..shared.domain.values import name, point, shown
 from . import errors
+from .filled import as_numbers, as_texts, cells_in
 from .toml import TomlLines, TomlPath, line_of, places
 from .toml_advice import advice
 
 if TYPE_CHECKING:
     from ..shared.domain.airspace import Airspace
+    from ..shared.domain.fields import Field
     from ..shared.domain.model import Point
     from .toml import TomlPath
 
@@ -31,6 +34,8 @@ class Wording:
     """What a key is called."""
     missing: Callable[[str], str]
     """A key that must be there is not."""
+    field_missing: Callable[[Field], str]
+    """A field of the app's own must be filled in and is not."""
     no_trips: Callable[[], str]
     item_missing: Callable[[str], str]
     """An action that needs an item has none."""
@@ -39,6 +44,7 @@ class Wording:
 IN_A_FILE = Wording(
     called=str,
     missing=errors.missing,
+    field_missing=errors.field_missing,
     no_trips=errors.no_trips,
     item_missing=errors.item_missing,
 )
@@ -63,6 +69,25 @@ class Problem:
         return f"{self.who}: {self.text}" if self.who else self.text
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MadeOfArea:
+    """What an area has become."""
+
+    who: str
+    trips: int
+    metres: float
+    """The way from the first place to the last."""
+    forbidden: float
+    """The share of the area that may not be flown over."""
+
+    @property
+    def sentence(self) -> str:
+        """All of this for people."""
+        way = f"{counted(self.trips, 'trip')}, {number(round(self.metres, 1))} m from the first to the last"
+        out = f"; {percent(self.forbidden)} of it may not be flown over"
+        return f"{self.who}: {way}" + (out if self.forbidden >= 0.005 else "")
+
+
 class Document:
     """A parsed plan, and everything that is wrong with it."""
 
@@ -76,6 +101,17 @@ class Document:
         """`find` is called for the lines as soon as one is asked for."""
         self.path, self.data, self.words = path, data, words
         self.problems: list[Problem] = []
+        self._reported: set[tuple[TomlPath, str]] = set()
+        self.areas: list[MadeOfArea] = []
+        """What its areas have become."""
+        self.is_made = False
+        """Whether missions, or trips, were made of lists or areas in it."""
+        self.text = ""
+        """What it was parsed from."""
+        self.folder: Path | None = None
+        """Where it lies; None: it is no file."""
+        self.given: list[Mapping[str, object] | None] = []
+        """For each mission its table; None: it was made of a list."""
         self._find = find
 
     @cached_property
@@ -89,7 +125,12 @@ class Document:
     def problem(self, text: str, place: TomlPath, who: str, near: TomlPath) -> None:
         """Report a problem at a path; `near`: another one whose line is shown in a file."""
         line = self.line(near)
+        self._reported.add((place, text))
         self.problems.append(Problem(place=place, who=who, text=text, line=line))
+
+    def has_problem(self, text: str, place: TomlPath) -> bool:
+        """Return whether just this was reported before."""
+        return (place, text) in self._reported
 
     def refuse_if_bad(self) -> None:
         """Raise `BadInput` with a line for each problem, if there is one."""
@@ -110,12 +151,16 @@ def shortened(lines: Sequence[str]) -> str:
 
 def read(path: Path) -> Document:
     """Read a plan file; raise `BadInput` if it is no TOML text of a sane size."""
-    return parsed(str(path), text_of(path))
+    document = parsed(str(path), text_of(path))
+    document.folder = path.parent
+    return document
 
 
 def parsed(path: str, text: str) -> Document:
     """Parse a plan file's text; raise `BadInput` if it is not TOML."""
-    return Document(path, files.parsed(path, text, advice), partial(places, text))
+    document = Document(path, files.parsed(path, text, advice), partial(places, text))
+    document.text = text
+    return document
 
 
 def text_of(path: Path) -> str:
@@ -139,17 +184,41 @@ class Table:
     """One table of the file, and its name in messages."""
 
     def __init__(
-        self, document: Document, data: Mapping[str, object], place: TomlPath = (), who: str = ""
+        self,
+        document: Document,
+        data: Mapping[str, object],
+        place: TomlPath = (),
+        who: str = "",
+        row: str = "",
     ) -> None:
+        """`row`: of which row of a list it was made, such as `beds.csv, row 3`."""
         self.document, self.data, self.place, self.who = document, data, place, who
+        self.row = row
 
-    def problem(self, text: str, *inside: str | int, near: str | None = None) -> None:
+    def problem(
+        self, text: str, *inside: str | int, near: str | None = None, of_key: bool = False
+    ) -> None:
         """Report a problem of this table, or of a key in it.
 
-        For a missing key, `near` is another key whose line is shown.
+        For a missing key, `near` is another key whose line is shown. `of_key`: it is wrong whatever
+        its value: a list has it in every row, and it is told once.
         """
         place = (*self.place, *inside)
+        if self.row:
+            cells = [] if of_key else cells_in(self._value(inside))
+            if not cells and self.document.has_problem(text, place):
+                return  # it does not depend on the row
+            text += errors.of_cells(cells)
         self.document.problem(text, place, self.who, (*self.place, near) if near else place)
+
+    def _value(self, inside: Sequence[str | int]) -> object:
+        value: Any = self.data
+        for part in inside:
+            try:
+                value = value[part]
+            except (LookupError, TypeError):
+                return None
+        return value
 
     def called(self, key: str) -> str:
         """Return the name of a key in messages."""
@@ -172,12 +241,14 @@ class Table:
             if required:
                 self.problem(self.document.words.missing(key), key)
             return None
-        value = self.data[key]
-        try:
-            return convert(value)
-        except ValueError as error:
-            self.problem(f"{self.called(key)} {shown(value)} {error}", key)
-            return None
+        value, said = self.data[key], ""
+        for given in (as_texts(value), as_numbers(value)) if self.row else (value,):
+            try:
+                return convert(given)
+            except ValueError as error:
+                said = f"{self.called(key)} {shown(given)} {error}"
+        self.problem(said, key)
+        return None
 
     def position(
         self, key: str, airspace: Airspace | None, height: float, *, required: bool = False
@@ -197,13 +268,13 @@ class Table:
         """Report a name that another table has."""
         other = others.setdefault(word, self)
         if other is not self:
-            self.problem(errors.not_unique(what, word, other.line(key)), key)
+            self.problem(errors.not_unique(what, word, other.line(key), other.row), key)
 
     def only(self, keys: Sequence[str], what: str) -> None:
         """Report the keys that are not among these."""
         for key in self.data:
             if key not in keys:
-                self.problem(errors.unknown_key(key, keys, what), key)
+                self.problem(errors.unknown_key(key, keys, what), key, of_key=True)
 
     def table(self, key: str, header: str = "") -> Table | None:
         """Return the table under a key, if there is one; `header` says how it is written."""
@@ -211,7 +282,7 @@ class Table:
         if value is None:
             return None
         if isinstance(value, dict):
-            return Table(self.document, value, (*self.place, key), self.who or f"[{key}]")
+            return Table(self.document, value, (*self.place, key), self.who or f"[{key}]", self.row)
         self.problem(f"{key} {errors.not_a_table(f'[{header or key}]')}", key)
         return None
 
@@ -224,4 +295,4 @@ class Table:
             self.problem(f"{key} {errors.single_table(header)}", key, *wrong[:1])
         for index, element in enumerate(every):
             if isinstance(element, dict):
-                yield Table(self.document, element, (*self.place, key, index), self.who)
+                yield Table(self.document, element, (*self.place, key, index), self.who, self.row)

@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..gateway.wire import result_data
+from ..shared.domain.actions import MEASURE, PHOTO
 from ..shared.domain.errors import Cancelled, FlightFailed
 from ..shared.hooks.plain_data import item_of
 
@@ -25,7 +26,7 @@ Message = dict[str, Any]
 class OrderedJob:
     """The job of an order to fly."""
 
-    __slots__ = ("action", "drone", "id", "item", "parameters", "seconds", "stops")
+    __slots__ = ("action", "beside", "drone", "id", "item", "parameters", "seconds", "stops")
 
     def __init__(self, order: Order) -> None:
         self.id: str = order["flight"]
@@ -35,6 +36,8 @@ class OrderedJob:
         self.parameters: Mapping[str, Plain] = order["parameters"]
         self.item: Item | None = item_of(order["item"])
         self.seconds: float = order["seconds"]
+        # a brain before seam 3.2 says nothing of that
+        self.beside: bool = order.get("beside", self.action in (MEASURE, PHOTO))
 
     def begins(self) -> None:
         """Called right before the action is done."""

@@ -10,13 +10,14 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..jobs.flown import FLEW
+from ..jobs.flown import BESIDE, FLEW
 from ..jobs.reports import reported_result
 from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.status import Status
 from ..shared.flow.standing import fleet_data, update
 from ..shared.time.kernel import FLEET, Kernel
+from .acts_beside import acts_beside
 from .driver import Driver
 from .mission_status import aside, in_order
 from .orders import Dispatcher, Order, outcome
@@ -101,7 +102,9 @@ class RecordedBrain:
         missions = []
         for name, record in in_order(self.records):
             mission = self.app.mission(name=name, trips=[], index=record["index"])
-            with suppress(KeyError, TypeError, ValueError):  # it may not fit the app any more
+            with suppress(
+                KeyError, TypeError, ValueError, AttributeError
+            ):  # it may not fit the app any more
                 update(self.app, mission, record)
             mission.status, mission.reason = Status(record["status"]), record["reason"]
             if (waits := aside(record)) is not None:
@@ -135,6 +138,13 @@ class RecordedBrain:
 
     def flown(self, command: Flown) -> None:
         """Record how a command went that a drone has flown: nothing follows from it."""
+        if command["what"] == BESIDE:
+            event = acts_beside(self.brain, command)
+            record = self.records.missions.get(event["mission"]) if event is not None else None
+            flight = None if record is None else record["flight"]
+            if event is not None and flight is not None and "beside" not in flight:
+                self.take(event)  # an earlier life of the app may have noted it
+            return
         self.recorder.measure({"t": round(self.kernel.now, 6), "event": FLEW, **command})
 
     def interrupted(self, mission: str, flight: Record) -> None:

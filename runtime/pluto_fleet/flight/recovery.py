@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..gateway.wire import result_data
 from ..jobs.reports import reported_result
 from ..shared.domain.fields import Entity
+from ..shared.domain.own_fields import OwnField
 from ..shared.domain.status import Status
 from .mission_status import in_order
 from .reconcile import (
@@ -157,7 +158,9 @@ class Recovery:
     def _record(self, name: str) -> Record:
         record = self._records.missions[name]
         if name in self._unfit:
-            return {"index": record["index"], "status": "HELD", "suspended": True}
+            return {**_bare(self._app, record), "status": "HELD"}
+        if record["ended"] and unfit(self._app, record) is not None:
+            return {**_bare(self._app, record), "status": record["status"], "ended": True}
         record = for_brain(self._app, record)
         if name in self._suspended:
             record["suspended"] = True
@@ -191,6 +194,16 @@ def _as_data(report: DroneReport) -> dict[str, Any]:
     }
 
 
+def _bare(app: App, record: Record) -> dict[str, Any]:
+    """Return what a brain must know of a mission that cannot go on: its trips and fields do not fit."""
+    needed = {one.name: one.sample for one in _own(app, Entity.MISSION) if one.hint}
+    return {"index": record["index"], "fields": needed, "suspended": True}
+
+
+def _own(app: App, on: Entity) -> list[OwnField]:
+    return [one for one in app.fields if isinstance(one, OwnField) and one.on is on]
+
+
 def unfit(app: App, record: Record) -> str | None:
     """Return why a mission does not fit the app, or None."""
     for trip in (*record["todo"], *record["done"], *record["gone"]):
@@ -205,4 +218,10 @@ def unfit(app: App, record: Record) -> str | None:
         for name in fields:
             if name not in known[entity]:
                 return f"it does not fit into the app as it is now: there is no field {name}"
+        for one in _own(app, entity):
+            if one.name not in fields and one.hint:
+                return f"it does not fit into the app as it is now: it has no {one.name}"
+            if one.name in fields and (wanted := one.wanted(fields[one.name], ())):
+                now = f"its {one.name} must be {wanted} now"
+                return f"it does not fit into the app as it is now: {now}"
     return None

@@ -13,6 +13,7 @@ from ..shared.domain.app import moving
 from ..shared.flow.standing import fleet_data
 from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation
+from .acts_beside import acts_beside
 from .driver import Driver, begun
 from .orders import Dispatcher
 from .outcome import SimulationResult, result_of
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.controls import Controls
+    from ..jobs.flown import Flown
     from ..process.hook_runner import RealHooks
     from ..shared.alone.faults import Faults
     from ..shared.domain.model import Mission
@@ -70,7 +72,10 @@ class Simulation:
             body.on_change = partial(self._changed.__setitem__, drone, None)
         keys = {drone: body.key for drone, body in bodies.items()}
         self.brain = app.new_brain(fleet_data(fleet), space=fleet.airspace, hooks=hooks)
-        dispatcher = Dispatcher(kernel, gateway.link(1), keys)
+        link = gateway.link(1)
+        link.on_flown(self._flown)
+        self._listener = listener
+        dispatcher = Dispatcher(kernel, link, keys)
         self._driver = driver = Driver(
             kernel, self.brain, obey=dispatcher.obey, motions=self._motions, hear=listener
         )
@@ -88,6 +93,12 @@ class Simulation:
         """End everything where it is."""
         self.brain.close()
         self._kernel.close()
+
+    def _flown(self, told: Flown) -> None:
+        """Note where an action is done that is done beside its target."""
+        event = acts_beside(self.brain, told)
+        if event is not None:
+            self._listener({"t": round(self._kernel.now, 6), **event})
 
     def _motions(self) -> Mapping[str, object]:
         if not self._changed:

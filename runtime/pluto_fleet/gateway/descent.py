@@ -161,6 +161,8 @@ class Descent:
                     return
                 at = to
                 self._at[drone] = at, at
+            if not telemetry.landed:  # it was stopped while it left its dock: that is no way to fly
+                await self._pilots.land(drone)
         finally:
             del self._at[drone]
 

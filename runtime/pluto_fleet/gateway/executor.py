@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ..jobs.flown import is_beside
 from ..jobs.job import motors_cut
 from ..shared.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from ..shared.fleet.reach import docked, flight_seconds
@@ -19,6 +20,7 @@ from .traffic.ways import Section
 
 if TYPE_CHECKING:
     from ..jobs.controls import Controls, FleetDrone
+    from ..jobs.flown import Flown
     from ..jobs.job import Job
     from ..jobs.reports import DroneReport
     from ..jobs.telemetry import Telemetry
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Point
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
+    from .traffic.wait_queue import Beside
 
 
 T = TypeVar("T")
@@ -53,8 +56,11 @@ class Executor:
         traffic: Traffic | None = None,
         ledger: Ledger | None = None,
         leaving: Leaving | None = None,
+        hear: Callable[[Flown], object] | None = None,
     ) -> None:
+        """`hear` is told where an action is done that is done beside its target."""
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
+        self._hear = hear
         self._leaving: Leaving = leaving or nullcontext
         """Writes down which drone takes off; in a simulation that is not needed after a crash."""
         self._traffic = traffic
@@ -98,7 +104,11 @@ class Executor:
             seconds = flight_seconds(category, airspace, here, job.stops, job.seconds)
             controls.begins(drone, job, seconds)
 
-        await self.travels(drone, partial(self._to, drone, job.stops), begins)
+        beside = partial(self._to_beside, drone, job.stops) if job.beside else None
+        way = await self.travels(drone, partial(self._to, drone, job.stops), begins, beside=beside)
+        if way.target is not None and self._hear is not None:
+            here = controls.telemetry[drone].location
+            self._hear(is_beside(drone, job.id, way.target, here))
         if job.action is None:
             return None
         job.begins()
@@ -261,30 +271,32 @@ class Executor:
         begins: Callable[[], None] = _nothing,
         *,
         ways: Ways | None = None,
+        beside: Beside | None = None,
         anywhere: bool = False,
-    ) -> None:
-        """Fly a section, or an alternative to the same end, as soon as one is free.
+    ) -> Section:
+        """Fly a section, or an alternative to the same end, as soon as one is free; return which.
 
-        A drone that must wait for long waits on the ground. `anywhere`: any end will do.
+        A drone that must wait for long waits on the ground. `anywhere`: any end will do. With `beside`
+        the end may be beside the target, if another drone has taken that.
         """
         traffic, since = self._traffic, self._kernel.now
         if traffic is None:
             section = plan()  # as quickly as can be
             begins()
             await self._follow(section)
-            return
+            return section
         begun = False
         try:
             while True:
                 section = plan()
-                way = traffic.clear(section, ways)
+                way = traffic.clear(section, ways, beside)
                 if way is None:
-                    way = await traffic.cleared(section, since, ways)
+                    way = await traffic.cleared(section, since, ways, beside)
                 if way.stands or not begun:
                     begins()
                     begun = True
                 if await self._arrives(way, traffic) and (anywhere or not way.aside):
-                    return
+                    return way
         except FlightFailed as error:
             traffic.stopped(drone, fails=error.failure is not Failure.REFUSED)
             raise
@@ -327,6 +339,14 @@ class Executor:
         for stop in stops:
             points += way_from(self._airspace, drone, points[-1], stop)
         return Section(drone, tuple(points), stands, False)
+
+    def _to_beside(self, drone: str, stops: Sequence[Point], place: Point) -> Section | None:
+        """To a place beside the last stop; None: there is no way."""
+        try:
+            section = self._to(drone, (*stops[:-1], place))
+        except FlightFailed:
+            return None
+        return replace(section, target=stops[-1])
 
     def _up(self, drone: str, height: float) -> Section:
         """Straight up."""

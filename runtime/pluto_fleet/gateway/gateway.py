@@ -174,6 +174,8 @@ class Link:
     def attach(self, id: str, report: Report) -> None:
         """Register for the report of an earlier job: called when it ends, or now if it has."""
         if self._is_heard:
+            if id in self._gateway.jobs.beside:
+                self._gateway.flown(self._gateway.jobs.beside[id])
             self._gateway.jobs.attach(id, report if self._line is None else self._line(report))
 
     def forget(self, id: str) -> None:
@@ -248,7 +250,7 @@ class Gateway:
     ) -> None:
         self.kernel = kernel
         if measures:
-            controls = MeasuringControls(kernel, controls, drones, self._flown)
+            controls = MeasuringControls(kernel, controls, drones, self.flown)
         self.traffic: Traffic | None = None
         """Keeps drones apart, if configured."""
         if apart > 0:
@@ -262,7 +264,7 @@ class Gateway:
                 max_airborne=max_airborne,
             )
         self.navigation = Executor(
-            kernel, controls, drones, airspace, self.traffic, ledger, leaving
+            kernel, controls, drones, airspace, self.traffic, ledger, leaving, self._acts_beside
         )
         self.envelope = Envelope(airspace)
         self.drones, self._airspace = tuple(drones), airspace
@@ -307,7 +309,12 @@ class Gateway:
         """Return whether this link is in command."""
         return link is self.commander
 
-    def _flown(self, command: Flown) -> None:
+    def _acts_beside(self, told: Flown) -> None:
+        """Tell where an action is done beside its target, now and to each brain that asks for the job."""
+        self.jobs.beside[str(told["flight"])] = told
+        self.flown(told)
+
+    def flown(self, command: Flown) -> None:
         """Tell the brain in command, if there is one, how a command went."""
         if self.commander is not None and self.commander.flown is not None:
             self.commander.flown(command)

@@ -12,6 +12,7 @@ from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.time.kernel import EventKind, Kernel, Key
 
 if TYPE_CHECKING:
+    from ..jobs.flown import Flown
     from ..jobs.job import Job, Report
     from ..shared.domain.actions import Plain
     from ..shared.domain.model import Item
@@ -26,6 +27,7 @@ class AssignedJob:
         "_job",
         "_jobs",
         "action",
+        "beside",
         "boot",
         "drone",
         "failure",
@@ -42,6 +44,7 @@ class AssignedJob:
         self._job: Job | None = job
         self.listener: Report | None = listener
         self.id, self.drone, self.stops, self.action = job.id, job.drone, job.stops, job.action
+        self.beside = job.beside
         self.state = JobState.FLYING
         self.value: object = None
         self.failure = self.reason = ""
@@ -149,6 +152,8 @@ class Jobs:
         """The drone that reports a job as done, by the job's id: it may be the only record."""
         self._current: dict[str, AssignedJob] = {}
         """The current job of each drone, by the drones' ids."""
+        self.beside: dict[str, Flown] = {}
+        """What was told of those whose action is done beside its target, by their ids."""
         self.boots = dict.fromkeys(keys, 0)
         """The drones' boot numbers in their latest reports."""
 
@@ -199,6 +204,7 @@ class Jobs:
         if known is None or known.flies:
             return
         del self._known[id]
+        self.beside.pop(id, None)
         if self._current.get(known.drone) is known:
             del self._current[known.drone]
         if self._ledger is not None:
@@ -247,6 +253,7 @@ class Jobs:
         """Called when a job has ended; if no action had begun, that need not be durable."""
         if self._ledger is None:
             self._known.pop(job.id, None)
+            self.beside.pop(job.id, None)
         elif begun:
             self._keep(job.entry)
         if not job.hovers:

@@ -46,6 +46,7 @@ class ToldJob:
     parameters: Mapping[str, Plain]
     item: Item | None
     seconds: float
+    beside: bool
     on_begin: Callable[[str], object] = field(repr=False)
 
     def begins(self) -> None:
@@ -63,6 +64,7 @@ def job_data(job: Job) -> dict[str, object]:
         "parameters": dict(job.parameters),
         "item": item_data(job.item),
         "seconds": job.seconds,
+        "beside": job.beside,
     }
 
 
@@ -76,6 +78,7 @@ def job_of(data: Message, on_begin: Callable[[str], object]) -> ToldJob:
         parameters=dict(data["parameters"]),
         item=item_of(data["item"]),
         seconds=float(data["seconds"]),
+        beside=bool(data["beside"]),
         on_begin=on_begin,
     )
 

@@ -57,6 +57,11 @@ class Job(Protocol):
         """The expected duration of the action."""
         ...
 
+    @property
+    def beside(self) -> bool:
+        """Whether the action may be done beside the last stop, where another drone has that place."""
+        ...
+
     def begins(self) -> None:
         """Called right before the action is done; not called if there is none.
 

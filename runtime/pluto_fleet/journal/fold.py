@@ -114,13 +114,20 @@ def _new() -> Record:
         "held": None,
         "answer": None,
         "accepted": None,
+        "promises": {},
+        "late": False,
     }
 
 
 def _created(_: Records, record: Record, event: Fact) -> None:
     plan, gone = event["plan"], record["gone"]  # it may restart, but without skipped trips
-    record.update(_new())
+    record.update(_new(), late=record["late"])
     record.update(index=plan["index"], fields=plan["fields"], todo=plan["trips"], gone=gone)
+    record["promises"] = plan.get("promises", {})
+
+
+def _late(_: Records, record: Record, event: Fact) -> None:
+    record["late"] = True
 
 
 def _changed(_: Records, record: Record, event: Fact) -> None:
@@ -173,6 +180,10 @@ def _launched(records: Records, record: Record, event: Fact) -> None:
 
 def _begun(_: Records, record: Record, event: Fact) -> None:
     record["flight"]["begun"] = True
+
+
+def _beside(_: Records, record: Record, event: Fact) -> None:
+    record["flight"]["beside"] = event["at"]
 
 
 def _completed(records: Records, record: Record, event: Fact) -> None:
@@ -384,11 +395,14 @@ def _take(trips: list[Record], name: str) -> Record:
 
 
 _MISSION: dict[str, Callable[[Records, Record, Fact], None]] = {
+    "mission.promised": _created,
     "mission.created": _created,
+    "mission.late": _late,
     "mission.changed": _changed,
     "trip.delayed": _delayed,
     "trip.allocated": _allocated,
     "trip.launched": _launched,
+    "trip.beside": _beside,
     "action.begun": _begun,
     "trip.completed": _completed,
     "trip.failed": _failed,

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..flight.mission_status import ANSWERS, aside, count_flights, in_order, waiting
+from ..jobs.flown import ACTS_BESIDE
 from ..process.text import in_shell
-from ..shared.alone.simulate import trips_data
+from ..shared.alone.simulate import outcome_data, trips_data
 from ..shared.domain.fields import FieldType
 from ..shared.domain.status import Status
 from ..shared.domain.text import (
@@ -39,6 +40,8 @@ class MissionRow(NamedTuple):
     """From 0."""
     attempts: int
     reason: str
+    late: bool = False
+    """Whether its deadline has passed before its end."""
 
 
 def report(app: App, outcome: SimulationResult, apart: float) -> Iterator[str]:
@@ -61,7 +64,14 @@ def row_of(mission: Mission[Any]) -> MissionRow:
     """Return the row of a mission."""
     done, todo = len(mission.completed_trips), len(mission.trips)
     return MissionRow(
-        mission.name, mission.status, done, todo, mission.round, mission.attempts, mission.reason
+        mission.name,
+        mission.status,
+        done,
+        todo,
+        mission.round,
+        mission.attempts,
+        mission.reason,
+        mission.late,
     )
 
 
@@ -77,7 +87,7 @@ def mission_table(app: App, missions: Iterable[MissionRow]) -> Iterator[str]:
                 f"{mission.done}/{mission.done + mission.todo}",
                 *([str(mission.round + 1)] if rounds else []),
                 str(mission.attempts),
-                mission.reason,
+                "; ".join(filter(None, ("late" * mission.late, mission.reason))),
             )
             for mission in missions
         ],
@@ -104,17 +114,33 @@ def drone_table(drones: Sequence[Drone], flown: Mapping[str, float]) -> Iterator
     )
 
 
+def simulation_data(name: str, seed: int, outcome: SimulationResult) -> dict[str, object]:
+    """Return the object that `simulate --json` prints."""
+    beside = [
+        {key: value for key, value in event.items() if key != "event"}
+        for event in outcome.events
+        if event["event"] == ACTS_BESIDE
+    ]
+    return {**outcome_data(name, seed, outcome), **({"beside": beside} if beside else {})}
+
+
 def last_line(outcome: SimulationResult) -> str:
     """Return the whole outcome in one line."""
     trips = trips_data(outcome)
     statuses = [mission.status for mission in outcome.missions]
+    late = sum(mission.late for mission in outcome.missions)
     return in_one_line(
-        statuses, outcome.duration, trips["attempts"], trips["failed"], outcome.crashed
+        statuses, outcome.duration, trips["attempts"], trips["failed"], outcome.crashed, late
     )
 
 
 def in_one_line(
-    statuses: Sequence[Status], seconds: float, flights: int, failed: int, crashed: int = 0
+    statuses: Sequence[Status],
+    seconds: float,
+    flights: int,
+    failed: int,
+    crashed: int = 0,
+    late: int = 0,
 ) -> str:
     """Return a summary of the missions' statuses, the duration and the flights."""
     parts = [f"{statuses.count(Status.COMPLETED)} of {counted(len(statuses), 'mission')} completed"]
@@ -126,6 +152,8 @@ def in_one_line(
             parts.append(f"{count} {what if count > 1 else what.replace('wait ', 'waits ')}")
     if rest:
         parts.append(f"{rest} not finished")
+    if late:
+        parts.append(f"{late} late")
     bad = f", {failed} failed" if failed else ""
     bad += f", {counted(crashed, 'drone')} crashed" if crashed else ""
     return f"{', '.join(parts)} in {duration(seconds)} ({counted(flights, 'flight')}{bad})"
@@ -186,7 +214,8 @@ def report_of(
     lines = [*mission_table(app, rows), ""]
     if drones:
         lines += [*drone_table(drones, {}), ""]
-    lines.append(in_one_line(statuses, ended or records.time, flights, failed))
+    late = sum(row.late for row in rows)
+    lines.append(in_one_line(statuses, ended or records.time, flights, failed, late=late))
     return code_of(statuses), lines
 
 
@@ -207,4 +236,6 @@ def _typed(name: str) -> str:
 def _recorded_row(name: str, record: Record) -> MissionRow:
     status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
     done, todo = len(record["done"]), len(record["todo"])
-    return MissionRow(name, status, done, todo, record["round"], record["attempts"], reason)
+    return MissionRow(
+        name, status, done, todo, record["round"], record["attempts"], reason, record["late"]
+    )

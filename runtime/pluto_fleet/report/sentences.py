@@ -6,8 +6,8 @@ import time
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..jobs.flown import FLEW
-from ..shared.domain.text import duration, printable
+from ..jobs.flown import ACTS_BESIDE, FLEW
+from ..shared.domain.text import duration, number, place, printable
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -38,6 +38,14 @@ def _launched(event: Event) -> str:
 
 def _completed(event: Event) -> str:
     return f"trip {event['trip']} completed ({event['drone']})"
+
+
+def _beside(event: Event) -> str:
+    at: Any = event["at"]
+    where = f"{place(at)} at a height of {number(at[2])} m"
+    return (
+        f"trip {event['trip']} is done at {where}: another drone is at its place ({event['drone']})"
+    )
 
 
 def _failed(event: Event) -> str:
@@ -73,7 +81,9 @@ _HOW = {"rtl": "all fly home", "land": "all land"}
 _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "trip.launched": _launched,
     "trip.completed": _completed,
+    ACTS_BESIDE: _beside,
     "trip.failed": _failed,
+    "mission.late": lambda _: "is late: its deadline has passed",
     "mission.repeated": lambda event: f"round {int(str(event['round'])) + 1} begins",
     "mission.extended": _extended,
     "mission.ended": _ended,
@@ -141,6 +151,14 @@ def _created(event: Fact) -> str:
     return f"has trips {', '.join(str(trip) for trip in event['trips'])}"
 
 
+def _promised(event: Fact) -> str:
+    after = ", ".join(str(name) for name in event.get("after", ()))
+    told = [f"begins after {after}"] if after else []
+    told += [f"begins at {duration(event['opens'])} at the soonest"] if "opens" in event else []
+    told += [f"is due at {duration(event['deadline'])}"] if "deadline" in event else []
+    return ", ".join(told)
+
+
 def _changed(event: Fact) -> str:
     trips = ", ".join(str(trip["name"]) for trip in event["todo"]) or "none"
     return f"was changed by the app's own code; trips to do: {trips}"
@@ -167,6 +185,7 @@ def _drone(what: str) -> Callable[[Fact], str]:
 _JOURNAL_SENTENCES: Mapping[str, Callable[[Fact], str | None]] = {
     "brain.began": lambda event: "the app begins" if event["epoch"] == 1 else "the app goes on",
     "mission.created": _created,
+    "mission.promised": _promised,
     "mission.changed": _changed,
     "mission.modified": _modified,
     "mission.judged": lambda event: f"was judged and found wanting: {event['reason']}",

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from ..shared.alone.faults import Faults
 from ..shared.domain.text import counted, duration, number, quoted
 from .batteries import swapping
+from .question import LATE
 from .tries import Tally, flown
 
 if TYPE_CHECKING:
@@ -168,9 +169,9 @@ class Causes:
 def reasons(question: Question, tally: Tally) -> Iterator[Cause]:
     """Yield why a fleet's runs have failed, the most frequent reasons first."""
     for (mission, reason), count in tally.failures.most_common(_MOST_REASONS):
-        why = reason or f"is not completed {when(question)}"
+        why = f"fails: {reason}" if reason else f"is not completed {when(question)}"
         what = f"{count} of {counted(len(tally.runs), 'run')}: mission {quoted(mission)}"
-        yield Cause("reason", f"{what} {why}" if not reason else f"{what} fails: {why}")
+        yield Cause("reason", f"{what} {reason if reason == LATE else why}")
 
 
 def when(question: Question) -> str:

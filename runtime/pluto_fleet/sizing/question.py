@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Mission
 
 
+LATE = "is late: its deadline has passed"
+"""What is said of a mission that is completed, and later than its own deadline."""
+
+
 class Run(NamedTuple):
     """What came of one run."""
 
@@ -29,7 +33,7 @@ class Run(NamedTuple):
     mission: str = ""
     """The first that failed, or else one that was not completed in time; empty after a success."""
     reason: str = ""
-    """Why it failed, without what differs from run to run; empty: it was late."""
+    """Why it failed, without what differs from run to run; empty: it was not completed by then; `LATE`."""
     batteries: tuple[tuple[str, int], ...] = ()
     """How many were on chargers at once, at most, by category: where they are swapped."""
 
@@ -71,8 +75,11 @@ class Question:
         )
         batteries = most_charging(self.swapped, fleet, outcome.events) if self.swapped else ()
         seconds = outcome.duration - self.begin
-        if outcome.completed:
+        late = [one.name for one in outcome.missions if one.late]
+        if outcome.completed and not late:
             return Run(True, seconds, batteries=batteries)
+        if outcome.completed:
+            return Run(False, seconds, late[0], LATE, batteries)
         return Run(False, seconds, *_failure(outcome), batteries)
 
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from ..shared.domain.actions import PICK, RELEASE
 from ..shared.domain.fields import Entity, FieldType
-from ..shared.domain.quantities import QUANTITIES, units_of
+from ..shared.domain.own_fields import OwnField
+from ..shared.domain.quantities import QUANTITIES, Type, units_of
 from .graph.picture import app_graph, laid_out
 
 if TYPE_CHECKING:
@@ -81,8 +82,12 @@ def described(app: App, config: StationConfig) -> Shape:
 
 
 def _field(field: Field) -> Shape:
-    kind = field.type.value
-    return {"name": field.name, "type": kind, "label": field.label, "default": field.default}
+    kind = field.type
+    shape: Shape = {"name": field.name, "type": kind.value, "label": field.label}
+    shape["default"] = field.default
+    if isinstance(field, OwnField) and isinstance(kind, Type):
+        shape |= {"own": True, "needed": bool(field.hint), "units": _units(kind)}
+    return shape
 
 
 def _can(app: App, action: Action) -> bool:
@@ -102,9 +107,13 @@ def _parameter(parameter: Parameter) -> Shape:
     return {
         "name": parameter.name,
         "type": kind.value,
-        "units": list(units_of(kind)) if kind in QUANTITIES else [],
+        "units": _units(kind),
         "default": parameter.default,
     }
+
+
+def _units(kind: Type) -> list[str]:
+    return list(units_of(kind)) if kind in QUANTITIES else []
 
 
 def _category(category: Category) -> Shape:

@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ..jobs.flown import ACTS_BESIDE
 from ..report.sentences import line_of, sentence_of
 from ..shared.domain.actions import MEASURE, PICK, RELEASE
 from ..shared.domain.text import bounded
@@ -83,6 +84,8 @@ class Feed:
         self._lines: deque[str] = deque(maxlen=LINES_KEPT)
         self._whole: deque[object] = deque(maxlen=LINES_KEPT)
         """The full values of results that pages get shortened."""
+        self._beside: dict[tuple[object, object], object] = {}
+        """Where actions are done that are done beside their targets, by mission and trip."""
 
     def take(self, event: Event) -> None:
         """Process a durable event."""
@@ -91,7 +94,11 @@ class Feed:
             self._lines.append(line_of(event) or "")
             self.log.add(event["t"], event.get("mission"), said, _kind(event))
         verdict = _VERDICTS.get(str(event["event"]))
-        if event["event"] == "trip.completed":
+        if event["event"] == ACTS_BESIDE:
+            self._beside[event["mission"], event["trip"]] = event["at"]
+        elif event["event"] == "trip.failed":
+            self._beside.pop((event["mission"], event["trip"]), None)
+        elif event["event"] == "trip.completed":
             self._completed(event)
         elif verdict is not None:
             self._result(event, "verdict", f"{verdict}: {event.get('reason') or said}")
@@ -123,7 +130,9 @@ class Feed:
         if action.name == MEASURE and kind != "photo":
             kind, quantity = "measurement", given.pop("quantity")
         unit = self._units.get(str(quantity))
-        self._result(event, kind, value, action.name, trip["target"], given, quantity, unit)
+        at = self._beside.pop((event["mission"], event["trip"]), None)
+        facts = [trip["target"], given, quantity, unit, *([] if at is None else [at])]
+        self._result(event, kind, value, action.name, *facts)
 
     def _result(
         self, event: Event, kind: str, value: object, action: str | None = None, *more: object
@@ -136,9 +145,12 @@ class Feed:
 
 FACTS = (
     *("number", "time", "mission", "trip", "round", "attempt", "drone", "kind", "value"),
-    *("action", "target", "parameters", "quantity", "unit"),
+    *("action", "target", "parameters", "quantity", "unit", "at"),
 )
-"""The facts of a result, in this order; of a verdict only those in the first line."""
+"""The facts of a result, in this order; of a verdict only those in the first line.
+
+The last is there only where the action was not done at its target.
+"""
 
 
 def _value(data: Any) -> tuple[str, object]:
@@ -173,7 +185,10 @@ def _in_words(value: object) -> object:
 
 _VERDICTS = {"mission.judged": "not accepted", "mission.extended": "more to do"}
 
-_BAD = ("trip.failed", "mission.judged", "mission.uncertain", "mission.held", "drone.lost")
+_BAD = (
+    *("trip.failed", "mission.judged", "mission.late", "mission.uncertain", "mission.held"),
+    "drone.lost",
+)
 
 
 def _kind(event: Event) -> str:

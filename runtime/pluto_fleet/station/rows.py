@@ -52,14 +52,17 @@ def living_row(
     priority: object,
     now: float,
     fleet: Callable[[str, Sequence[Record]], str],
+    first: Sequence[str],
 ) -> Row:
     """Return the row of a mission that is `where` its brain says.
 
-    `resumes` are the blocks that allocate drones, `priority` is that of a trip whose record has none;
+    `first` are the missions after which it comes and that have not ended. `resumes` are the blocks that allocate drones, `priority` is that of a trip whose record has none;
     `fleet` returns why no drone flies its trip yet.
     """
     status, todo, at = Status(record["status"]), record["todo"], blocks_of(where["block"])
-    until = where["until"] if (where["until"] or 0.0) > now else None
+    opens = None if at or status is not Status.UNEXECUTED else record["promises"].get("opens")
+    until = where["until"] or opens
+    until = until if (until or 0.0) > now else None
     why = partial(fleet, name, todo)
     return {
         **recorded_row(name, record, lives=True),
@@ -69,7 +72,9 @@ def living_row(
         + [_trip(trip, "WAITING", priority) for trip in todo],
         "drone": where["drone"],
         "at": list(at),
-        "wait": "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status),
+        "wait": (
+            "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
+        ),
         "until": until,
     }
 
@@ -99,6 +104,9 @@ def recorded_row(name: str, record: Record, *, lives: bool = False) -> Row:
         "attempts": record["attempts"],
         "round": record["round"],
         "question": _question(status, reason) if lives else None,
+        "due": record["promises"].get("deadline"),
+        "late": record["late"],
+        "fields": {key: one for key, one in record["fields"].items() if one is not None},
     }
 
 
@@ -186,7 +194,10 @@ def _why_it_waits(
     resumes: Sequence[str],
     fleet: Callable[[], str],
     status: Status,
+    first: Sequence[str],
 ) -> str:
+    if first and not at:
+        return f"comes after {', '.join(first)}"
     if until is not None:
         return "waits until its time has come"
     if not where["allocated"] and at and at[0] in resumes:

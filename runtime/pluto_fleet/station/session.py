@@ -194,6 +194,10 @@ class FlightSession:
         """Update the pages outside of the current instant, so that errors there cannot affect the flight."""
         asyncio.get_running_loop().call_soon(self.feed.take, event)
 
+    def say(self, text: str) -> None:
+        """Tell users on the console what they should know of it."""
+        self._say(text)
+
     def _say(self, text: str, kind: str = "bad") -> None:
         self.feed.say(self.now, text, kind)
 
@@ -238,7 +242,14 @@ class FlightSession:
             for name, record in in_order(life.records):
                 found = where.get(name)
                 if found is not None and found["lives"] and aside(record) is None:
-                    row = rows.living_row(name, record, found, app.resumes, priority, now, why)
+                    first = [
+                        one
+                        for one in record["promises"].get("after", ())
+                        if not life.records.missions[one]["ended"]
+                    ]
+                    row = rows.living_row(
+                        name, record, found, app.resumes, priority, now, why, first
+                    )
                 else:
                     row = rows.recorded_row(name, record, lives=True)
                 changed |= put(name, row, number)

@@ -28,6 +28,7 @@ from ..shared.domain.text import counted
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
+from .plan.promised import broken, promised
 from .session import FlightSession, Phase, phase_of
 from .updates import Updates
 
@@ -158,6 +159,7 @@ class Station:
             raise BadInput("the plan has changed meanwhile: look at it, and start again")
         text = self.plan.export_toml(keys)
         self.plan.launched(keys)  # before anything flies: they may not be changed from now on
+        held_to = promised(missions)
         try:
             if phase is Phase.FLYING:
                 await self._add(id, missions)
@@ -166,9 +168,14 @@ class Station:
         except BaseException:
             self._lock_what_flies()
             raise
+        impossible = await broken(held_to, self._app, self._config.fleet)
+        if self.session is not None:
+            for said in impossible:
+                self.session.say(said)
         left = self.history.lost if phase is not Phase.FLYING else ()
         without = f"; without {', '.join(left)}, lost until brought back" if left else ""
-        return f"{counted(len(missions), 'mission')} started{without}"
+        late = "; not all will be in time: the console says why" if impossible else ""
+        return f"{counted(len(missions), 'mission')} started{without}{late}"
 
     def _look_at_the_drones(self) -> None:
         """Raise `BadInput` if no drone may fly."""

@@ -53,6 +53,23 @@ def random_missions(app: App, fleet: FleetFile, seed: int) -> list[Mission[Any]]
     return missions
 
 
+def promising(missions: Sequence[Mission[Any]], seed: int) -> tuple[Mission[Any], ...]:
+    """Promise something of some missions, by a seed: windows, deadlines, what they come after."""
+    rng, names = Random(f"{seed}/promises"), list[str]()
+    kept: list[Mission[Any]] = []
+    for mission in missions:
+        promises: dict[str, object] = {}
+        if rng.random() < 0.4:
+            promises["deadline"] = rng.choice((10.0, 40.0, 40.5, 200.0, 2_000.0))
+        if "deadline" in promises and rng.random() < 0.5:
+            promises["opens"] = rng.choice(_TIMES)
+        if names and rng.random() < 0.3:
+            promises["after"] = rng.sample(names, rng.randrange(1, 1 + len(names)))
+        kept.append(replace(mission, promises=promises))
+        names.append(mission.name)
+    return tuple(kept)
+
+
 class _Generator:
     def __init__(self, app: App, fleet: FleetFile, rng: Random) -> None:
         self.app, self.fleet, self.rng = app, fleet, rng
@@ -107,7 +124,7 @@ class _Generator:
 
     def fill(self, entity: Mission[Any] | Trip, kind: Entity) -> None:
         for one in self.app.fields:
-            if one.on is kind and self.rng.random() < 0.6:
+            if one.on is kind and (self.rng.random() < 0.6 or one.hint):
                 setattr(entity, one.name, self.value(one))
 
     def value(self, field: Field) -> object:
@@ -116,6 +133,12 @@ class _Generator:
                 return self.rng.choice(_TIMES)
             case FieldType.TIME_OF_DAY:
                 return 60.0 * self.rng.randrange(3)
+            case Type.BOOL:
+                return self.rng.random() < 0.5
+            case Type.TEXT:
+                return self.rng.choice(("", "a text", "é\n"))
+            case Type.FLOAT | Type.PERCENT:
+                return self.rng.random()
             case FieldType.EVALUATOR:
                 return self.rng.choice((None, *self.app.evaluators))
             case _:
@@ -223,8 +246,8 @@ def small_case(
 ) -> Case:
     """Return a small case for `everywhere`; every other one has no random faults."""
     weather = FAIR if seed % 2 == 0 else random_weather(Random(f"{seed}/weather"))
-    flown = missions or random_missions(app, fleet, seed)
-    return Case(seed=seed, missions=tuple(flown), fleet=fleet, weather=weather)
+    flown = tuple(missions) or promising(random_missions(app, fleet, seed), seed)
+    return Case(seed=seed, missions=flown, fleet=fleet, weather=weather)
 
 
 def random_case(
@@ -243,7 +266,7 @@ def random_case(
             row = max(0, row - _BEYOND // 2)  # another strike soon after, or during recovery
     return Case(
         seed=seed,
-        missions=tuple(missions or random_missions(app, fleet, seed)),
+        missions=promising(missions or random_missions(app, fleet, seed), seed),
         fleet=fleet,
         weather=random_weather(rng),
         strikes=tuple(strikes),

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from ..shared.domain.actions import PICK, RELEASE
 from .delay_rule import DelaysAreWaited
 from .drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
+from .promise_rule import PromisesAreKept
 from .rules import (
     ENDS,
     OVER,
@@ -44,6 +45,7 @@ RULES: tuple[Callable[[Say], Rule], ...] = (
     TripsDoNotOverlap,
     AttemptsCountUp,
     DelaysAreWaited,
+    PromisesAreKept,
     LimitsAreKept,
     CompletedDidEverything,
     ServesOneMission,

@@ -164,6 +164,8 @@ class CompletedDidEverything:
         self._to_do[event["mission"]][event["trip"]] -= 1
 
     def _skip(self, event: Event) -> None:
+        if event["mission"] not in self._own:
+            return  # it has not begun: it will be created without that trip
         self._complete(event)  # it is skipped in further rounds, too
         if event["trip"] in self._own[event["mission"]]:
             self._own[event["mission"]].remove(str(event["trip"]))
@@ -171,7 +173,9 @@ class CompletedDidEverything:
     def _end(self, event: Event) -> None:
         mission = event["mission"]
         if event["status"] == "COMPLETED":
-            for trip, times in self._to_do[mission].items():
+            for trip, times in self._to_do.get(
+                mission, {}
+            ).items():  # it may have been skipped whole
                 if times:
                     self._say(f"{at(event)}: {mission} ended COMPLETED, {trip} {times} times to do")
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain import values
 from ..domain.actions import PICK, RELEASE
 from ..domain.airspace import Airspace
+from ..domain.app import needs_library
 from ..domain.errors import BadInput
 from ..domain.fields import Entity, FieldType
 from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
@@ -30,13 +31,16 @@ if TYPE_CHECKING:
     from ..domain.values import Read
 
 LARGEST = 1 << 20  # bytes: a plan is written by people, and anything larger is another file
-
 MOST = 100  # parts of one key: `tomllib` copies for each all before it; a plan's have two
 
 _PART = r"""(?:[A-Za-z0-9_-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
 _NEXT = rf"(?:[ \t]*\.[ \t]*{_PART})"
 _KEY = re.compile(rf"{_PART}({_NEXT}{{{MOST}}})?{_NEXT}*+")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
+
+_REAL = "navigation:any? localization:any?"  # what only real flights need
+# Keys of a mission that the library reads, and what it needs for them.
+_LIBRARY = {"deadline": "", "window": "", "after": "", "each": "", "area": "[areas]"}
 
 USUAL = "texts, and numbers with a unit, stand in quotes, lists in [ ], and each key stands once"
 _UNREADABLE: dict[type[Exception], str] = {
@@ -50,16 +54,13 @@ _UNREADABLE: dict[type[Exception], str] = {
 def load_fleet(path: Path, app: App) -> FleetData:
     """Return a fleet file's data, without what only real flights need."""
     top, who = parsed(path, text_of(path)), f"{path}"
-    schema = (
-        "map:any? fleet:any? motion:any? drone:any? navigation:any? localization:any? world:any?"
-    )
-    _table(top, who, schema)
+    _table(top, who, f"map:any? fleet:any? motion:any? drone:any? world:any? {_REAL}")
     keys = " ".join(f"{key}:{key}?" for key in values.MOTION)
     airspace = _airspace(top.get("map", {}), f"{who}: map")
-    schema = "apart:any? after_trip:after_trip? max_airborne:count? navigation:any?"
+    schema = f"apart:any? after_trip:after_trip? max_airborne:count? {_REAL}"
     return FleetData(
         airspace=airspace,
-        **_table(top.get("fleet", {}), f"{who}: fleet", f"{schema} localization:any?"),
+        **_table(top.get("fleet", {}), f"{who}: fleet", schema),
         motion=motion_of(_table(top.get("motion", {}), f"{who}: motion", keys, **values.MOTION)),
         drones=[*_drones(top, who, app, airspace)],
         world=_world(top["world"], f"{who}: world") if "world" in top else None,
@@ -70,20 +71,21 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
     """Return the missions of a file, each of the app's own class."""
     top, missions = parsed(path, text_of(path)), list[Any]()
     _table(top, f"{path}", "mission:any?")
-    fields, kinds = _fields(app, Entity.MISSION)
-    kinds["new"] = _new("mission")
+    schema, kinds, hints = _fields(app, Entity.MISSION, "name:new trip:any?")
+    kinds["new"] = values.new_name("mission")
     for index, entry in enumerate(_tables(top, f"{path}", "mission", needed=True)):
         name = entry.get("name")
         who = f"{path}: mission {quoted(name) if isinstance(name, str) else index + 1}"
-        data = {"name": f"{index + 1}", **entry}
-        given = _table(data, who, f"name:new trip:any? {fields}", **kinds)
+        if key := next(filter(entry.__contains__, _LIBRARY), ""):
+            raise BadInput(f"{who}: {needs_library(key, _LIBRARY[key])}")
+        given = _table({"name": f"{index + 1}", **entry}, who, schema, hints, **kinds)
         trips = _trips(entry, who, app, airspace)
         missions.append(app.mission(**given, index=index, trips=trips))
     return missions
 
 
-def _table(data: Any, who: str, schema: str, /, **kinds: Read) -> dict[str, Any]:
-    """Return the values of a table: `key:kind` for each, with `?` if it may be missing.
+def _table(data: Any, who: str, schema: str, hints: Any = None, /, **kinds: Read) -> dict[str, Any]:
+    """Return the values of a table: `key:kind` for each, with `?` if it may be missing, else a hint.
 
     A kind is one of these, or a reader in `values`; any other is read elsewhere, or never.
     """
@@ -96,7 +98,7 @@ def _table(data: Any, who: str, schema: str, /, **kinds: Read) -> dict[str, Any]
             raise BadInput(f"{who}: unknown key {quoted(key)}; there may be: {there_are}")
     for key, kind in keys.items():
         if key not in data and not kind.endswith("?"):
-            raise BadInput(f"{who}: has no {key}")
+            raise BadInput(f"{who}: has no {key}{(hints or {}).get(key, '')}")
         name = kind.rstrip("?")
         if key in data and (read := kinds.get(name) or getattr(values, name, None)):
             found[key] = _read(data, who, key, read)
@@ -144,7 +146,7 @@ def _airspace(data: Any, who: str) -> Airspace:
 def _drones(top: dict[str, Any], path: str, app: App, airspace: Airspace) -> Iterator[DroneData]:
     homes, names = Cells(), [category.name for category in app.categories]
     kinds = {"category": _one_of("category", names), "home": _point("home", airspace, 0.0)}
-    kinds["new"] = _new("drone")
+    kinds["new"] = values.new_name("drone")
     optional = "?" * (len(names) == 1)  # the only category is the default
     schema = f"id:new category:category{optional} home:home uri:any? navigation:any? options:any?"
     for place, entry in enumerate(_tables(top, path, "drone", needed=True), 1):
@@ -170,13 +172,13 @@ def _world(data: Any, who: str) -> WorldData:
 
 
 def _trips(mission: dict[str, Any], who: str, app: App, airspace: Airspace) -> list[Trip]:
-    trips, (fields, kinds) = list[Any](), _fields(app, Entity.TRIP)
-    schema = "name:new action:action target:target source:source? parameters:any? item:any?"
+    trips, schema = list[Any](), "name:new action:action target:target source:source?"
+    schema, kinds, hints = _fields(app, Entity.TRIP, f"{schema} parameters:any? item:any?")
     kinds |= {key: _point(key, airspace, airspace.cruise_height) for key in ("target", "source")}
-    kinds |= {"new": _new("trip"), "action": _one_of("action", app.actions)}
+    kinds |= {"new": values.new_name("trip"), "action": _one_of("action", app.actions)}
     for index, entry in enumerate(_tables(mission, who, "mission.trip", needed=True)):
         called, data = f"{who}, trip {index + 1}", {"name": f"{index + 1}", **entry}
-        given = _table(data, called, f"{schema} {fields}", **kinds)
+        given = _table(data, called, schema, hints, **kinds)
         action = app.actions[given["action"]]
         given["parameters"] = _parameters(entry.get("parameters", {}), called, action)
         given["item"] = _item(entry.get("item"), called, action.name)
@@ -206,12 +208,14 @@ def _item(data: Any, who: str, action: str) -> Item | None:
     return Item(**given) if given else None
 
 
-def _fields(app: App, on: Entity) -> tuple[str, dict[str, Read]]:
-    """Return the schema of the fields that the app's graph needs, and how they are read."""
+def _fields(app: App, on: Entity, schema: str) -> tuple[str, dict[str, Read], dict[str, str]]:
+    """Return a schema with the app's fields, how they are read, and what to write where needed."""
     evaluator = _one_of("evaluator", app.evaluators, values.name)
     readers = {**values.FIELD, FieldType.EVALUATOR: evaluator}
     kinds = {one.name: readers[one.type] for one in app.fields if one.on is on}
-    return " ".join(f"{name}:{name}?" for name in kinds), kinds
+    hints = {one.name: one.hint for one in app.fields if one.on is on}
+    fields = (f"{name}:{name}{'' if hint else '?'}" for name, hint in hints.items())
+    return " ".join([schema, *fields]), kinds, hints
 
 
 def _point(key: str, airspace: Airspace, height: float) -> Read:
@@ -233,20 +237,6 @@ def _one_of(what: str, names: Collection[str], read: Read = values.text) -> Read
         return name
 
     return read_one
-
-
-def _new(what: str) -> Read:
-    """Return a reader of names that must differ."""
-    names = set[str]()
-
-    def read(value: object) -> str:
-        name: str = values.name(value)
-        if name in names:
-            raise BadInput(f"there is another {what} {quoted(name)}: names must differ")
-        names.add(name)
-        return name
-
-    return read
 
 
 # The text of a file, and the TOML in it

@@ -236,6 +236,7 @@ def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
                 "completed_trips": [trip["name"] for trip in stands["done"]],
                 "rounds": stands["round"] + 1,
                 "attempts": stands["attempts"],
+                **promised(stands),
             }
             for mission, stands in missions.items()
         ],
@@ -254,6 +255,12 @@ def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
         **({"crashed_drones": outcome.crashed} if outcome.crashed else {}),
         **({"given_up": outcome.given_up} if outcome.given_up else {}),
     }
+
+
+def promised(stands: Mapping[str, Any]) -> dict[str, object]:
+    """Return when a mission is to have ended, if it is, and whether it was late."""
+    deadline = stands.get("promises", {}).get("deadline")
+    return {} if deadline is None else {"deadline_s": deadline, "late": stands["late"]}
 
 
 def trips_data(outcome: Outcome) -> dict[str, int]:

@@ -14,7 +14,7 @@ from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar, cast, overload
 from ..domain.actions import Plain
 from ..domain.app import App
 from ..domain.errors import Failure, FlightFailed
-from ..domain.model import Drone, Mission, Point, Results, ResultStore, Trip
+from ..domain.model import Drone, Mission, Point, ResultStore, Trip
 from ..domain.status import RUNNING, Status
 from ..domain.trace import Trace
 from ..hooks.calls import call_hook, hook_name
@@ -29,6 +29,7 @@ P = ParamSpec("P")
 R = TypeVar("R")
 M = TypeVar("M", bound=Mission[Any])
 T = TypeVar("T", bound=Trip)
+Given = TypeVar("Given")  # what its evaluators get: `Results`, or with values of the declared types
 
 A_DAY = 86_400.0  # seconds after which a hook that has not ended is taken for one that never will
 
@@ -141,15 +142,16 @@ class _Instruments:
         return measured() if callable(measured) else measured
 
 
-class AppKit(Generic[M, T]):
+class AppKit(Generic[M, T, Given]):
     """What the hooks of an app are given, for one test."""
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: App, mission: Any = None, trip: Any = None) -> None:
+        self._mission, self._trip = mission or {}, trip or {}  # what must be filled in
         self._app, self._store, self.clock = app, ResultStore(), Clock()
         kernel = self.clock.kernel
         self._transitions = Transitions(kernel, Trace(kernel, ()), self._store)
         self._flights: dict[Mission[Any], Flight] = {}
-        self._none = app.mission(name="no mission", trips=[])
+        self._none = app.mission(name="no mission", trips=[], **self._mission)
         self._drones, self._trips, self._missions = count(1), count(1), count(1)
 
     def drone(
@@ -182,7 +184,7 @@ class AppKit(Generic[M, T]):
             action=declared.name,
             target=target,
             parameters={**values, **(parameters or {})},
-            **{"name": f"trip {next(self._trips)}", **fields},
+            **{"name": f"trip {next(self._trips)}", **self._trip, **fields},
         )
         trip.now = self.clock.kernel.time
         return cast("T", trip)
@@ -191,7 +193,7 @@ class AppKit(Generic[M, T]):
         """Return a mission with these trips, by default with one."""
         for index, trip in enumerate(trips):
             trip.index = index
-        given = {"name": f"mission {next(self._missions)}", **fields}
+        given = {"name": f"mission {next(self._missions)}", **self._mission, **fields}
         return cast("M", self._app.mission(trips=list(trips or (self.trip(),)), **given))
 
     def launch(self, mission: M, drone: Drone | None = None) -> None:
@@ -222,9 +224,9 @@ class AppKit(Generic[M, T]):
         self._flights[mission].set(mission.status)
         self.clock.advance(0.0)
 
-    def results(self, mission: M) -> Results[M, T]:
+    def results(self, mission: M) -> Given:
         """Return what the mission's evaluator gets now; it is new only once."""
-        return results_for(self._store, mission)
+        return cast(Given, results_for(self._store, mission))
 
     def context(self) -> KitContext:
         """Return a context, for the actions and modifiers that it is handed to."""

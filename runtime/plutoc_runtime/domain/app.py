@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 A = TypeVar("A", bound="App")
 
-SEAM = (3, 1)
+SEAM = (3, 2)
 """The seam to the library: the first number changes when earlier data would be misread, the second
 when more is said."""
 
@@ -41,6 +41,13 @@ class App:
     """The app's evaluators, by name."""
     resumes: tuple[str, ...] = ()
     """The blocks at which an interrupted mission can resume: `flow` can be entered there."""
+
+
+def needs_library(what: str, extra: str = "") -> str:
+    """Say how to install what a package alone cannot do."""
+    said = f'needs pluto-fleet, the library that flies: pip install "pluto-fleet{extra}>='
+    sources = f'Pluto\'s sources: pip install "PLUTO/runtime{extra}")'
+    return f'{what} {said}{".".join(map(str, SEAM))}" (without an index, from {sources}'
 
 
 def moving(app: A, motion: Motion) -> A:

@@ -1,4 +1,4 @@
-"""Fields of missions and trips that exist only because a block of the graph needs them."""
+"""Fields of missions and trips that exist because a block of the graph, or the app, needs them."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typing import SupportsFloat, SupportsIndex, cast
 
 from .errors import ANY_ERROR
 from .guard import unless_by_a_person
+from .quantities import Type
 from .text import bounded, shown
 
 
@@ -39,11 +40,21 @@ class Field:
 
     name: str
     on: Entity
-    type: FieldType
+    type: FieldType | Type
     label: str  # its label on a screen
     doc: str = ""
     """A sentence for pages. In a generated package it stands beside the attribute instead."""
-    default: int | float | None = None
+    default: int | float | str | None = None
+    hint: str = ""  # what to write, of a field that must be filled in
+
+    def wanted(self, value: object, evaluators: Container[str]) -> str:
+        """Return what a value must be that a hook has set, if it is not that."""
+        if value is None or (type(value) is bool and self.type is FieldType.ROUNDS):
+            return ""
+        if self.type is FieldType.EVALUATOR:
+            is_right = type(value) is str and value in evaluators
+            return "" if is_right else "an evaluator's name"
+        return "" if number_of(value) is not None else "a number"
 
 
 def wrong_field(
@@ -51,14 +62,10 @@ def wrong_field(
 ) -> str | None:
     """Return what is wrong with a field that a hook has set, or None."""
     for field in fields:
-        value = getattr(of, field.name, None) if field.on is entity else None
-        if value is None or (type(value) is bool and field.type is FieldType.ROUNDS):
+        if field.on is not entity:
             continue
-        if field.type is FieldType.EVALUATOR:
-            wanted, is_right = "an evaluator's name", type(value) is str and value in evaluators
-        else:
-            wanted, is_right = "a number", number_of(value) is not None
-        if not is_right:
+        value = getattr(of, field.name, None)
+        if wanted := field.wanted(value, evaluators):
             there = bounded(shown(value), _LONGEST)
             return f"{field.name} must be {wanted}, and a hook has put {there} there"
     return None

@@ -62,7 +62,8 @@ class FleetData:
 
     airspace: Airspace
     drones: Sequence[DroneData]
-    after_trip: AfterTrip = AfterTrip.HOME
+    after_trip: AfterTrip = AfterTrip.NEXT
     max_airborne: int | None = None
     motion: Motion = STRAIGHT
+    midnight: float = 0.0  # seconds from midnight to the start of a simulation
     world: WorldData | None = None  # None: a simulation makes up a world from its seed

@@ -210,6 +210,12 @@ class Mission(Generic[T]):
     """How many flights it has had, good and bad; one that was interrupted does not count."""
     index: int = 0
     """Its place in the missions file."""
+    promises: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    """What its plan promises; see `flow/promises.py`."""
+    deadline: float | None = field(default=None, init=False)
+    """When it is to have ended, in seconds since the app started."""
+    late: bool = field(default=False, init=False)
+    """Whether it had not ended by then."""
     last_result: int = field(default=NO_RESULT, init=False, repr=False)
     """The number of its newest result that its evaluator has not seen."""
 

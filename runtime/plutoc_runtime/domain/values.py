@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from .actions import PICK, RELEASE
 from .airspace import covers_ground
+from .errors import BadInput
 from .fields import FieldType, time_of_day
 from .model import AfterTrip
 from .quantities import QUANTITIES, UNITS, Type, parse_quantity, units_of
@@ -175,7 +176,7 @@ def area(value: object) -> tuple[Corner, ...]:
     return tuple(corners)
 
 
-PARAMETER: dict[Type, Read] = {
+PARAMETER: dict[FieldType | Type, Read] = {
     Type.INT: integer,
     Type.FLOAT: real,
     Type.BOOL: boolean,
@@ -204,7 +205,8 @@ def parameters(action: Action, given: Mapping[str, object]) -> dict[str, Any]:
     return found
 
 
-FIELD: dict[FieldType, Read] = {
+FIELD: dict[FieldType | Type, Read] = {
+    **PARAMETER,
     FieldType.TIME: TIME,
     FieldType.INT: integer,
     FieldType.ROUNDS: rounds,
@@ -217,6 +219,20 @@ HOME_SIZE = 0.1  # the diameter of a drone on the ground, in metres
 
 Cells = dict[tuple[int, int], list[tuple["Point", str]]]
 """Homes and their drones, by squares of the map with sides of that length."""
+
+
+def new_name(what: str) -> Read:
+    """Return a reader of names that must differ."""
+    names = set[str]()
+
+    def read(value: object) -> str:
+        found: str = name(value)
+        if found in names:
+            raise BadInput(f"there is another {what} {quoted(found)}: names must differ")
+        names.add(found)
+        return found
+
+    return read
 
 
 def crowded(home: Point, drone: str, homes: Cells) -> str | None:

@@ -6,25 +6,28 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from .assignment import assign
-from .policies import Batch
+from .batch import Batch
+from .needs import Request
 
 if TYPE_CHECKING:
     from ..domain.model import Drone
-    from .policies import Choice, Offers
+    from .policies import Choice
 
 
 @Batch
-def batch_optimal(offers: Offers, free: Sequence[Drone]) -> Sequence[Choice | None]:
+def batch_optimal(
+    offers: Sequence[Request], free: Sequence[Drone], _: object
+) -> Sequence[Choice | None]:
     """Give as many trips a drone as can be, so that the way of all together is shortest."""
-    goals = [trip.source or trip.target for trip, _ in offers]
+    goals = [one.goal for one in offers]
 
     def drones_for(number: int) -> Iterator[tuple[float, int]]:
         away = sorted((drone.distance(goals[number]), place) for place, drone in enumerate(free))
-        return (pair for pair in away if offers[number][1](free[pair[1]]))
+        return (pair for pair in away if offers[number].able(free[pair[1]]))
 
     def trips_for(place: int) -> Iterator[tuple[float, int]]:
         away = sorted((free[place].distance(goal), number) for number, goal in enumerate(goals))
-        return (pair for pair in away if offers[pair[1]][1](free[place]))
+        return (pair for pair in away if offers[pair[1]].able(free[place]))
 
     pairs: list[tuple[float, int] | None] = [None] * len(offers)
     if len(offers) <= len(free):  # the fewer choose among the more: so it is quick

@@ -15,7 +15,7 @@ from ..domain.status import DroneStatus
 from ..domain.text import cut_off, printable
 from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Kernel, Key, Task
-from .reach import docked
+from .reach import LOW, docked
 
 if TYPE_CHECKING:
     from ..domain.model import Drone
@@ -40,8 +40,8 @@ class Fleet:
         after_trip: AfterTrip,
     ) -> None:
         self.drones, self.queue = tuple(drones), queue
-        self._kernel, self._trace = kernel, trace
-        self._orders, self._after_trip = orders, after_trip
+        self._kernel, self._trace, self._orders = kernel, trace, orders
+        self._after_trip, queue.stay_out = after_trip, after_trip is not AfterTrip.HOME
         self.errands: dict[Drone, Task[None]] = {}
         """The tasks of drones that return, land or recover."""
         self._change: Future[None] | None = None
@@ -165,6 +165,12 @@ class Fleet:
         self._kernel.at(self._kernel.now + seconds, EventKind.CLOCK, self._key(drone), look)
 
     async def _stay(self, drone: Drone) -> None:
+        if self._after_trip is AfterTrip.NEXT and not drone.telemetry.landed:
+            if self.queue.waiting:  # the queue is served at the end of this instant
+                await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
+            if not self.queue.waiting:
+                await self._return(drone)
+                return
         try:
             await self._orders.ask("land", drone.id)
         except FlightFailed as error:
@@ -280,7 +286,7 @@ class Fleet:
 
     def is_low(self, drone: Drone) -> bool:
         """Whether its battery holds little more than the way home takes."""
-        return drone.battery_level < drone.category.reserve + 0.2
+        return drone.battery_level < drone.category.reserve + LOW
 
     def _is_docked(self, drone: Drone) -> bool:
         return drone.telemetry.landed and docked(drone.location, drone.home)
@@ -290,7 +296,5 @@ class Fleet:
 
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
-
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
-
 LONGEST = 500  # characters of the reason why a drone is lost

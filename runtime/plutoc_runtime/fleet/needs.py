@@ -5,40 +5,45 @@ from __future__ import annotations
 from collections.abc import Sequence
 from heapq import heappop, heappush, heapreplace
 from math import hypot, inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..time.future import Future
 from .reach import MORE, Reach, chain_of, miss_of
 
 if TYPE_CHECKING:
-    from ..domain.model import Category, Drone, Point, Trip
+    from ..domain.model import Category, Drone, Mission, Point
     from .policies import Policy
 
 
 class Request(Future["Drone"]):
     """A mission's request for a drone; as a future it is set to the drone that it gets."""
 
-    __slots__ = ("_bounds", "_levels", "_reach", "_trips", "goal", "policy", "rank", "trip", "why")
+    __slots__ = (
+        *("_levels", "bounds", "goal", "hurries", "mission", "policy", "rank", "reach", "since"),
+        *("trip", "trips", "why"),
+    )
 
     def __init__(
-        self, reach: Reach, trips: Sequence[Trip], policy: Policy, rank: tuple[int, int]
+        self, reach: Reach, mission: Mission[Any], policy: Policy, rank: tuple[int, int]
     ) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
-        self.trip = trip = trips[0]
+        self.mission, self.trips, self.since = mission, mission.trips, 0.0
+        self.trip = trip = mission.trips[0]
         # the rank: its priority, and minus the number of its arrival; the highest is served first
         self.policy, self.rank = policy, rank
         self.goal = trip.source or trip.target  # where its drone flies to first
         self.why = ""  # why its drone was chosen
-        self._reach, self._trips = reach, trips
-        self._bounds = reach.bounds(trip.action, trip.target, not (trip.source or trip.item))
+        self.hurries = False  # its mission waits for a limited time only
+        self.reach = reach
+        self.bounds = reach.bounds(trip.action, trip.target, not (trip.source or trip.item))
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
         level, here = drone.telemetry.battery_level, drone.telemetry.location
         if here == drone.home:
-            bounds = self._bounds[drone.category]
+            bounds = self.bounds[drone.category]
             if level >= bounds[3] or level >= self.at_least(drone, here) * MORE + bounds[2]:
                 return True
         return level >= self.at_least(drone, here) and level >= self.level(drone)
@@ -46,27 +51,31 @@ class Request(Future["Drone"]):
     def at_least(self, drone: Drone, here: Point) -> float:
         """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
         (x, y, _), (a, b, z), (c, d, _) = self.goal, here, drone.home
-        upright, a_metre, _, _ = self._bounds[drone.category]
+        upright, a_metre, _, _ = self.bounds[drone.category]
         level = a_metre * (hypot(x - a, y - b) + hypot(x - c, y - d))
         # not below 0 where it leads is not a number
         return max(0.0, upright + level if z <= 0.0 else level)
 
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with a full battery; None: it can."""
-        if self._bounds[drone.category][3] <= 1.0 or self._level(drone, drone.home) <= 1.0:
+        if self.ever(drone):
             return None
-        app, airspace, chain = self._reach.app, self._reach.airspace, chain_of(self._trips)
+        app, airspace, chain = self.reach.app, self.reach.airspace, chain_of(self.trips)
         miss = miss_of(app, airspace, drone.category, drone.home, chain)
         return miss and miss.reason
 
+    def ever(self, drone: Drone) -> bool:
+        """Return whether a drone can fly the trip with a full battery."""
+        return self.bounds[drone.category][3] <= 1.0 or self._level(drone, drone.home) <= 1.0
+
     def level(self, drone: Drone) -> float:
         """Return the battery level that a drone needs from where it stands; infinite: it never suffices."""
-        return self._level(drone, drone.location) if self.never(drone) is None else inf
+        return self._level(drone, drone.location) if self.ever(drone) else inf
 
     def _level(self, drone: Drone, here: Point) -> float:
         key = drone.category, drone.home, here
         if key not in self._levels:
-            self._levels[key] = self._reach.level(*key, chain_of(self._trips))
+            self._levels[key] = self.reach.level(*key, chain_of(self.trips))
         return self._levels[key]
 
 

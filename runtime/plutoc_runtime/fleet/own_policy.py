@@ -1,4 +1,4 @@
-"""A policy of the app's own: a hook that is asked trip by trip."""
+"""A policy of the app's own: a hook that is asked trip by trip, or for all that wait at once."""
 
 from __future__ import annotations
 
@@ -12,14 +12,20 @@ from ..domain.guard import unless_by_a_person
 from ..domain.model import Drone
 from ..domain.text import class_of, said
 from ..hooks.calls import hook_name, trace_of
+from .own_batch import chooses_for_all, own_batch
 
 if TYPE_CHECKING:
     from ..domain.model import Trip
-    from .policies import Able, Choice, OneByOne
+    from .policies import Able, Choice, OneByOne, Policy
 
 
-def own_policy(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne:
-    """Make a policy of the app's own hook; it raises `HookFault` for what that may not answer."""
+def own_policy(hook: Callable[..., Any]) -> Policy:
+    """Make a policy of the app's own hook, of either shape."""
+    return own_batch(hook) if chooses_for_all(hook) else _trip_by_trip(hook)
+
+
+def _trip_by_trip(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne:
+    """Make a policy of a hook for one trip; it raises `HookFault` for what that may not answer."""
 
     def choose(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
         candidates = tuple(filter(able, free))

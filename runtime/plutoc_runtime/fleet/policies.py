@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import update_wrapper
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Trip
@@ -17,26 +16,7 @@ Choice = tuple["Drone", str]  # the drone that gets a trip, and why it was chose
 OneByOne = Callable[["Trip", Sequence["Drone"], Able], Choice | None]
 """Chooses one of the free drones, in the fleet's order, for a trip, or None."""
 
-Offers = Sequence[tuple["Trip", Able]]
-"""The trips that wait with one priority, and which drones can fly each."""
-
-AllAtOnce = Callable[[Offers, Sequence["Drone"]], Sequence[Choice | None]]
-"""Chooses a different free drone, or None, for each of them."""
-
-
-class Batch:
-    """Decorates a policy that chooses for all waiting trips at once."""
-
-    def __init__(self, policy: AllAtOnce) -> None:
-        self._policy = policy
-        update_wrapper(self, policy)
-
-    def __call__(self, offers: Offers, free: Sequence[Drone]) -> Sequence[Choice | None]:
-        """Return a drone, or None, for each trip."""
-        return self._policy(offers, free)
-
-
-Policy = OneByOne | Batch
+Policy = Callable[..., Any]  # such a one, or a `Batch`, which chooses for all that wait
 
 
 def lowest(

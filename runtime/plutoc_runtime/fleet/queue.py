@@ -2,7 +2,7 @@
 
 It is served at the end of every instant in which something changed, so that all requests and all
 free drones of the instant are known: by priority, higher first, then by arrival. A free drone that
-is too low for all who wait is put aside until it is charged, or until it is high enough for a new one.
+is too low for all who wait is put aside until it is charged for its share of them.
 """
 
 from __future__ import annotations
@@ -12,17 +12,17 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from math import inf
 from operator import attrgetter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import HookFault, MissionFailed
 from ..domain.status import IN_THE_AIR, DroneStatus
 from ..time.kernel import FLEET, EventKind, Kernel, Timer
 from .needs import Needs, Request
-from .policies import Batch, Choice, Policy
 from .reach import Reach, docked
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Trip
+    from ..domain.model import Drone, Mission, Trip
+    from .policies import Choice, Policy
 
 _FREE, _BUSY, _LOST = DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.LOST
 
@@ -35,32 +35,35 @@ class Queue:
     def __init__(
         self, kernel: Kernel, reach: Reach, drones: Sequence[Drone], max_airborne: int | None
     ) -> None:
-        self._kernel, self._reach, reach.homes = kernel, reach, [one.home for one in drones]
-        self._drones, self._max_airborne = drones, max_airborne
-        self._waiting: list[Request] = []  # sorted by rank, the last is served first
+        self.kernel, self._reach, reach.homes = kernel, reach, [one.home for one in drones]
+        self.drones, self._max_airborne = drones, max_airborne
+        self.requests: list[Request] = []  # sorted by rank, the last is served first
         self._fresh: list[Request] = []  # the requests that have not been looked at yet
         self._arrived: list[Request] = []  # those that wait, and some that have; see `Needs`
         self._needs: dict[Drone, Needs] = {}
         self._arrivals = 0
-        self._ready: list[Drone] = []  # while it is served: those that may be chosen, in order
-        self._low: dict[Drone, tuple[float, float]] = {}
+        self.ready: list[Drone] = []  # while it is served: those that may be chosen, in order
+        self.low: dict[Drone, tuple[float, float]] = {}
         """The other free drones: too low for every request so far, until when, and what level they need."""
+        self.plans: dict[object, Any] = {}  # what policies remember from one serving to the next
+        self.stay_out = True  # whether drones stay where a trip ends, but for those that are low
         self._one_is_lost = False  # since the requests were last checked
         self._recheck, self._recheck_at = Timer(int), inf
         self.served: Callable[[], None] = lambda: None
         """Called after a serving, if some still wait and a drone that is too low is not being charged."""
 
-    def enter(self, trips: Sequence[Trip], policy: Policy, priority: int) -> Request:
-        """Request a drone for the first trip; it is given at the end of this instant or later."""
+    def enter(self, mission: Mission[Any], policy: Policy, priority: int) -> Request:
+        """Request a drone for a mission's next trip; it is given at the end of this instant or later."""
         self._arrivals = number = self._arrivals - 1
-        rank, waiting = (+priority, number), self._waiting  # raises in its mission, if that is odd
-        request = Request(self._reach, trips, policy, rank)
+        rank, waiting = (+priority, number), self.requests  # raises in its mission, if that is odd
+        request = Request(self._reach, mission, policy, rank)
         if waiting and waiting[0].rank > rank:  # most that enter
             waiting.insert(0, request)
         else:
             insort(waiting, request, key=_by_rank)
+        request.since = self.kernel.now
         self._fresh.append(request)
-        self._kernel.at_the_end = self._serve
+        self.kernel.at_the_end = self._serve
         return request
 
     def leave(self, request: Request) -> None:
@@ -70,66 +73,66 @@ class Queue:
 
     def moved(self, drone: Drone) -> None:
         """Called when a drone's status was set: serve the queue at the end of this instant."""
-        self._low.pop(drone, None)
+        self.low.pop(drone, None)
         if drone.status is _LOST:
             self._one_is_lost = True
         self.changed()
 
     def changed(self) -> None:
         """Serve the queue at the end of this instant."""
-        if self._waiting:
-            self._kernel.at_the_end = self._serve
+        if self.requests:
+            self.kernel.at_the_end = self._serve
 
     def prioritise(self, trip: Trip, priority: int) -> None:
         """Change the priority of the request for this trip."""
-        for request in self._waiting:
+        for request in self.requests:
             if request.trip is trip:
                 request.rank = priority, request.rank[1]
-                self._waiting.sort(key=_by_rank)
+                self.requests.sort(key=_by_rank)
                 self.changed()
                 return
 
     @property
     def waiting(self) -> bool:
         """Whether any request waits."""
-        return bool(self._waiting)
+        return bool(self.requests)
 
     def summary(self) -> str:
         """Return a summary of what the drones are doing: why a mission waits."""
-        count = Counter(drone.status for drone in self._drones)
+        count = Counter(drone.status for drone in self.drones)
         return ", ".join(f"{count[s]} {s.value.lower()}" for s in DroneStatus if count[s])
 
     @property
     def room(self) -> bool:
         """Whether one more drone may fly."""
         most = self._max_airborne
-        return most is None or sum(drone.status in IN_THE_AIR for drone in self._drones) < most
+        return most is None or sum(drone.status in IN_THE_AIR for drone in self.drones) < most
 
     def too_low(self) -> Iterator[Drone]:
         """Yield the free drones that waiting missions could use if they were charged."""
-        for drone in sorted(self._low, key=_in_the_file):
+        for drone in sorted(self.low, key=_in_the_file):
             if any(request.never(drone) is None for request in self.waiters()):
                 yield drone
 
     def waiters(self) -> Iterator[Request]:
         """Yield the waiting requests."""
-        return reversed(self._waiting)
+        return reversed(self.requests)
 
     # Serving
 
     def _serve(self) -> None:
         self._arrived += self._fresh
-        if not self._needs or len(self._arrived) > 1_000 + 8 * len(self._waiting):
-            self._arrived, self._needs = self._waiting[:], {}
-        if self._low and (self._fresh or self._kernel.now >= self._recheck_at):
+        if not self._needs or len(self._arrived) > 1_000 + 8 * len(self.requests):
+            self._arrived, self._needs = self.requests[:], {}
+        if self.low and (self._fresh or self.kernel.now >= self._recheck_at):
             self._put_back_the_charged()
-        low = self._low
-        self._ready = [one for one in self._drones if one.status is _FREE and one not in low]
-        if self._ready:
+        low = self.low
+        self.ready = [one for one in self.drones if one.status is _FREE and one not in low]
+        if self.ready:
             self._share_out()
-        if self._waiting:
+        if self.requests:
             self._refuse_what_cannot_be()
-            if self._ready and self.room:
+            if self.ready and self.room:
                 self._put_aside_the_low()
             if low:
                 untils = [until for until, _ in low.values()]
@@ -139,76 +142,59 @@ class Queue:
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        below, ready = len(self._waiting), self._ready
+        below, ready = len(self.requests), self.ready
         for place in self._places():
             if not ready or (self._max_airborne is not None and not self.room):
                 break
             if place >= below:
                 continue  # it was served with others of its policy
-            request = self._waiting[place]
-            if isinstance(request.policy, Batch):
-                below = self._share_among(place, request.policy)
+            request = self.requests[place]
+            if share := getattr(request.policy, "share", None):
+                below = share(self, place)
+                continue
+            try:
+                choice = request.policy(request.trip, ready, request.able)
+            except HookFault as fault:
+                self.refuse(request, fault)
             else:
-                try:
-                    choice = request.policy(request.trip, ready, request.able)
-                except HookFault as fault:
-                    self._refuse(request, fault)
-                else:
-                    self._give(place, choice)
+                self.give(place, choice)
 
     def _places(self) -> Iterator[int]:
         """Yield the places of requests in turn; after one in vain, of those for which a ready drone suffices."""
-        place, ready, before = len(self._waiting), self._ready, inf
+        place, ready, before = len(self.requests), self.ready, inf
         while place and (now := len(ready)) < before:
             place, before = place - 1, now
             yield place
         suited = set[Request]()
         for drone in ready if place else ():
             some = self._needs_of(drone).up_to(drone.battery_level, _MANY)
-            suited.update(some if len(some) <= _MANY else self._waiting)
+            suited.update(some if len(some) <= _MANY else self.requests)
         for other in sorted(map(self._place, suited), reverse=True):
             if other < place:
                 yield other
 
-    def _share_among(self, place: int, policy: Batch) -> int:
-        """Serve together the request at this place and all around it of the same policy and priority.
-
-        Return the place of the first of them.
-        """
-        waiting, priority = self._waiting, self._waiting[place].rank[0]
-
-        def alike(place: int) -> bool:
-            return waiting[place].policy is policy and waiting[place].rank[0] == priority
-
-        first = next((n + 1 for n in range(place - 1, -1, -1) if not alike(n)), 0)
-        end = next((n for n in range(place + 1, len(waiting)) if not alike(n)), len(waiting))
-        places = range(end - 1, first - 1, -1)
-        offers = [(waiting[each].trip, waiting[each].able) for each in places]
-        for each, choice in zip(places, policy(offers, self._ready), strict=True):
-            if self.room:
-                self._give(each, choice)
-        return first
-
-    def _give(self, place: int, choice: Choice | None) -> None:
+    def give(self, place: int, choice: Choice | None) -> None:
+        """Give the request at this place a drone, if one was chosen."""
         if choice is not None:
-            request = self._waiting.pop(place)
+            request = self.requests.pop(place)
             drone, request.why = choice
-            self._ready.remove(drone)
+            self.ready.remove(drone)
             drone.status = _BUSY  # at once: no other request may have it
             request.set(drone)
 
-    def _refuse(self, request: Request, error: MissionFailed) -> None:
+    def refuse(self, request: Request, error: MissionFailed) -> None:
+        """Fail a request, and with it its mission."""
         self._drop(request)
         request.fail(error)
 
     def _drop(self, request: Request) -> None:
-        del self._waiting[self._place(request)]
+        del self.requests[self._place(request)]
 
     def _place(self, request: Request) -> int:
-        place = bisect_left(self._waiting, request.rank, key=_by_rank)
-        if place < len(self._waiting) and self._waiting[place] is request:
+        place = bisect_left(self.requests, request.rank, key=_by_rank)
+        if place < len(self.requests) and self.requests[place] is request:
             return place
-        return self._waiting.index(request)  # a hook has left a priority that compares with none
+        return self.requests.index(request)  # a hook has left a priority that compares with none
 
     def _refuse_what_cannot_be(self) -> None:
         """Refuse requests that no drone can serve: new ones, and all after the loss of a drone."""
@@ -217,19 +203,19 @@ class Queue:
         for request in asked:
             if not request.is_set and (why := self._never(request)) is not None:
                 lacking = f"no drone of the fleet can fly trip {request.trip.name}: {why}"
-                self._refuse(request, MissionFailed(lacking))
+                self.refuse(request, MissionFailed(lacking))
 
     def _never(self, request: Request) -> str | None:
         """Return why none of the drones that are left can ever fly a trip; None: one can."""
         reasons: list[str] = []
-        for drone in self._drones:
+        for drone in self.drones:
             if drone.status is not _LOST:
                 why = request.never(drone)
                 if why is None:
                     return None
                 reasons.append(why)
-        if lost := len(self._drones) - len(reasons):
-            reasons.insert(0, f"{lost} of {len(self._drones)} drones are lost")
+        if lost := len(self.drones) - len(reasons):
+            reasons.insert(0, f"{lost} of {len(self.drones)} drones are lost")
         return "; ".join(dict.fromkeys(reasons))
 
     # Drones that are too low
@@ -242,39 +228,42 @@ class Queue:
 
     def _put_back_the_charged(self) -> None:
         """Make drones ready again that have charged, or that suffice for a new request."""
-        now = self._kernel.now
-        for drone, (until, wanted) in list(self._low.items()):
-            if until <= now:
-                del self._low[drone]
+        now, usual = self.kernel.now, self.requests[0].rank[0] if self.requests else 0
+        urgent = [one for one in self._fresh if one.hurries or one.rank[0] > usual]
+        for drone, (until, wanted) in list(self.low.items()):
+            if until <= now or any(request.able(drone) for request in urgent):
+                del self.low[drone]
             elif self._fresh:
                 needs = self._needs.get(drone) or self._needs_of(drone)  # it stands where it stood
                 if (least := needs.least(wanted)) < wanted and drone.battery_level >= least:
-                    del self._low[drone]
+                    del self.low[drone]
                 elif least < wanted:
-                    self._low[drone] = min(until, self._charged(drone, least)), least
+                    self.low[drone] = min(until, self.charged(drone, least)), least
 
     def _put_aside_the_low(self) -> None:
-        """Put drones aside that are too low for every request; a docked one until it has charged.
+        """Put drones aside that are too low for every request; a docked one until it has charged for its share.
 
         A drone that suffices and was not chosen (by a policy, or as no more may fly) stays ready.
         """
-        for drone in self._ready:
-            least = self._needs_of(drone).least()
+        share = -(-len(self.requests) // len(self.drones))  # trips for each drone
+        for drone in self.ready:
+            least, reserve = self._needs_of(drone).least(), drone.category.reserve
             if drone.battery_level < least:
-                self._low[drone] = self._charged(drone, least), least
+                level = max(least, min(1.0, reserve + share * (least - reserve)))
+                self.low[drone] = self.charged(drone, level), least
 
-    def _charged(self, drone: Drone, level: float) -> float:
+    def charged(self, drone: Drone, level: float) -> float:
         """Return when a drone has this level where it stands; infinite: it never will."""
         if level == inf or not docked(drone.location, drone.home):
             return inf
-        return self._kernel.now + (drone.charging(level) + 0.001)
+        return self.kernel.now + (drone.charging(level) + 0.001)
 
     def _look_again_when_charged(self, soonest: float) -> None:
         if soonest != self._recheck_at:
             self._recheck.cancel()
             self._recheck_at = soonest
             if soonest < inf:
-                self._recheck = self._kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
+                self._recheck = self.kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
 
 
 _MANY = 30  # for more requests it is not worth while to find out for which a drone suffices

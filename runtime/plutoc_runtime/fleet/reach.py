@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 Stop = tuple["Point", float]  # a point to fly to, and the seconds that the drone is busy there
 Stops = Sequence[Stop]
 
+LOW = 0.2  # a drone goes home when its battery holds no more than so much above its reserve
 DOCK_REACH = 0.2  # how near its home a drone must land to be charged there, in metres
 
 

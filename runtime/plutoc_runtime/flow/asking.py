@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import ANY_ERROR, HookFault, MissionFailed
-from ..domain.fields import Entity
+from ..domain.fields import Entity, FieldType, wrong_field
 from ..domain.guard import NOT_ITS_OWN, unless_by_a_person
 from ..domain.text import said
 from ..hooks.calls import (
@@ -62,7 +62,13 @@ async def ask(run: Run[Any], hook: Hook, *args: object) -> object:
 
 
 def keep(core: Core, hook: Hook, mission: Mission[Any]) -> None:
-    """Record what a hook that was given this mission may have changed, if the run may be resumed."""
+    """Check what a hook may have changed of this mission, and record it if the run may be resumed."""
+    if own := [field for field in core.app.fields if not isinstance(field.type, FieldType)]:
+        trips = mission.trips if type(mission.trips) is list else ()
+        for entity, of in ((Entity.MISSION, mission), *((Entity.TRIP, one) for one in trips)):
+            if wrong := wrong_field(own, entity, of, ()):
+                left = f"hook {hook_name(hook)} left a {entity.value} that cannot go on"
+                raise HookFault(f"{left}: its {wrong}")
     if core.on_record is not None:
         look(hook, partial(note_change, core), mission)
 

@@ -14,6 +14,7 @@ from ..domain.status import FAILED, UNEXECUTED, Status
 from ..time.future import Future
 from ..time.kernel import Task, mission_key
 from .mission import Core, MissionState
+from .promises import Promises
 from .run import Run
 from .standing import as_crash, blame, blamed
 
@@ -23,6 +24,7 @@ class Engine:
 
     def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
         self.core, self.states = core, states
+        self.promises = Promises(core, states)
         self.living = 0  # how many missions are on their way through their graphs
         self.done: Future[None] = Future()  # set when the last mission has ended, or was suspended
 
@@ -34,6 +36,8 @@ class Engine:
         states = [self.new_state(mission) for mission in missions]
         for state in states:
             self.states[state.mission.name] = state
+            if state.mission.promises:
+                self.promises.start(state.mission)
             self.enter(state, UNEXECUTED)
         freeze()
 
@@ -57,7 +61,9 @@ class Engine:
         core, mission, key = self.core, state.mission, mission_key(state.mission.index)
         run = Run(mission, state, key)
         run.at, run.status = state.at, status
-        run.task = state.task = task = core.kernel.spawn(core.app.flow(run), key, mission.name)
+        waits = mission.promises and status is UNEXECUTED
+        flow = self.promises.in_time(run) if waits else core.app.flow(run)
+        run.task = state.task = task = core.kernel.spawn(flow, key, mission.name)
         task.over = partial(self._ended, state)
         self.living += 1
 
@@ -160,4 +166,5 @@ class Engine:
         state.allocated = state.carrier = state.carries = None
         state.ended = True
         self.core.transitions.end(mission, status, reason)
+        self.promises.ended(mission)
         self.look_for_the_end()

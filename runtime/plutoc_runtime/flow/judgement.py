@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import ANY_ERROR, HookFault
+from ..domain.fields import Entity, wrong_field
 from ..domain.guard import unless_by_a_person
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
 from ..domain.text import class_of, said, shown, text_of
@@ -71,7 +72,12 @@ def _listed(who: str, field: str, value: object) -> Sequence[Any]:
     for kind in (tuple, list):
         if issubclass(type(value), kind):
             return tuple(kind.__iter__(cast("Any", value)))
-    raise HookFault(f"{who} must give `{field}` as a tuple, not as {class_of(value)}")
+    try:
+        if issubclass(type(value), Sequence) and not issubclass(type(value), (str, bytes)):
+            return tuple(cast("Sequence[Any]", value))
+    except ANY_ERROR as error:
+        unless_by_a_person(error)
+    raise HookFault(f"{who} must give `{field}` as a list or a tuple, not as {class_of(value)}")
 
 
 def _once_each(trips: Sequence[Any]) -> list[Any]:
@@ -103,6 +109,7 @@ def _name(mission: Mission[Any], added: Sequence[Trip]) -> None:
 
 def _problem(core: Core, mission: Mission[Any], trip: Trip) -> str | None:
     problem = unsound(core.app, core.airspace, trip)
+    problem = problem or wrong_field(core.app.fields, Entity.TRIP, trip, core.app.evaluators)
     if problem is not None:
         return problem
     if any(trip is done for done in mission.completed_trips):

@@ -60,7 +60,7 @@ class Recording:
     def _added(self, event: Event) -> Data:
         """Return what is added to an event that has just happened."""
         match event["event"]:
-            case "mission.created":
+            case "mission.created" | "mission.promised":
                 return {"plan": mission_data(self._app, self._mission(event))}
             case "trip.completed":
                 return {"result": value_data(self._results.results[-1].value)}
@@ -105,6 +105,7 @@ class Restorer:
         for name in by_index:
             before = self._states.get(name)
             self._states[name] = state = self.restored(name, records[name])
+            self._engine.promises.watch(state.mission)
             had = None if before is None or not before.suspended else before.carrier
             if had not in (None, state.carrier):
                 core.fleet.recover(had)  # it may have had the mission's item
@@ -125,7 +126,8 @@ class Restorer:
         """Return a mission's state as its record has it."""
         core, known = self._core, self._states.get(name)
         index = record.get("index", len(self._states))
-        mission = known.mission if known else core.app.mission(name=name, trips=[], index=index)
+        given = {"name": name, "trips": [], "index": index, **record.get("fields", {})}
+        mission = known.mission if known else core.app.mission(**given)
         self._trips[name] = trips = update(core.app, mission, record)
         for trip in trips.values():
             trip.now = core.kernel.time

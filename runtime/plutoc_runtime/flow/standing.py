@@ -35,7 +35,8 @@ def mission_of(app: App, data: Mapping[str, Any], index: int) -> Mission[Any]:
     """Return a new mission; what the app does not know is left out."""
     trips = [trip_of(app, one, place) for place, one in enumerate(data["trips"])]
     index, fields = data.get("index", index), known_fields(app, Entity.MISSION, data)
-    return app.mission(name=data.get("name", f"{index + 1}"), trips=trips, index=index, **fields)
+    name, promises = data.get("name", f"{index + 1}"), data.get("promises", {})
+    return app.mission(name=name, trips=trips, index=index, promises=promises, **fields)
 
 
 def standing_of(app: App, state: MissionState) -> Data:
@@ -60,6 +61,7 @@ def standing_of(app: App, state: MissionState) -> Data:
         "carries": item_data(state.carries),
         "interrupted": state.interrupted,
         "ended": state.ended,
+        **({"promises": mission.promises, "late": mission.late} if mission.promises else {}),
     }
 
 
@@ -137,6 +139,7 @@ def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[s
     mission.trips, mission.completed_trips = lists["todo"], lists["done"]
     mission.status, mission.reason = Status(record["status"]), record.get("reason", "")
     mission.round, mission.attempts = record.get("round", 0), record.get("attempts", 0)
+    mission.promises, mission.late = record.get("promises", {}), bool(record.get("late"))
     for name, value in record.get("fields", {}).items():
         setattr(mission, name, value)
     return trips
@@ -154,6 +157,7 @@ def fleet_data(fleet: FleetData) -> Data:
         "after_trip": fleet.after_trip.value,
         "max_airborne": fleet.max_airborne,
         "motion": asdict(fleet.motion),
+        "midnight": fleet.midnight,
     }
 
 

@@ -236,11 +236,11 @@ class Verdict(NamedTuple):
 
     ok: bool = True
     """False with nothing to redo and nothing to add: the mission has FAILED."""
-    redo: tuple[Trip, ...] = ()
+    redo: Sequence[Trip] = ()
     """Completed trips of this mission that must be flown again."""
-    add: tuple[Trip, ...] = ()
+    add: Sequence[Trip] = ()
     """New trips for this mission; they are not repeated by a later round."""
-    log: tuple[str, ...] = ()
+    log: Sequence[str] = ()
     """Lines for the console."""
     fail: str | None = None
     """The mission has FAILED, and this is why."""

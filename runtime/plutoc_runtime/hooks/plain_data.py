@@ -85,6 +85,7 @@ def mission_data(app: App, mission: Mission[Any]) -> Data:
         "index": mission.index,
         "fields": fields_of(app, Entity.MISSION, mission),
         "trips": [trip_data(app, trip) for trip in mission.trips],
+        **({"promises": mission.promises} if mission.promises else {}),
     }
 
 
@@ -95,15 +96,14 @@ def trip_of(
     app.actions[data["action"]]
     index = data.get("index", index)
     name, target = data.get("name", f"{index + 1}"), point_of(data["target"])
-    trip = app.trip(name=name, action=data["action"], target=target, index=index)
+    fields = known_fields(app, Entity.TRIP, data) if "fields" in data else {}
+    trip = app.trip(name=name, action=data["action"], target=target, index=index, **fields)
     trip.status = status
     if not _LEAST.issuperset(data):  # most new trips have no more
         source = data.get("source")
         trip.source = None if source is None else point_of(source)
         trip.parameters = data.get("parameters") or trip.parameters
         trip.item = item_of(data.get("item"))
-        for field, value in known_fields(app, Entity.TRIP, data).items():
-            setattr(trip, field, value)
         trip.added, trip.attempt = bool(data.get("added")), data.get("attempt", 1)
         trip.status = TripStatus(data["status"]) if "status" in data else status
         trip.reason = data.get("reason", "")

@@ -75,6 +75,9 @@ _MISSION: Mapping[str, tuple[type, ...]] = {
     "completed_trips": (list,),
     "status": (Status,),
     **dict.fromkeys(("round", "attempts", "index", "last_result"), (int,)),
+    "promises": (dict,),
+    "deadline": (type(None), int, float),
+    "late": (bool,),
 }
 """The attributes that the runtime relies on, and their types."""
 

@@ -73,6 +73,7 @@ class Flight(Future[Status]):
             "parameters": trip.parameters,
             "item": None if item is None else item_data(item),
             "seconds": action.seconds,
+            "beside": action.repeat == "safe",
         }
 
     @property

@@ -4,6 +4,8 @@ from plutoc.block import Block, Choice, HookKind, Param, emits, same
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.fleet.batch_optimal import batch_optimal
+from plutoc_runtime.fleet.earliest_deadline import earliest_deadline
+from plutoc_runtime.fleet.least_makespan import least_makespan
 from plutoc_runtime.fleet.own_policy import own_policy
 from plutoc_runtime.fleet.policies import first, least_used, nearest
 
@@ -28,10 +30,15 @@ DRONE_ALLOCATOR = Block(
                 "first": first,
                 "least_used": least_used,
                 "batch_optimal": batch_optimal,
+                "least_makespan": least_makespan,
+                "earliest_deadline": earliest_deadline,
             },
-            default="nearest",
-            doc="How one of several drones is chosen. The first three choose for trip after trip; "
-            "`batch_optimal` looks at all that wait, for the least way in total.",
+            default="least_makespan",
+            earlier=("nearest", (3, 2)),
+            doc="How one of several drones is chosen. The first three choose for trip after trip. The "
+            "others look at all that wait: `batch_optimal` for the least way in total, "
+            "`least_makespan` plans ahead, so that the last trip ends soonest, and "
+            "`earliest_deadline` prefers missions that are due.",
             hook=HookKind.POLICY,
             adapt=own_policy,
         ),
@@ -40,6 +47,12 @@ DRONE_ALLOCATOR = Block(
             type=Type.TIME,
             doc="The mission fails if it has waited this long for a drone. None: no limit.",
             least=0.0,
+        ),
+        Param(
+            name="fail_late",
+            type=Type.BOOL,
+            default=False,
+            doc="Whether a mission fails that is late and has no drone: its deadline has passed.",
         ),
     ),
     uses=("priority",),

@@ -25,6 +25,7 @@ def allocate_drone(
     block: str,
     policy: Policy,
     allocate_within: float | None = None,
+    fail_late: bool = False,
     priority: int = 0,
 ) -> Generator[Any, Any, Status]:
     """Wait for a drone for the next trip; the mission keeps one that carries its item.
@@ -44,9 +45,14 @@ def allocate_drone(
     if drone is None:
         drone, why = state.carrier, "carries the mission's item"
     if drone is None:
-        request = core.queue.enter(mission.trips, policy, priority)
+        if fail_late and mission.late:
+            raise MissionFailed(f"it is late: its deadline has passed before trip {trip.name}")
+        request = core.queue.enter(mission, policy, priority)
+        request.hurries = allocate_within is not None
         try:
-            if allocate_within is not None:
+            if fail_late and mission.deadline is not None:
+                yield from _in_time(run, request, mission.deadline, allocate_within)
+            elif allocate_within is not None:
                 yield from _no_longer_than(run, request, allocate_within)
             if not request.is_set:
                 yield request
@@ -57,6 +63,15 @@ def allocate_drone(
     state.allocated = drone
     core.transitions.allocate(mission, trip, drone, state.at, why)
     return status
+
+
+async def _in_time(run: Run[Any], request: Request, deadline: float, within: float | None) -> None:
+    """Wait until the mission is late, but not longer than any mission waits here."""
+    kernel = run.core.kernel
+    if within is not None and kernel.now + within < deadline:
+        await _no_longer_than(run, request, within)
+    elif not await kernel.within(request, deadline, EventKind.ALLOCATE, run.key):
+        raise MissionFailed(f"it is late: trip {request.trip.name} had no drone by its deadline")
 
 
 async def _no_longer_than(run: Run[Any], request: Request, seconds: float) -> None:

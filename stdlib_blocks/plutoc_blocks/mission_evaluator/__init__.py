@@ -21,7 +21,9 @@ MISSION_EVALUATOR = Block(
         HookParam(
             name="hook",
             kind=HookKind.EVALUATOR,
-            doc="The evaluator of missions that choose none.",
+            doc="The evaluator of missions that choose none; its own parameters stand beside it.",
+            passes=True,
+            instead="evaluator",
         ),
     ),
     needs=(

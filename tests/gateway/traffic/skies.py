@@ -10,9 +10,10 @@ from typing import Any
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.actions import PICK
 from pluto_fleet.shared.domain.airspace import Airspace, permitted_way
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
-from pluto_fleet.shared.domain.model import Category, Point
+from pluto_fleet.shared.domain.model import Category, Item, Point
 from pluto_fleet.shared.fleet.reach import docked
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import FLEET, EventKind
@@ -99,11 +100,19 @@ class Sky:
 
     # What a brain does
 
-    async def fly(self, drone: str, *stops: Point) -> object:
-        """Give a drone a job, and wait for what is reported."""
+    async def fly(self, drone: str, *stops: Point, item: Item | None = None) -> object:
+        """Give a drone a job, and wait for what is reported; with an item it is picked, just there."""
         self.trips += 1
         over: Future[object] = Future()
-        job = Task(id=f"{self.trips}", drone=drone, stops=stops, action=None, item=None)
+        action = None if item is None else PICK
+        job = Task(
+            id=f"{self.trips}",
+            drone=drone,
+            stops=stops,
+            action=action,
+            item=item,
+            beside=item is None,
+        )
         self.link.fly(job, over.set)
         return await over
 

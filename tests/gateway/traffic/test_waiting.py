@@ -8,9 +8,10 @@ import pytest
 
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
-from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.domain.model import Item, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
+from tests.gateway.flights import PILLS
 from tests.gateway.traffic.skies import Sky
 
 APART = 0.5
@@ -18,9 +19,10 @@ LOW = Airspace(ceiling=1.3)
 """So low that no drone can go over another."""
 
 
-def gives(sky: Sky, drone: str, *stops: Point) -> Task[object]:
-    """Give a drone a job."""
-    return sky.kernel.spawn(sky.fly(drone, *stops), FLEET + 50, f"{drone} is given a job")
+def gives(sky: Sky, drone: str, *stops: Point, item: Item | None = None) -> Task[object]:
+    """Give a drone a job; an item is picked just there, and nowhere beside."""
+    job = sky.fly(drone, *stops, item=item)
+    return sky.kernel.spawn(job, FLEET + 50, f"{drone} is given a job")
 
 
 def at(sky: Sky, drone: str) -> Point:
@@ -71,9 +73,9 @@ def test_one_that_hovers_a_little_too_high_is_passed_over() -> None:
 
 
 def test_of_two_with_the_same_target_the_second_comes_when_the_first_has_gone() -> None:
-    """Nothing else helps."""
+    """Nothing else helps where an item is to be picked."""
     sky = Sky([(1, 1), (9, 1)])
-    first, second = gives(sky, "cf1", (5, 5, 1.2)), gives(sky, "cf2", (5, 5, 1.2))
+    first, second = gives(sky, "cf1", (5, 5, 1.2)), gives(sky, "cf2", (5, 5, 1.2), item=PILLS)
     assert sky.until(first, 60)
     assert not sky.until(second, 60)
     home = sky.kernel.spawn(sky.goes_home("cf1"), FLEET, "cf1 goes home")
@@ -88,7 +90,7 @@ def test_two_that_hover_in_each_others_way_do_not_wait_for_ever() -> None:
     sky.puts((2, 5, 1.2), (8, 5, 1.2))
 
     async def there_and_home(drone: str, target: Point) -> Point:
-        assert await sky.fly(drone, target) is None
+        assert await sky.fly(drone, target, item=PILLS) is None
         reached = at(sky, drone)
         await sky.goes_home(drone)
         return reached
@@ -189,7 +191,7 @@ def test_who_waits_can_be_told_not_to() -> None:
     """Its flight is over, and it stays where it is."""
     sky = Sky([(1, 5), (5, 1)], airspace=LOW)
     gives(sky, "cf1", (5, 5, 1.2))
-    waits = gives(sky, "cf2", (5, 5, 1.2))
+    waits = gives(sky, "cf2", (5, 5, 1.2), item=PILLS)
     sky.advance(5)
     sky.link.break_off("cf2")
     sky.advance(40)
@@ -228,7 +230,7 @@ def test_a_drone_that_is_found_in_the_air_has_its_place() -> None:
     sky.advance(0)
     down = sky.kernel.spawn(sky.link.land("cf2"), FLEET, "down")
     assert sky.until(down, 20)
-    blocked = gives(sky, "cf2", (5, 4, 1.2))
+    blocked = gives(sky, "cf2", (5, 4, 1.2), item=PILLS)
     assert not sky.until(blocked, 40)
     assert sky.nearest >= APART
 

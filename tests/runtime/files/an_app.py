@@ -11,6 +11,7 @@ from pluto_fleet.shared.domain.app import App
 from pluto_fleet.shared.domain.errors import ActionFailed
 from pluto_fleet.shared.domain.fields import Entity, Field, FieldType
 from pluto_fleet.shared.domain.model import Category, Drone, Mission, Trip
+from pluto_fleet.shared.domain.own_fields import OwnField
 from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.policies import nearest
@@ -121,3 +122,53 @@ PLAIN = described(
     )
 )
 """An app without fields, categories or hooks."""
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class OwnTrip(Trip):
+    delay: float | None = None
+    fragile: bool
+    note: str = ""
+    layers: int = 1
+    height_over_ground: float = 0.3
+    warmth: float
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class OwnMission(Mission[OwnTrip]):
+    repeat: int | bool = 0
+    patient: str
+    margin: float = 600.0
+    share: float = 0.5
+    urgent: bool = False
+
+
+def own(name: str, on: Entity, kind: Type, default: bool | float | str | None) -> OwnField:
+    return OwnField(name=name, on=on, type=kind, label=name.capitalize(), default=default)
+
+
+OWN = described(
+    App(
+        name="wards",
+        title="Wards",
+        flow=fly_mission,
+        mission=OwnMission,
+        trip=OwnTrip,
+        fields=(
+            field("repeat", Entity.MISSION, FieldType.ROUNDS),
+            own("patient", Entity.MISSION, Type.TEXT, None),
+            own("margin", Entity.MISSION, Type.TIME, 600.0),
+            own("share", Entity.MISSION, Type.PERCENT, 0.5),
+            own("urgent", Entity.MISSION, Type.BOOL, False),
+            field("delay", Entity.TRIP, FieldType.TIME),
+            own("fragile", Entity.TRIP, Type.BOOL, None),
+            own("note", Entity.TRIP, Type.TEXT, ""),
+            own("layers", Entity.TRIP, Type.INT, 1),
+            own("height_over_ground", Entity.TRIP, Type.LENGTH, 0.3),
+            own("warmth", Entity.TRIP, Type.TEMPERATURE, None),
+        ),
+        categories=(Category(name="drone"),),
+        actions=BUILT_IN,
+    )
+)
+"""An app with fields of its own, of every sort."""

@@ -143,7 +143,7 @@ def test_only_the_drones_must_be_given(tmp_path: Path) -> None:
     fleet = load(tmp_path, '[[drone]]\nid = "a"\nhome = [1, 1]', PLAIN)
     drone = DroneEntry(id="a", category="drone", home=(1.0, 1.0, 0.0), line=1)
     assert fleet == FleetFile(airspace=Airspace(), drones=(drone,), motion=CRAZYFLIE)
-    assert fleet.after_trip is AfterTrip.HOME
+    assert fleet.after_trip is AfterTrip.NEXT
     assert fleet.world is None
 
 

@@ -262,8 +262,24 @@ def test_a_trip_that_cannot_be_flown_is_refused(tmp_path: Path, rest: str, said:
         ('at = "25:00"', 'at "25:00" is not a time of day: write it like "08:00"'),
         ("at = 8", 'at 8 is not a time of day: write it like "08:00"'),
         ('evaluator = "find_bloom"', 'unknown evaluator "find_bloom"; did you mean "find_blooms"?'),
-        ('gap = "3 s"', ('unknown key "gap"; a mission of this app has: name, trip, safe_time, '
-         "repeat, at, evaluator")),
+        ('gap = "3 s"', ('unknown key "gap"; a mission of this app has: name, trip, area, deadline, '
+         "window, after, safe_time, repeat, at, evaluator")),
+        ('deadline = "soon"', ('deadline "soon" is not a time: write a number and a unit (ms, s, min, h);'
+         ' or a time of day, like "08:30"')),
+        ('deadline = "25:00"', 'deadline "25:00" is not a time of day: write it like "08:00"'),
+        ("deadline = -1", 'deadline -1 is less than 0 s: it may be 0 s to 1,000,000,000 s'),
+        ('window = "08:00"', 'window "08:00" is not a list of two times, like ["08:00", "08:30"]'),
+        ('window = ["08:00", 3, 4]', 'window […] is not a list of two times, like ["08:00", "08:30"]'),
+        ('window = ["08:00", "25:00"]', 'window […] has an element that is not a time of day: write it like "08:00"'),
+        ('window = ["20 s", "10 s"]', 'window […] has no time between its two'),
+        ('window = ["20 s", "20 s"]', 'window […] has no time between its two'),
+        ('window = ["8:00", "08:00:00"]', 'window […] has no time between its two'),
+        ("window = [08:00:00, 08:00:00]", 'window […] has no time between its two'),
+        ("deadline = 2026-05-01", 'deadline 2026-05-01 is not a time: write a number, or a text with a unit (ms, s, min, h); or a time of day, like "08:30"'),
+        ("after = [1]", 'after […] is not a list of missions, like ["Mission 1"]'),
+        ("after = 3", 'after 3 is not a list of missions, like ["Mission 1"]'),
+        ('after = "N"', 'comes after "N", and there is no such mission'),
+        ('after = ["M"]', 'comes after itself: it can never begin'),
     ],
 )  # fmt: skip
 def test_a_missions_fields_are_checked(tmp_path: Path, key: str, said: str) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from pluto_fleet.shared.domain.model import Category, Drone, Point, Trip
+from pluto_fleet.shared.fleet.policies import Able
 
 SCOUT = Category(name="scout")
 
@@ -34,6 +36,19 @@ def fleet(*places: Point) -> list[Drone]:
 def trip(target: Point, source: Point | None = None) -> Trip:
     """Return a trip to there."""
     return Trip(name="A", action="take_photo", target=target, source=source)
+
+
+@dataclass(frozen=True, eq=False)
+class Offer:
+    """What a policy for all that wait asks of a request."""
+
+    goal: Point
+    able: Able
+
+
+def offer(goal: Point, able: Able | None = None) -> Any:
+    """Return a request for a drone there."""
+    return Offer(goal=goal, able=able or anyone)
 
 
 def anyone(drone: Drone) -> bool:

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import permutations
 from random import Random
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.shared.domain.model import Drone, Point
-from pluto_fleet.shared.fleet.batch_optimal import batch_optimal
+from pluto_fleet.shared.fleet.batch_optimal import batch_optimal as asked
 from pluto_fleet.shared.fleet.policies import Able
-from tests.runtime.policies.fleets import anyone, fleet, trip
+from tests.runtime.policies.fleets import fleet, offer
+
+
+def batch_optimal(offers: Any, drones: Sequence[Drone]) -> Any:
+    """Ask it; it needs no queue."""
+    queue: Any = None
+    return asked(offers, drones, queue)
+
 
 PLACE = st.tuples(st.integers(0, 9).map(float), st.integers(0, 9).map(float), st.just(0.0))
 
@@ -25,7 +34,7 @@ def shared(
     def asks(index: int) -> Able:
         return lambda drone: (index, drone.index) in able
 
-    offers = [(trip(goal), asks(index)) for index, goal in enumerate(goals)]
+    offers = [offer(goal, asks(index)) for index, goal in enumerate(goals)]
     choices = batch_optimal(offers, drones)
     given = [(n, choice[0]) for n, choice in enumerate(choices) if choice is not None]
     assert len({drone.index for _, drone in given}) == len(given), "no drone twice"
@@ -90,16 +99,16 @@ def test_it_is_as_short_as_scipy_makes_it() -> None:
 def test_of_two_drones_that_are_equally_far_it_is_the_first_of_the_fleet() -> None:
     drones = fleet((0.0, 0.0, 0.0), (2.0, 0.0, 0.0))
     why = "least total way for 1 waiting trips and 2 free drones: 1.0 m away"
-    assert batch_optimal([(trip((1.0, 0.0, 0.0)), anyone)], drones) == [(drones[0], why)]
+    assert batch_optimal([offer((1.0, 0.0, 0.0))], drones) == [(drones[0], why)]
 
 
 def test_of_two_trips_that_are_equally_far_it_is_the_one_that_came_first() -> None:
     (only,) = fleet((1.0, 0.0, 0.0))
-    first, second = batch_optimal([(trip((x, 0.0, 0.0)), anyone) for x in (0.0, 2.0)], [only])
+    first, second = batch_optimal([offer((x, 0.0, 0.0)) for x in (0.0, 2.0)], [only])
     assert first is not None
     assert (first[0], second) == (only, None)
 
 
 def test_without_drones_all_go_without() -> None:
-    assert batch_optimal([(trip((0.0, 0.0, 0.0)), anyone)], []) == [None]
+    assert batch_optimal([offer((0.0, 0.0, 0.0))], []) == [None]
     assert batch_optimal([], fleet((0.0, 0.0, 0.0))) == []

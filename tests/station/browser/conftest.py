@@ -33,7 +33,7 @@ A_STEP = 30_000
 
 expect.set_options(timeout=A_STEP)
 
-APPS = ("drugs_distribution", "alfalfa", "drugs_distribution_retry")
+APPS = ("drugs_distribution", "alfalfa", "drugs_distribution_retry", "night_ward")
 
 
 class Serve(Protocol):

@@ -13,6 +13,18 @@ from pathlib import Path
 from tests.flying import fly_straight
 from tests.release.environments import ROOT, compile_app, succeed
 
+ALTERED = {
+    "night_ward": (
+        "night_round",
+        {
+            "app night_round": "app night_ward",
+            'patient: text = "", most: float = 20': "patient: text, most: float = 20, margin: time = 10 min",
+            "  action listen": "  trip has softly: bool, warmth: temperature = 20 C\n\n  action listen",
+        },
+    )
+}
+"""Apps that are an example with other words in its source."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class App:
@@ -47,9 +59,16 @@ def installed(names: Sequence[str], folder: Path) -> dict[str, App]:
 def _install(names: Sequence[str], folder: Path) -> None:
     wanted = []
     for name in names:
-        shutil.copytree(ROOT / "examples" / name, folder / name)
+        example, words = ALTERED.get(name, (name, {}))
+        shutil.copytree(ROOT / "examples" / example, folder / name)
+        source = folder / name / "app.pluto"
+        text = source.read_text(encoding="utf-8")
+        for old, new in words.items():
+            assert old in text
+            text = text.replace(old, new)
+        source.write_text(text, encoding="utf-8")
         fly_straight(folder / name / "fleet.toml")
-        package = compile_app(folder / name / "app.pluto", folder / name / "package")
+        package = compile_app(source, folder / name / "package")
         wanted.append(f"{package}[station]")
     venv.create(folder / "venv", with_pip=False)
     pip = (sys.executable, "-m", "pip", "--python", folder / "venv", "install", "--quiet")

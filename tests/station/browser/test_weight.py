@@ -16,7 +16,7 @@ from tests.release.environments import ROOT
 from tests.station.browser.chrome import chromium
 
 PAGES = ROOT / "runtime" / "pluto_fleet" / "station" / "pages"
-MOST = 60_000
+MOST = 64_000
 
 
 def served() -> list[Path]:
@@ -24,7 +24,7 @@ def served() -> list[Path]:
     return [path for path in sorted(PAGES.iterdir()) if path.is_file() and path.suffix != ".py"]
 
 
-def test_all_pages_together_are_less_than_sixty_kilobytes_gzipped() -> None:
+def test_all_pages_together_are_less_than_64_kilobytes_gzipped() -> None:
     """Each by itself, as it lies in the package: nothing is packed together for the browser."""
     weights = {path.name: len(gzip.compress(path.read_bytes(), mtime=0)) for path in served()}
     assert "index.html" in weights

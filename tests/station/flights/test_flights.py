@@ -76,6 +76,22 @@ def completes_all_once(station: Station) -> None:
     assert each_trip_was_done_once(station)
 
 
+def test_what_cannot_be_kept_is_said_when_it_starts(serve: Serve) -> None:
+    """On the console, and no more than that: it is flown all the same."""
+    station = serve()
+    plan = station.get("/api/plan")
+    late, *_ = plan["missions"]
+    late["deadline"] = "1 s"
+    station.put("/api/plan", {name: plan[name] for name in ("revision", "missions")})
+    said = tell(station, "start", missions=[late["key"]])
+    assert said == "1 mission started; not all will be in time: the console says why"
+    lines = [part for line in station.now()["log"] for part in line if isinstance(part, str)]
+    why = f'Mission "{late["name"]}": it is due after 1 s, and takes'
+    assert any(line.startswith(why) for line in lines), lines
+    completes_all_once(station)
+    assert row(station, late["name"])["late"]
+
+
 def test_missions_fly_to_their_end_and_can_be_flown_once_more(serve: Serve) -> None:
     station = serve()
     assert station.phase == "idle"

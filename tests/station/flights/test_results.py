@@ -58,6 +58,21 @@ def test_a_measurement_says_of_what_it_is_and_where() -> None:
     }
 
 
+def test_what_was_done_beside_its_target_says_where() -> None:
+    """A later attempt that was done just there says nothing of it, nor does another trip."""
+    feed = Feed(Sprays(), {})  # type: ignore[arg-type]
+    facts = {"t": 1.0, "mission": "Field", "trip": "A", "round": 0, "attempt": 1, "drone": "cf1"}
+    did = {"action": "measure", "target": [3.0, 4.5, 1.2], "parameters": {}}
+    beside = {"event": "trip.beside", "target": did["target"], "at": [3.7, 4.5, 1.2], **facts}
+    done = {"event": "trip.completed", "result": 1.0, "did": did, **facts}
+    failed = {"event": "trip.failed", "reason": "its link was lost", **facts}
+    for event in (beside, done, beside, failed, done, {**done, "trip": "B"}):
+        feed.take(event)
+    found: list[Any] = feed.brought()
+    assert [one.get("at") for one in found] == [[3.7, 4.5, 1.2], None, None]
+    assert "another drone is at its place" in feed.console()
+
+
 def test_a_quantity_that_was_not_named_is_the_usual_one() -> None:
     found = told("measure", 21.0, dict(UNITS))
     assert (found["quantity"], found["unit"]) == ("temperature", "°C")

@@ -14,16 +14,19 @@ def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, 
     """Return the journal's record of a mission."""
     record = {"done": [], "todo": list(trips), "status": status, "reason": "", "ended": False}
     record |= {"at": None, "index": 0, "attempts": 1, "round": 0, "carrier": None}
+    record |= {"promises": {}, "late": False, "fields": {}}
     return record | dict.fromkeys(("question", "held", "paused")) | more
 
 
-def row(record: dict[str, Any], block: str, **more: Any) -> dict[str, object]:
+def row(
+    record: dict[str, Any], block: str, first: Sequence[str] = (), **more: Any
+) -> dict[str, object]:
     where = {"block": block, "drone": None, "flies": False, "allocated": False, "until": None}
 
     def why(mission: str, todo: Sequence[Mapping[str, Any]]) -> str:
         return str(todo[0]["name"]) if todo else ""
 
-    return living_row("a", record, where | more, ("allocate",), 1, 10.0, why)
+    return living_row("a", record, where | more, ("allocate",), 1, 10.0, why, first)
 
 
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
@@ -54,6 +57,14 @@ def test_a_delay_is_shown_as_long_as_it_lasts() -> None:
     assert row(record, block, until=10.0)["until"] is None
 
 
+def test_a_mission_that_may_not_begin_yet_says_why() -> None:
+    record = record_of("UNEXECUTED", TRIP, promises={"opens": 20.0, "deadline": 30.0})
+    assert row(record, "")["wait"] == "waits until its time has come"
+    assert (row(record, "")["until"], row(record, "")["due"]) == (20.0, 30.0)
+    assert row(record, "", ["m", "n"])["wait"] == "comes after m, n"
+    assert row(record, "wait = Clock", ["m"])["until"] is None
+
+
 def test_a_trip_without_a_priority_of_its_own_has_the_usual_one() -> None:
     """A record leaves out what was not changed; what does not fly is not weighed either."""
     rows = row(record_of("STANDBY", TRIP), ""), recorded_row("a", record_of("STANDBY", TRIP))
@@ -77,16 +88,11 @@ def test_a_trip_is_shown_as_it_flies_only_while_its_brain_knows_that() -> None:
 def test_what_was_judged_when_its_station_died_has_not_ended_either(
     status: str, ended: bool, shown: object
 ) -> None:
-    record: dict[str, Any] = {"done": [], "todo": [], "status": status, "reason": ""}
-    record |= {"ended": ended, "at": "judge", "index": 0, "attempts": 1, "round": 0}
-    record |= dict.fromkeys(("question", "held", "paused"))
-    seen = recorded_row("a", record)
+    seen = recorded_row("a", record_of(status, ended=ended, at="judge"))
     assert (seen["status"], seen["at"]) == shown
 
 
 def test_a_mission_that_goes_on_is_shown_with_the_drone_that_has_its_item() -> None:
-    record: dict[str, Any] = {"done": [], "todo": [], "status": "STANDBY", "reason": ""}
-    record |= {"ended": False, "at": None, "index": 0, "attempts": 1, "round": 0, "carrier": "cf1"}
-    record |= dict.fromkeys(("question", "held", "paused"))
+    record = record_of("STANDBY", carrier="cf1")
     assert recorded_row("a", record, lives=True)["drone"] == "cf1"
     assert recorded_row("a", record)["drone"] is None

@@ -96,6 +96,44 @@ def test_the_whole_of_a_file_is_taken(tmp_path: Path) -> None:
     assert facts(imported(FULL).launchable()[0]) == facts(load_missions(file, APP, FLEET.airspace))
 
 
+def test_an_area_is_taken_as_plain_trips() -> None:
+    """And handed out so; missions beside it stay as they were typed."""
+    area = """
+  [[mission.area]]
+  polygon = [[1, 1], [5, 1], [5, 3], [1, 3]]
+  action = "take_photo"
+  spacing = "2 m"
+  delay = "1 min"
+"""
+    plan = imported(f'{FILE}\n[[mission]]\nname = "Field"\n{area}')
+    text = plan.export_toml()
+    assert text.startswith(FILE)
+    assert text.removeprefix(FILE).count("[[mission.trip]]") == 2
+    assert 'name = "area 1.2"' in text
+    assert "area]]" not in text
+    assert facts(imported(text).launchable()[0]) == facts(plan.launchable()[0])
+    assert plan.launchable()[0][-1].trips[0].delay == 60.0
+
+
+def test_a_list_beside_a_file_is_taken_as_plain_missions(tmp_path: Path) -> None:
+    """One that a page sends has none beside it."""
+    (tmp_path / "beds.csv").write_text("nr,x\n1,2\n2,3\n", encoding="utf-8")
+    text = """
+[[mission]]
+name = "Bed {nr}"
+each = "beds.csv"
+  [[mission.trip]]
+  action = "measure"
+  target = ["{x}", 1]
+"""
+    plan = a_plan()
+    plan.import_toml(text, plan.revision, "m.toml", tmp_path)
+    assert [mission.name for mission in plan.launchable()[0]] == ["Bed 1", "Bed 2"]
+    assert "each" not in plan.export_toml()
+    with pytest.raises(BadInput, match="lies beside a missions file, and this one is in no folder"):
+        plan.import_toml(text, plan.revision)
+
+
 @given(missions=SOUND_PLANS)
 @settings(max_examples=100, derandomize=True, deadline=None)
 def test_what_is_exported_flies_the_same(

@@ -57,6 +57,16 @@ def test_a_plan_without_missions_has_no_problem() -> None:
         ({"at": "8"}, "at", 'at "8" is not a time of day: write it like "08:00"'),
         ({"evaluator": "find_bloom"}, "evaluator",
          'Unknown evaluator "find_bloom"; did you mean "find_blooms"?'),
+        ({"deadline": "3 kg"}, "deadline",
+         'Due "3 kg" is a mass, not a time: it takes ms, s, min, h; or a time of day, like "08:30"'),
+        ({"opens": "soon", "deadline": "5 min"}, "opens",
+         ('Begins at the soonest "soon" is not a time: write a number and a unit (ms, s, min, h);'
+         ' or a time of day, like "08:30"')),
+        ({"opens": "08:00", "deadline": "8:77"}, "deadline",
+         'Due "8:77" is not a time of day: write it like "08:00"'),
+        ({"opens": "08:00"}, "opens", "It needs an end as well: fill in by when it is due"),
+        ({"opens": "9 min", "deadline": "8 min"}, "deadline",
+         "There is no time between when it may begin and when it is due"),
         ({"trips": []}, None, "Has no trips yet: drag an action onto the floor plan"),
     ],
 )  # fmt: skip

@@ -2,18 +2,23 @@
 
 import { choose } from "../dialogs/chooser.js";
 import { button, h, icon, keyed } from "../dom.js";
-import { declare, removeDeclaration, rewrite, setArgument, setTitle } from "../operations.js";
+import { declare, removeDeclaration, rewrite, rewriteField, setArgument, setTitle } from "../operations.js";
 import { app } from "../state.js";
 import { fieldOf } from "./fields.js";
 import { openHook } from "./hooks.js";
 
 const NEW = [
   { id: "category", label: "A category of drones", detail: "what they can do and carry", text: (name) => `category ${name} can take_photo, measure` },
-  { id: "evaluator", label: "An evaluator", detail: "judges finished missions", text: (name) => `evaluator ${name}` },
+  { id: "evaluator", label: "An evaluator", detail: "judges finished missions; it may take values: (least: int = 2)", text: (name) => `evaluator ${name}` },
   { id: "modifier", label: "A modifier", detail: "called for every mission that passes", text: (name) => `modifier ${name}` },
-  { id: "action", label: "An action", detail: "what a drone does at its target", text: (name) => `action ${name}` },
+  { id: "action", label: "An action", detail: "what a drone does at its target; -> float says what it gives", text: (name) => `action ${name}` },
   { id: "policy", label: "A policy", detail: "chooses the drone", text: (name) => `policy ${name}` },
+  { id: "mission", label: "A field of missions", detail: "filled in by users, read by hooks", text: (name) => `mission has ${name}: text = ""` },
+  { id: "trip", label: "A field of trips", detail: "filled in by users, read by hooks", text: (name) => `trip has ${name}: text = ""` },
 ];
+
+let fresh = ""; // what was declared just now: its name is typed over next
+const unnamed = new Set(); // fields that still have the name that they came with: no plan knows it
 
 export function appPanel() {
   const title = h("input", {
@@ -22,18 +27,36 @@ export function appPanel() {
     onkeydown: (event) => { if (event.key === "Escape") title.value = app.view.title; },
   });
   const categories = h("div", { class: "declarations" });
+  const fields = h("div", { class: "declarations" });
   const hooks = h("div", { class: "declarations" });
   const element = h("div", { class: "panel" },
     h("div", { class: "panel-top" }, title,
       button("Declare", () => declareNew(), { kind: "small", sign: "plus", title: "A category of drones, or code of your own" })),
-    h("h3", {}, "Drones"), categories, h("h3", {}, "Code of your own"), hooks);
+    h("h3", {}, "Drones"), categories, h("h3", {}, "Fields of missions and trips"), fields, h("h3", {}, "Code of your own"), hooks);
 
   function update() {
+    const held = document.activeElement;
+    const row = element.contains(held) && held.closest(".declaration");
+    const [list, at] = [row?.parentElement, [...row?.parentElement?.children ?? []].indexOf(row)];
     if (document.activeElement !== title) title.value = app.view.title;
     keyed(categories, app.view.categories, (one) => one.name, categoryOf, (item, one) => item.update(one));
     if (!app.view.categories.length) categories.replaceChildren(h("p", { class: "hint" }, "Any drone does everything. Declare a category to say what drones can do and carry."));
+    keyed(fields, app.view.fields, (one) => one.name, fieldRow, (item, one) => item.update(one));
+    if (!app.view.fields.length) fields.replaceChildren(h("p", { class: "hint" }, "None but those that blocks bring. Declare one to have users fill in what your code reads."));
     keyed(hooks, app.view.hooks, (one) => one.name, hookOf, (item, one) => item.update(one));
     if (!app.view.hooks.length) hooks.replaceChildren(h("p", { class: "hint" }, "None. A MissionModifier or a MissionEvaluator calls a function of yours; adding one declares it."));
+    if (row && !held.isConnected) list.children[at]?.querySelector("input")?.focus(); // it has another name now
+    nameFresh();
+  }
+
+  function nameFresh() {
+    const input = fresh && element.querySelector(`[data-declares="${fresh}"]`);
+    if (!input) return;
+    const name = fresh.split(".").at(-1);
+    const at = new RegExp(`\\b${name}\\b`).exec(input.value).index;
+    fresh = "";
+    input.focus();
+    input.setSelectionRange(at, at + name.length);
   }
 
   update();
@@ -41,15 +64,15 @@ export function appPanel() {
 }
 
 // A declaration as one line of Pluto text, which can be changed.
-function line(one) {
+function line(one, change = rewrite) {
   const input = h("input", {
-    type: "text", class: "mono", spellcheck: "false", autocomplete: "off", "aria-label": `The declaration of ${one.name}`,
-    onchange: () => { if (input.value.trim() !== input.dataset.text) rewrite(one.name, input.value.trim()); },
+    type: "text", class: "mono", spellcheck: "false", autocomplete: "off", "aria-label": `The declaration of ${one.name}`, "data-declares": one.name,
+    onchange: () => { if (input.value.trim() !== input.dataset.text) change(one.name, input.value.trim()); },
     onkeydown: (event) => { if (event.key === "Escape") input.value = input.dataset.text; },
   });
   const update = ({ text }) => {
     if (document.activeElement !== input) input.value = text;
-    input.dataset.text = text;
+    input.dataset.text = input.title = text;
   };
   update(one);
   return { input, update };
@@ -71,6 +94,13 @@ function categoryOf(one) {
   return item;
 }
 
+function fieldRow(one) {
+  const text = line(one, (name, written) => rewriteField(name, written, { planned: !unnamed.delete(name) }));
+  const item = h("div", { class: "declaration" }, h("div", { class: "row" }, h("code", { class: "hint" }, `${one.on} has`), text.input, remove(one)));
+  item.update = (next) => text.update(next);
+  return item;
+}
+
 function hookOf(one) {
   const text = line(one);
   const code = button("", () => openHook(one.name), { kind: "small", sign: "code" });
@@ -88,7 +118,12 @@ async function declareNew() {
   const one = NEW.find((other) => other.id === id);
   if (!one) return;
   const taken = new Set([...app.nodes.keys(), ...app.view.hooks.map(({ name }) => name), ...app.view.categories.map(({ name }) => name)]);
-  let name = `my_${id}`;
-  for (let n = 2; taken.has(name); n += 1) name = `my_${id}_${n}`;
-  await declare(one.text(name));
+  const isField = id === "mission" || id === "trip";
+  for (const field of app.view.fields) if (field.on === id) taken.add(field.name.split(".")[1]);
+  const first = isField ? "note" : `my_${id}`;
+  let name = first;
+  for (let n = 2; taken.has(name); n += 1) name = `${first}_${n}`;
+  fresh = isField ? `${id}.${name}` : name;
+  if (isField) unnamed.add(fresh);
+  if (!await declare(one.text(name))) fresh = "";
 }

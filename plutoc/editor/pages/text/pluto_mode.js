@@ -5,9 +5,11 @@ import { tags } from "../codemirror/lezer-highlight.js";
 
 const WORDS = /^(?:pluto|use|as|app|category|can|action|evaluator|modifier|policy|emits|writes|when|otherwise)\b/;
 const SETTINGS = /^(?:version|requires)\b(?=[ \t]*")/;
+const FIELDS = /^(?:mission|trip)[ \t]+has\b(?=[ \t]+[A-Za-z])/;
 const CONSTANTS = /^(?:yes|no|safe|once|ask)\b/;
 const STATUS = /^(?:UNEXECUTED|RUNNING|STANDBY|COMPLETED|FAILED)\b/;
 const TYPES = /^(?:int|float|bool|text|mass|length|time|angle|percent|speed|temperature)\b/;
+const PHOTO = /^(?:photo)\b(?=[ \t]*(?:$|#|safe|once|ask))/;
 const QUANTITY = /^-?\d+(?:\.\d+)?(?:[ \t]*(?:km\/h|m\/s|min|deg|rad|ms|mm|cm|km|mg|kg|s|h|m|g|%|C|K)(?!\w))?/;
 
 function token(stream) {
@@ -19,9 +21,9 @@ function token(stream) {
   if (stream.match(/^[A-Za-z]\w*(?=[ \t]*:)/)) return "parameter";
   if (stream.match(/^[A-Za-z]\w*(?=[ \t]*=)/)) return "definition";
   if (stream.match(STATUS)) return "status";
-  if (stream.match(WORDS) || stream.match(SETTINGS)) return "keyword";
+  if (stream.match(WORDS) || stream.match(SETTINGS) || stream.match(FIELDS)) return "keyword";
   if (stream.match(CONSTANTS)) return "constant";
-  if (stream.match(TYPES)) return "type";
+  if (stream.match(TYPES) || stream.match(PHOTO)) return "type";
   if (stream.match(/^(?:start|end)\b/)) return "terminal";
   if (stream.match(/^[A-Z]\w*/)) return "kind";
   if (stream.match(/^\w+/)) return "name";

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from math import inf
+from math import dist, inf
 from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import Failure, FlightFailed
 from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
-from .reservations import Reservation, ahead, are_near, meets, nearest
+from .beside import best_angle, places_above, places_around
+from .reservations import Reservation, ahead, are_near, meets
+from .space import SWAY, Space
 from .wait_queue import HOVERS, Elder, Obstacle, Wait, WaitQueue
 from .ways import Ground, Section, sections
 
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from ...jobs.controls import Controls, FleetDrone
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Point
+    from .wait_queue import Beside
 
 AGAIN = 0.5
 """Seconds between two looks at the waiting drones that are due, even if none has reported to have passed."""
@@ -27,10 +30,10 @@ TOGETHER = 0.1
 """Seconds within which requests count as simultaneous: those of one instant reach a gateway one by one."""
 ELDER = 20.0
 """Seconds after which later requests may not even cross where a drone wants to fly."""
+NEARER = 4.0
+"""Seconds that a drone flies longer rather than act one step, by which drones are kept apart, farther from its target."""
 OVERSHOOT, STOPPING = 0.6, 2.0
 """How far a real drone overshoots when it stops, in metres, and for how long."""
-SWAY = 0.05
-"""By how much two real drones may be nearer to each other than the places where they were told to be."""
 _EXACT = 1e-9
 
 Ways = Callable[[Section], Iterable[Section]]
@@ -61,14 +64,17 @@ class Traffic:
         self.level = self.step + (SWAY if self.is_real else 0.0)
         """The height between two ways of which one leads over the other."""
         self._overshoot = OVERSHOOT if self.is_real else 0.0
-        self._most = len(drones) if max_airborne is None else max_airborne
-        self.is_limited = self._most < len(drones)
+        most = len(drones) if max_airborne is None else max_airborne
+        self.is_limited = most < len(drones)
         """Whether the number of drones in the air is limited."""
-        self._claims: dict[str, Reservation] = {}
-        """The reservations of drones in the air, or about to take off."""
-        self._silent: dict[str, float] = {}
-        """Lost drones, and until when each may still be in the air."""
         self._waiting = WaitQueue(self.limit)
+        self._space = Space(
+            kernel, self._drones, controls.telemetry, apart, self.limit, self.is_real, most
+        )
+        self._space.changed = self._waiting.changed
+        self._claims = self._space.claims
+        self.touches_down = self._space.touches_down
+        self.lost, self.found = self._space.lost, self._space.found
         self._free: dict[str, None] = {}
         """The drones that have released space at this instant."""
         self.halted: dict[str, None] = {}
@@ -81,23 +87,37 @@ class Traffic:
         """Reserve space for drones that are in the air without a section."""
         for drone, telemetry in self._telemetry.items():
             if drone not in self._claims and not telemetry.landed:
-                self._claim(drone).rests((), 0.0)
+                self._space.claim(drone).rests((), 0.0)
 
     # A drone's section
 
-    def clear(self, section: Section, ways: Ways | None = None) -> Section | None:
-        """Reserve a section for a drone, or an alternative; return None if it must wait."""
-        if not self._has_room(section):
+    def clear(
+        self, section: Section, ways: Ways | None = None, beside: Beside | None = None
+    ) -> Section | None:
+        """Reserve a section for a drone, or an alternative; return None if it must wait.
+
+        With `beside` it may end beside its target, if another drone has taken that.
+        """
+        if not self._space.has_room(section):
             return None
         now = self._kernel.now
         for way in self._ways(section, ways):
-            if self._blocker(way) is None and not (self._waiting and self._elder(way, now)):
+            if self._space.blocker(way) is None and not (self._waiting and self._elder(way, now)):
                 return self._give(way)
-        return None
+        if beside is None or not self._is_taken(section, now):
+            return None
+        way_beside = self._beside(section, now, beside)
+        return None if way_beside is None else self._give(way_beside)
 
-    async def cleared(self, section: Section, since: float, ways: Ways | None = None) -> Section:
+    async def cleared(
+        self,
+        section: Section,
+        since: float,
+        ways: Ways | None = None,
+        beside: Beside | None = None,
+    ) -> Section:
         """Wait for a section, and return it; it may only lead out of the way."""
-        wait = Wait(section, since, tuple(self._ways(section, ways)))
+        wait = Wait(section, since, tuple(self._ways(section, ways)), beside)
         self._waiting.add(wait)
         if self._timer is None:
             self._timer = self._look_at(self._kernel.now + AGAIN, self._look)
@@ -115,9 +135,9 @@ class Traffic:
     def rests(self, drone: str) -> None:
         """Called when a drone is at the end of its section."""
         if self._telemetry[drone].landed:
-            self._drop(drone)
+            self._space.drop(drone)
         else:
-            claim = self._claim(drone)
+            claim = self._space.claim(drone)
             claim.rests(claim.tail, self._kernel.now + STOPPING)
         self._released(drone)
 
@@ -126,12 +146,12 @@ class Traffic:
         claim = self._claims.get(drone)
         telemetry = self._telemetry[drone]
         if telemetry.landed:
-            self._drop(drone)
+            self._space.drop(drone)
         elif fails:
-            self._claim(drone).sinks()
+            self._space.claim(drone).sinks()
             self._stop_before(drone)
         elif claim is None:
-            self._claim(drone).rests((), 0.0)
+            self._space.claim(drone).rests((), 0.0)
         elif claim.moves:
             tail = ahead(claim.shape(self._kernel.now), self._overshoot)
             claim.rests(tail, self._kernel.now + STOPPING)
@@ -154,14 +174,6 @@ class Traffic:
         if wait is not None:
             self._waiting.remove(wait)
             wait.over.fail(FlightFailed(Failure.REFUSED, f"{drone} was told to break it off"))
-
-    def lost(self, drone: str) -> None:
-        """Called when a drone's position is unknown: it is down when its battery is empty at the latest."""
-        self._silent[drone] = self._kernel.now + self._drones[drone].category.endurance
-
-    def found(self, drone: str) -> None:
-        """Called when a lost drone has telemetry again."""
-        self._silent.pop(drone, None)
 
     # The queue
 
@@ -196,9 +208,13 @@ class Traffic:
 
     def _serve(self, wait: Wait) -> None:
         section = self._found(wait)
+        beside = None if section is not None else wait.beside
+        if beside is not None and self._is_taken(wait.section, wait.since):
+            section = self._beside(wait.section, wait.since, beside)
+            wait.due = self._kernel.now  # a place may become free at any time
         if section is None and self._should_land(wait):
             ways = self.ground.ways_down(wait.section.drone)
-            section = next((way for way in ways if self._blocker(way) is None), None)
+            section = next((way for way in ways if self._space.blocker(way) is None), None)
         if section is not None:
             self._waiting.remove(wait)
             wait.over.set(self._give(section))
@@ -206,7 +222,7 @@ class Traffic:
     def _found(self, wait: Wait) -> Section | None:
         """Return a free section; if there is none, write down when to look again."""
         now = self._kernel.now
-        if not self._has_room(wait.section):
+        if not self._space.has_room(wait.section):
             wait.due = now
             return None
         due = inf
@@ -231,7 +247,7 @@ class Traffic:
             if obstacle.is_sure(self._kernel.now):
                 return obstacle
             claim = obstacle.claim
-            if self._claims.get(claim.drone) is claim and self._is_in_the_way(claim, way):
+            if self._claims.get(claim.drone) is claim and self._space.is_in_the_way(claim, way):
                 obstacle.seen(way.whole, self.limit, self._kernel.now)
                 return obstacle
         return self._obstacle(way, wait.clear[index])
@@ -239,7 +255,7 @@ class Traffic:
     def _obstacle(
         self, way: Section, clear: dict[str, tuple[Point, ...]] | None = None
     ) -> Obstacle | None:
-        claim = self._blocker(way, clear)
+        claim = self._space.blocker(way, clear)
         if claim is None:
             return None
         obstacle = Obstacle(claim, self._drones[claim.drone].category, self.is_real)
@@ -266,101 +282,67 @@ class Traffic:
         first = wait.obstacles[0]
         return None if first is None else self._claims.get(first.claim.drone)
 
+    # Beside a target
+
+    def _beside(self, section: Section, since: float, beside: Beside) -> Section | None:
+        """Return a free section to a place beside the target, which another drone has taken."""
+        if not self._space.has_room(section):
+            return None
+        target, airspace = section.points[-1], self._airspace
+        best, least, soon = None, inf, self._seconds(section)
+
+        def cost(way: Section) -> float:
+            """Return the seconds that count: it need not be there earlier than at its target."""
+            far = dist(way.points[-1], target) / self.level
+            return max(soon, self._seconds(way)) + NEARER * far
+
+        holder = self._space.holder(target, section.drone)
+        holders = holder.points if holder is not None and holder.moves else None
+        angle = best_angle(section.points, holders)
+        around = places_around(target, self.level, airspace, angle)
+        free = [place for place in around if self._space.holder(place, section.drone) is None]
+        for place in free or places_above(target, self.level, airspace):
+            way = beside(place)
+            if way is None or cost(way) >= least or self._is_shut(section.drone, place):
+                continue  # so it is at other heights, where it takes longer still
+            for one in sections(way, self.level, airspace):
+                seconds = cost(one)
+                is_free = seconds < least and self._space.blocker(one) is None
+                if is_free and not self._elder(one, since):
+                    best, least = one, seconds
+        return best
+
+    def _is_shut(self, drone: str, place: Point) -> bool:
+        """Whether a drone cannot be at a place now, for another is there, or will come by."""
+        return self._space.blocker(Section(drone, (place,), True, False)) is not None
+
+    def _seconds(self, way: Section) -> float:
+        """Return how long a way takes that ends in the air."""
+        category = self._drones[way.drone].category
+        points = way.points[1 if way.stands else 0 :]
+        stages = category.motion.stages(points, category.speed, way.stands, False)
+        return sum(before + flies + after for _, before, flies, after in stages)
+
+    def _is_taken(self, section: Section, since: float) -> bool:
+        """Whether another drone hovers at a section's end or will, or an older one waits for it."""
+        end, drone = section.points[-1], section.drone
+        return self._space.holder(end, drone) is not None or any(
+            wait.since < since - TOGETHER
+            and wait.section.drone != drone
+            and dist(wait.section.points[-1], end) < self.limit
+            for wait in self._waiting
+        )
+
     # Reservations
 
     def _ways(self, section: Section, ways: Ways | None) -> Iterable[Section]:
         return sections(section, self.level, self._airspace) if ways is None else ways(section)
 
     def _give(self, section: Section) -> Section:
-        claim = self._claim(section.drone)
+        claim = self._space.claim(section.drone)
         claim.moves_along(section.points, section.tail)
         self._waiting.changed(claim)
         return section
-
-    def _claim(self, drone: str) -> Reservation:
-        claim = self._claims.get(drone)
-        if claim is None:
-            claim = self._claims[drone] = Reservation(drone, self._telemetry[drone])
-        return claim
-
-    def _drop(self, drone: str) -> None:
-        """Release all that a drone has reserved."""
-        claim = self._claims.pop(drone, None)
-        if claim is not None:
-            claim.points = ()  # so that no other takes it for an obstacle
-            self._waiting.changed(claim)
-
-    def _has_room(self, section: Section) -> bool:
-        """Return whether a drone may take off, by the limit of drones in the air."""
-        claims = self._claims
-        if not section.stands or len(claims) < self._most:
-            return True
-        for claim in [*claims.values()]:  # some may have come down by themselves
-            if not claim.moves and self._is_over(claim):
-                self._drop(claim.drone)
-        return len(claims) < self._most
-
-    def _is_over(self, claim: Reservation) -> bool:
-        """Whether a drone that should hover, or has failed, is not in the air any more."""
-        if claim.telemetry.landed:
-            return True
-        until = self._silent.get(claim.drone)
-        return until is not None and self._kernel.now >= until
-
-    def _blocker(
-        self, section: Section, clear: dict[str, tuple[Point, ...]] | None = None
-    ) -> Reservation | None:
-        """Return a drone whose reservation blocks a section.
-
-        Routes in `clear` are taken not to; others that do not are added.
-        """
-        claims, drone = self._claims, section.drone
-        if not claims or (len(claims) == 1 and drone in claims):
-            return None
-        limit = self.limit
-        x, y, z, most_x, most_y, most_z = section.box
-        x, y, z = x - limit, y - limit, z - limit
-        most_x, most_y, most_z = most_x + limit, most_y + limit, most_z + limit
-        for other, claim in claims.items():
-            if other == drone or (clear is not None and clear.get(other) is claim.points):
-                continue
-            box = claim.box
-            if (
-                box[0] < most_x
-                and box[3] > x
-                and box[1] < most_y
-                and box[4] > y
-                and box[2] < most_z
-                and box[5] > z
-                and self._is_in_the_way(claim, section)
-            ):
-                return claim
-            if clear is not None and claim.moves:
-                clear[other] = claim.points
-        return None
-
-    def touches_down(self, drone: str) -> bool:
-        """Return whether a real drone is about to be on the ground: it reports to fly for seconds more."""
-        claim = self._claims.get(drone)
-        return self.is_real and claim is not None and claim.touches_down(self._kernel.now)
-
-    def _is_in_the_way(self, claim: Reservation, section: Section) -> bool:
-        way, shape, limit = section.whole, claim.shape(self._kernel.now), self.limit
-        if not are_near(section.box, claim.shape_box, limit):
-            return False
-        if self.is_real and claim.touches_down(self._kernel.now):
-            limit = self.apart - SWAY  # docks may stand just so far apart
-        if not meets(way, shape, limit):
-            return False
-        if claim.moves:
-            return True
-        if self._is_over(claim):
-            return False
-        if section.stands:
-            return True
-        # A drone that is too near to a hovering one already may fly away from it, but no nearer.
-        now = nearest(way[:1], shape[:1])
-        return now >= limit or meets(way, shape, now - 1e-6)
 
     def _elder(self, section: Section, since: float) -> Elder | None:
         """Return a drone that has waited longer, and would wait longer still for this section.

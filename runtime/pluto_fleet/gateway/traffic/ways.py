@@ -43,6 +43,8 @@ class Section:
     """Where it goes next by default: to its dock."""
     aside: bool = False
     """It only makes room for others."""
+    target: Point | None = None
+    """Where it was to end, if it ends beside that."""
     whole: tuple[Point, ...] = field(init=False, compare=False, repr=False)
     """It with its tail."""
     box: Box = field(init=False, compare=False, repr=False)

@@ -174,7 +174,7 @@ const FACTORS = {
 };
 const OFFSETS = { C: 273.15 };
 const USUAL = ["s", "g", "m", "deg", "%", "m/s", "C"];
-const TIME = ["s", "min", "h"];
+export const TIME = ["s", "min", "h"];
 
 const amount = (text) => /^\s*([+-]?\d+(?:[.,]\d+)?)\s*([A-Za-z%/]*)\s*$/.exec(String(text));
 
@@ -198,7 +198,7 @@ function number(text) {
 function typed(field, id, change) {
   const units = field.type === "time" ? TIME : field.units ?? [];
   const fallback = field.default ?? null;
-  const usual = fallback === null ? "" : fallback === 0 && field.type === "time" ? "none"
+  const usual = fallback === null ? "" : fallback === 0 && field.type === "time" && !field.own ? "none"
     : inWords(fallback, units);
   // a number without a unit gets one, so that it is seen what was understood
   const unit = (units.length && usual.split(" ")[1]) || USUAL.find((one) => units.includes(one));
@@ -221,7 +221,9 @@ function typed(field, id, change) {
   const input = h("input", {
     id, type: dayTime ? "time" : "text", maxlength: 500, autocomplete: "off", spellcheck: "false",
     inputmode: numeric && "decimal",
-    placeholder: usual || (unit && `such as 3 ${field.type === "time" ? "min" : unit}`),
+    placeholder: field.hint
+      ?? (usual || (unit && `such as 3 ${field.type === "time" ? "min" : unit}`)
+        || (field.needed && "to be filled in")),
     oninput: heard(true), onchange: heard(false),
     onblur: () => input.validity.badInput && heard(false)(),
   });
@@ -255,6 +257,12 @@ function rounds(id, change) {
 
 function control(field, id, evaluators, change) {
   if (field.type === "rounds") return rounds(id, change);
+  if (field.type === "bool" && field.needed) {
+    const onchange = () => change({ yes: true, no: false }[input.value], false);
+    const input = h("select", { id, onchange },
+      ["", "yes", "no"].map((value) => h("option", { value }, value || "Choose")));
+    return { input, show: (value) => { input.value = value === undefined ? "" : value ? "yes" : "no"; } };
+  }
   if (field.type === "bool") {
     const onchange = () => change(input.checked, false);
     const input = h("input", { id, type: "checkbox", onchange });
@@ -267,7 +275,7 @@ function control(field, id, evaluators, change) {
   return { input, show: (value) => { input.value = value ?? ""; } };
 }
 
-// field: { name, type, label?, default?, units?, wrong?: value → why it cannot be in the plan }
+// field: { name, type, label?, default?, units?, own?, needed?, wrong?: value → why it cannot be in the plan }
 // change(value, typing, draft): undefined is empty; draft: { typed, why }, for what is not in the plan
 // → { element, input, update(value, { problem, locked }) }; what is typed in stays meanwhile.
 export function fieldFor(field, { evaluators = [], change }) {
@@ -288,6 +296,7 @@ export function fieldFor(field, { evaluators = [], change }) {
   const name = plain(field.name);
   const label = field.label ?? name[0].toUpperCase() + name.slice(1);
   set(input, "aria-describedby", problem.id);
+  set(input, "aria-required", field.needed && "true");
   input.addEventListener("blur", () => one.update(...latest));
   const one = {
     input,

@@ -6,7 +6,8 @@ import {
   setField, token, withField,
 } from "./api.js";
 import {
-  button, fieldFor, fill, h, icon, keyed, many, newKey, plain, put, reorderable, set, shown, unique,
+  button, fieldFor, fill, h, icon, inWords, keyed, many, newKey, plain, put, reorderable, set, shown,
+  TIME, unique,
 } from "./dom.js";
 import { actions, actionSign, called, floorPlan, metres, pins, whyNot } from "./floor.js";
 
@@ -18,7 +19,18 @@ const ENDED = {
   BROKEN_OFF: ["Broken off", "warn", "warning"],
 };
 
-function missionList({ select, open, rename, remove, move }) {
+// "2 trips · Amato · due 20 min · after Bed 1": what one tells missions apart by.
+function inShort({ trips, deadline, after = [], ...mission }, fields) {
+  const texts = fields.mission.filter(({ own, type }) => own && type === "text");
+  return [
+    trips.length ? many(trips.length, "trip") : "no trips yet",
+    ...texts.map(({ name }) => mission[name]),
+    deadline !== undefined && `due ${inWords(deadline, TIME)}`,
+    after.length > 0 && `after ${after.length === 1 ? after[0] : many(after.length, "other")}`,
+  ].filter(Boolean).join(" · ");
+}
+
+function missionList({ fields, select, open, rename, remove, move }) {
   let missions = [];
   let selected = null;
   const act = (what) => ({ target }) => {
@@ -53,10 +65,14 @@ function missionList({ select, open, rename, remove, move }) {
     h("span", { class: "chip" }));
 
   // A mission that is only not finished yet has nothing wrong with it.
-  function mark({ key, trips, launched, ended }, problems) {
-    const of = problems.filter(({ mission }) => mission === key);
+  function mark({ key, trips, launched, ended, ...mission }, problems) {
+    const of = problems.filter((problem) => problem.mission === key);
+    const empty = ({ trip, field }) => !trip && fields.mission.some(({ name, needed }) =>
+      needed && name === field && mission[name] === undefined);
     if (launched) return ["Started", "info", "lock"];
-    if (of.some(({ field }) => trips.length || field)) return ["To mend", "warn", "warning"];
+    if (of.some((one) => !empty(one) && (trips.length || one.field))) {
+      return ["To mend", "warn", "warning"];
+    }
     if (of.length) return ["To do", ""];
     return ENDED[ended] ?? [];
   }
@@ -65,8 +81,7 @@ function missionList({ select, open, rename, remove, move }) {
     const [, count, words, chip] = node.children;
     put(count, i + 1);
     put(words.firstChild, mission.name.trim() || "Without a name");
-    put(words.lastChild, mission.trips.length ? many(mission.trips.length, "trip")
-      : "no trips yet");
+    put(words.lastChild, inShort(mission, fields));
     const [text = "", kind, sign] = mark(mission, problems);
     set(chip, "class", `chip ${kind}`);
     fill(shown(chip, text), sign && icon(sign), text);
@@ -89,9 +104,49 @@ function missionList({ select, open, rename, remove, move }) {
   };
 }
 
+// What may be promised of a mission, whatever the app's graph is.
+const MOMENTS = [
+  { name: "opens", type: "time", label: "Begins at the soonest", hint: "such as 08:00 or 5 min" },
+  { name: "deadline", type: "time", label: "Due", hint: "such as 08:30 or 20 min" },
+];
+
+// Which of the other missions must have completed before, each with a box to tick.
+function afterField(change) {
+  const list = h("div", { class: "choices" });
+  const problem = h("p", { class: "problem", id: unique("after") });
+  const ticked = () => [...list.querySelectorAll("input:checked")].map(({ value }) => value);
+  const element = h("fieldset", { class: "field", "data-field": "after", "aria-describedby": problem.id },
+    h("legend", {}, "Begins after"), list, problem);
+  return {
+    element,
+    input: { focus: () => list.querySelector("input")?.focus() },
+    update(names, chosen = [], { problem: text = "", locked = false } = {}) {
+      element.disabled = locked;
+      keyed(list, [...new Set([...names, ...chosen])], (name) => name, (name) => {
+        const box = h("input", { type: "checkbox", value: name, onchange: () => change(ticked()) });
+        return h("label", { class: "check" }, box, name);
+      }, (label, name) => { label.firstChild.checked = chosen.includes(name); });
+      fill(shown(problem, text), icon("warning"), text);
+    },
+  };
+}
+
+// ["listen", "listen", "measure"] → "listen × 2, measure"
+function listed(words) {
+  const runs = [];
+  for (const word of words) {
+    if (runs.at(-1)?.word === word) runs.at(-1).count += 1;
+    else runs.push({ word, count: 1 });
+  }
+  const said = runs.slice(0, 20).map(({ word, count }) => (count > 1 ? `${word} × ${count}` : word));
+  return `${said.join(", ")}${runs.length > 20 ? ", …" : ""}`;
+}
+
+const ownFirst = (fields) => fields.toSorted((a, b) => Boolean(b.own) - Boolean(a.own));
+
 function missionPanel({ app, plan, begun }, { open, copy, remove }) {
   let now = null;
-  const inputs = [{ name: "name", type: "text" }, ...app.fields.mission].map((field) =>
+  const inputs = [{ name: "name", type: "text" }, ...MOMENTS, ...ownFirst(app.fields.mission)].map((field) =>
     [field.name, fieldFor(field, {
       evaluators: app.evaluators,
       change(value, typing, draft) {
@@ -102,6 +157,12 @@ function missionPanel({ app, plan, begun }, { open, copy, remove }) {
       },
     })]);
   const [[, title], ...others] = inputs;
+  const promised = others.splice(0, MOMENTS.length);
+  const after = afterField((names) =>
+    plan.edit(setField(now.key, "after", names.length ? names : undefined)));
+  const promises = h("details", { class: "promises" },
+    h("summary", {}, "When it begins, and when it is due"),
+    h("div", { class: "fields" }, promised.map(([, input]) => input.element), after.element));
   const trips = button("Set trips", () => open(now.key), "primary");
   title.element.addEventListener("keydown", (event) => {
     if (event.key !== "Enter") return;
@@ -119,13 +180,18 @@ function missionPanel({ app, plan, begun }, { open, copy, remove }) {
     element: h("section", { class: "card mission-panel stack", "aria-label": "Selected mission" },
       locked, title.element, said,
       others.length > 0 && h("div", { class: "fields" }, others.map(([, input]) => input.element)),
+      promises,
       h("div", { class: "row" }, count, h("span", { class: "spread" }, trips)), short,
       h("div", { class: "row" }, alone, button("Copy", () => copy(now.key)), bin)),
     rename() {
       title.input.focus();
       title.input.select();
     },
-    lead: (field) => (inputs.find(([name]) => name === field)?.[1].input ?? trips).focus(),
+    lead(field) {
+      promises.open ||= ["opens", "deadline", "after"].includes(field);
+      const its = field === "after" ? after : inputs.find(([name]) => name === field)?.[1];
+      (its?.input ?? trips).focus();
+    },
     update(mission, problems) {
       if (now?.key !== mission.key) title.input.blur();
       now = mission;
@@ -135,15 +201,19 @@ function missionPanel({ app, plan, begun }, { open, copy, remove }) {
           of.find(({ trip, field }) => !trip && field === name) ?? {};
         input.update(typed, { problem, locked: mission.launched });
       }
-      const told = of.filter(({ trip, field }) =>
-        mission.trips.length && (trip || !inputs.some(([name]) => name === field)));
+      const others = plan.missions.filter(({ key }) => key !== mission.key).map(({ name }) => name);
+      const { text: problem } = of.find(({ trip, field }) => !trip && field === "after") ?? {};
+      after.update(others, mission.after, { problem, locked: mission.launched });
+      if (mission.opens ?? mission.deadline ?? mission.after) promises.open = true;
+      const told = of.filter(({ trip, field }) => mission.trips.length
+        && (trip || (field !== "after" && !inputs.some(([name]) => name === field))));
       fill(said, told.slice(0, 5).map(({ trip, text }) => {
         const at = mission.trips.findIndex(({ key }) => key === trip) + 1;
         return h("p", { class: "problem" }, icon("warning"), at ? `Trip ${at}: ${text}` : text);
       }));
       put(count, mission.trips.length ? many(mission.trips.length, "trip") : "Trips");
       put(trips.lastChild, mission.launched ? "See trips" : "Set trips");
-      put(short, mission.trips.slice(0, 20).map(({ action }) => plain(action)).join(", ")
+      put(short, listed(mission.trips.map(({ action }) => plain(action)))
         || "No trips yet. “Set trips” opens the map: drag actions onto it there.");
       shown(locked, mission.launched);
       bin.disabled = alone.disabled = mission.launched;
@@ -258,7 +328,7 @@ export function missions(context) {
   }
 
   const list = missionList({
-    select: selected.set, open, rename: () => panel.rename(), remove, move,
+    fields: context.app.fields, select: selected.set, open, rename: () => panel.rename(), remove, move,
   });
   const panel = missionPanel(context, { open, copy, remove });
   const none = h("section", { class: "card nothing-selected stack" },
@@ -698,7 +768,7 @@ function tripFields(app, { key, trip: { action } }, act, shift) {
     inside("item", MASS, "mass");
   }
   for (const parameter of parameters) inside("parameters", parameter, parameter.name);
-  app.fields.trip.forEach(own);
+  ownFirst(app.fields.trip).forEach(own);
   const known = fields.map(({ about }) => about);
   const troubles = h("div", { class: "wide" });
   const carried = h("p", { class: "wide hint carried" });

@@ -1,7 +1,8 @@
 // The lists of the Monitor: missions, what happens, and what it brought.
 
 import {
-  clock, fill, h, icon, inWords, keyed, many, plain, put, seconds, set, shown, svg,
+  clock, fill, h, icon, inWords, keyed, many, plain, put, seconds, set, shown, since,
+  svg,
 } from "./dom.js";
 import { mapPicture } from "./floor.js";
 
@@ -225,6 +226,15 @@ function tripLine(send, prioritised, name) {
   return element;
 }
 
+// How long until something is due: to the minute, though it be hours.
+function left(time) {
+  const minutes = Math.floor(time / 60) % 60;
+  return time < 3600 || !minutes ? since(time) : `${since(time)} ${minutes} min`;
+}
+
+const said = (value, units) =>
+  (typeof value === "boolean" ? value ? "yes" : "no" : inWords(value ?? "", units));
+
 function details(context, name) {
   const send = (command, given) => context.tell(command, { mission: name, ...given });
   const prioritised = context.app.fields.trip.some((field) => field.name === "priority");
@@ -239,8 +249,14 @@ function details(context, name) {
     class: "button small", onclick: () => context.begun([drawn().key]),
   }, "Start this mission again");
   const list = h("ol", { class: "trip-lines" });
-  const element = h("div", { class: "details" }, list, buttons, h("div", null, again));
+  const own = context.app.fields.mission.filter((field) => field.own);
+  const filled = h("p", { class: "filled" });
+  const element = h("div", { class: "details" }, filled, list, buttons, h("div", null, again));
   element.show = (row) => {
+    const values = own.map((field) =>
+      [field.label, said(row.fields[field.name] ?? field.default, field.units)]);
+    put(filled, values.filter(([, text]) => text).map(([label, text]) => `${label}: ${text}`).join(" · "));
+    shown(filled, filled.textContent);
     const over = ended(row) || context.live.state.phase !== "flying";
     paused = row.status === "PAUSED";
     put(pause, paused ? "Go on" : "Pause");
@@ -261,18 +277,20 @@ function details(context, name) {
 }
 
 function missionRow(context, name, chosen) {
-  const { retries, rounds } = context.app;
+  const { retries, rounds, fields } = context.app;
+  const texts = fields.mission.filter(({ own, type }) => own && type === "text");
+  const whose = h("small");
   const span = (kind) => h("span", { class: kind });
-  const [number, why, trip, drone] = ["token", "why", "", ""].map(span);
+  const [number, why, trip, drone, due] = ["token", "why", "", "", "chip due"].map(span);
   const stands = standing();
   const charge = battery();
   const bar = h("i");
   const opener = h("button", {
     class: "opener", "aria-expanded": "false",
     onclick: () => chosen.set(chosen.name === name ? null : name),
-  }, h("span", { class: "arrow" }), number, h("span", { class: "called" }, name));
+  }, h("span", { class: "arrow" }), number, h("span", { class: "called" }, name, whose));
   const cells = [
-    [opener], [stands, why], [trip, h("span", { class: "track" }, bar)], [drone, " ", charge],
+    [opener], [h("span", { class: "stands" }, stands, due), why], [trip, h("span", { class: "track" }, bar)], [drone, " ", charge],
     ...(retries ? [[""]] : []), ...(rounds ? [[""]] : []),
   ].map((inside) => h("div", { class: "cell", role: "cell" }, inside));
   const line = h("div", { class: "mission-row", role: "row", "data-mission": name }, cells);
@@ -285,6 +303,8 @@ function missionRow(context, name, chosen) {
   element.show = (row, live) => {
     element.row = row;
     put(number, row.index + 1);
+    put(whose, texts.map(({ name: key }) => row.fields[key]).filter(Boolean).join(" · "));
+    shown(whose, whose.textContent);
     stands.show(row.status);
     set(line, "data-status", row.status);
     element.tick(live);
@@ -303,9 +323,12 @@ function missionRow(context, name, chosen) {
   element.charge = ({ drones }) => charge.show(drones.get(element.row.drone)?.battery ?? null);
   // What changes with the time alone.
   element.tick = ({ state: { time } }) => {
-    const { status, reason, wait, until } = element.row;
+    const { status, reason, wait, until, due: at, late } = element.row;
     const because = reason || (status === "PAUSED" ? "" : wait);
     put(why, `${because}${until > time ? ` (${seconds(until - time)})` : ""}`);
+    set(due, "class", `chip due ${late ? "bad" : ""}`);
+    put(due, late ? "Late" : `due in ${left(Math.max(0, at - time))}`);
+    shown(due, late || (at !== null && !ended(element.row)));
   };
   element.open = (yes) => {
     set(opener, "aria-expanded", String(yes));

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...shared.domain.actions import PICK, RELEASE, Action
 from ...shared.domain.errors import BadInput
+from ...shared.domain.fields import Entity
 from ...shared.domain.quantities import Type
 from ...shared.domain.text import mass
 from .problems import read, unflyable_trips
@@ -32,7 +33,7 @@ PLAUSIBLE: dict[Type, object] = {
     Type.SPEED: "0.5 m/s",
     Type.TEMPERATURE: "20 C",
 }
-"""Values of parameters without a default."""
+"""Values of parameters and fields without a default."""
 
 HEAVIEST = 0.005
 """The item's mass in kilograms; half of the largest payload if that is less."""
@@ -99,21 +100,28 @@ def _trip(action: Action) -> Shape:
     return {"action": action.name, "parameters": missing}
 
 
+def needed(app: App, on: Entity) -> Shape:
+    """Return plausible values of the fields that must be filled in."""
+    fields = [one for one in app.fields if one.on is on and one.hint]
+    return {one.name: PLAUSIBLE[one.type] for one in fields if isinstance(one.type, Type)}
+
+
 def _mission(
     app: App, fleet: FleetFile, wanted: Sequence[Shape], row: Sequence[Corner]
 ) -> Shape | None:
     """Return a mission with these actions at places of a row, if one can be flown."""
     for places in islice(_choices(row, len(wanted)), _TRIES):
         trips: list[Shape] = [
-            {"key": str(i), **trip, "target": list(place)}
+            {"key": str(i), **trip, **needed(app, Entity.TRIP), "target": list(place)}
             for i, (trip, place) in enumerate(zip(wanted, places, strict=True))
         ]
-        mission: Shape = {"key": "", "name": "1", "trips": trips}
+        filled = needed(app, Entity.MISSION)
+        mission: Shape = {"key": "", "name": "1", **filled, "trips": trips}
         if not (
             read(app, fleet.airspace, [mission])[1]
             or unflyable_trips(app, fleet, fleet.airspace, mission)
         ):
-            return {"trips": trips}
+            return {**filled, "trips": trips}
     return None
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from asyncio import to_thread
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -86,10 +87,12 @@ class MissionPlan:
         if drawn != self._missions:  # an identical plan is no conflict
             self._change(drawn)
 
-    def import_toml(self, text: str, revision: object, file: str = NAME) -> None:
-        """Replace the missions that were not launched by those of a file."""
+    def import_toml(
+        self, text: str, revision: object, file: str = NAME, folder: Path | None = None
+    ) -> None:
+        """Replace the missions that were not launched by those of a file; `folder`: where it lies."""
         self._check_current(revision)
-        self._take(shapes_of(text, self._app, self._fleet.airspace, file), revision)
+        self._take(shapes_of(text, self._app, self._fleet.airspace, file, folder), revision)
 
     async def import_file(self, text: str, revision: object, file: str = NAME) -> None:
         """Do the same in a thread, as reading a large file takes seconds."""
@@ -133,8 +136,27 @@ class MissionPlan:
             if more > 0:
                 problems[MOST_SAID:] = [f"… and {counted(more, 'more problem')}"]
             raise BadInput("\n".join(problems))
-        missions, _ = read(self._app, self._fleet.airspace, waiting)
-        return missions, keys
+        names = [str(one["name"]) for one in self._missions]
+        missions, _ = read(self._app, self._fleet.airspace, waiting, names)
+        return [self._in_order(one, waiting) for one in missions], keys
+
+    def _in_order(self, mission: Mission[Any], started: Sequence[Shape]) -> Mission[Any]:
+        """Return a mission that comes after those that are under way; what was completed before is settled.
+
+        Raises `BadInput` if it comes after one that is not started with it.
+        """
+        under_way = {str(one["name"]) for one in self._missions if one["launched"]}
+        under_way.update(str(one["name"]) for one in started)
+        done = {str(one["name"]) for one in self._missions if one["ended"] == COMPLETED}
+        after = []
+        for name in mission.promises.get("after", ()):
+            if name in under_way:
+                after.append(name)
+            elif name not in done:
+                who = f"Mission {quoted(mission.name)} comes after {quoted(name)}"
+                raise BadInput(f"{who}, which is not started: start both, or that one first")
+        promises = {key: one for key, one in mission.promises.items() if key != "after"}
+        return replace(mission, promises=promises | ({"after": after} if after else {}))
 
     def _wanted(self, chosen: Collection[str] | None) -> list[Shape]:
         waiting = [mission for mission in self._missions if not mission["launched"]]

@@ -5,18 +5,22 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import read_missions
 from ...files.plan_check import unflyable
+from ...files.promises import moment
 from ...files.reading import Document, Wording
-from .shape import Shape, trips_of
+from ...shared.domain.values import shown
+from .shape import MOMENTS, Shape, trips_of
 
 if TYPE_CHECKING:
     from collections.abc import Container
 
     from ...app import App
     from ...files.fleet import FleetFile
+    from ...files.reading import Problem
     from ...files.toml import TomlPath
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Mission, Trip
@@ -27,6 +31,10 @@ _CALLED = {
     "target": "the place",
     "source": "the place where the flight begins",
     "mass": "the mass",
+    "opens": "Begins at the soonest",
+    "window": "Begins at the soonest",
+    "deadline": "Due",
+    "after": "the mission",
 }
 _MISSING = {
     "action": "has no action yet: choose one",
@@ -42,6 +50,7 @@ def on_a_screen(app: App) -> Wording:
     return Wording(
         called=lambda key: called.get(key, key),
         missing=lambda key: _MISSING.get(key, f"has no {called.get(key, key)} yet"),
+        field_missing=lambda field: f"{field.label} is not filled in yet",
         no_trips=lambda: "has no trips yet: drag an action onto the floor plan",
         item_missing=lambda action: f"{action} needs an item: give its name and its mass",
     )
@@ -81,14 +90,14 @@ class PlanProblem:
 
 
 def read(
-    app: App, airspace: Airspace, missions: Sequence[Shape]
+    app: App, airspace: Airspace, missions: Sequence[Shape], known: Collection[str] = ()
 ) -> tuple[list[Mission[Any]], list[PlanProblem]]:
-    """Return the missions to fly, as far as valid, and their problems."""
+    """Return the missions to fly, as far as valid, and their problems; `known` are other missions."""
     document, names = _document(app, missions), own_names(app)
-    found = read_missions(document, app, airspace) if missions else []
+    found = read_missions(document, app, airspace, known) if missions else []
     problems = [
         _problem(missions, one.place, sentence(one.text, names), sentence(one.sentence, names))
-        for one in document.problems
+        for one in map(partial(_of_a_moment, missions), document.problems)
     ]
     return found, [_of_its_height(one, missions, airspace) for one in problems]
 
@@ -97,7 +106,9 @@ def unflyable_trips(
     app: App, fleet: FleetFile, airspace: Airspace, mission: Shape
 ) -> list[PlanProblem]:
     """Return the trips of a mission that no drone of the fleet can fly."""
-    missions, found = read(app, airspace, [mission])
+    after = mission.get("after")
+    known = [str(name) for name in after] if isinstance(after, list) else []
+    missions, found = read(app, airspace, [mission], known)
     if found:
         return []
     names, problems = own_names(app), []
@@ -122,7 +133,31 @@ def as_json(problem: PlanProblem) -> Shape:
 def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
     """Return a mission as in a missions file, without keys and empty values."""
     trips = [_bare(trip) for trip in trips_of(mission)]
-    return {**_bare(mission), "trip": trips}
+    bare = _bare(mission)
+    if (opens := bare.pop("opens", None)) is not None:
+        bare["window"] = [opens, bare.pop("deadline", "")]
+    return {**bare, "trip": trips}
+
+
+def _of_a_moment(missions: Sequence[Shape], problem: Problem) -> Problem:
+    """Assign a problem of a window to that of its two fields which is wrong, in its words."""
+    match problem.place:
+        case ("mission", int(i), "window"):
+            field, text = _wrong_in_window(missions[i])
+            return replace(problem, place=("mission", i, field), text=text)
+    return problem
+
+
+def _wrong_in_window(mission: Shape) -> tuple[str, str]:
+    for field in MOMENTS:
+        if (given := mission.get(field)) is not None:
+            try:
+                moment(given)
+            except ValueError as error:
+                return field, f"{_CALLED[field]} {shown(given)} {error}"
+    if mission.get("deadline") is None:
+        return "opens", "it needs an end as well: fill in by when it is due"
+    return "deadline", "there is no time between when it may begin and when it is due"
 
 
 def _of_its_height(

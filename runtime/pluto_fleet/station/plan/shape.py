@@ -29,7 +29,9 @@ LONGEST_TEXT = 1_000
 LARGEST = 1e15
 """The largest integer that is exact in a browser."""
 
-MISSION_KEYS = ("key", "name", "launched", "ended", "trips")
+MISSION_KEYS = ("key", "name", "launched", "ended", "opens", "deadline", "after", "trips")
+MOMENTS = ("opens", "deadline")
+"""When a mission may begin, and when it is due: in a file they are its window, or its deadline."""
 TRIP_KEYS = ("key", "name", "action", "target", "source", "parameters", "item")
 """The keys of every app's trips; the graph adds more."""
 
@@ -88,9 +90,18 @@ def _mission(given: object, who: str, app: App) -> Shape:
         "name": _text(_given(data, "name", who), f"{who}: name"),
         "launched": False,  # neither can be set by pages
         "ended": None,
-        **_scalars(data, fields, who),
+        **_scalars(data, [*MOMENTS, *fields], who),
+        **_after(data, who),
         "trips": [_trip(one, f"{who}, trip {i}", app) for i, one in enumerate(trips, 1)],
     }
+
+
+def _after(data: Mapping[str, object], who: str) -> Shape:
+    names = [] if data.get("after") is None else _list(data["after"], f"{who}: after")
+    if len(names) > MOST_MISSIONS:
+        raise _too_many("missions", MOST_MISSIONS)
+    found = [_text(name, f"{who}: after") for name in names]
+    return {"after": found} if found else {}
 
 
 def _trip(given: object, who: str, app: App) -> Shape:

@@ -7,6 +7,8 @@ from datetime import time
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import missions_of
+from ...files.missions_text import mission_table
+from ...files.promises import KEYS
 from ...files.reading import parsed
 from ...files.toml import toml_value
 from ...shared.domain.fields import Entity
@@ -15,6 +17,8 @@ from .problems import as_in_a_file
 from .shape import Shape, fields_of, trips_of
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from ...app import App
     from ...shared.domain.airspace import Airspace
 
@@ -29,18 +33,38 @@ def text_of(app: App, missions: Sequence[Shape]) -> str:
     return "\n".join(line for mission in missions for line in _mission(app, mission))
 
 
-def shapes_of(text: str, app: App, airspace: Airspace, file: str = NAME) -> list[Shape]:
-    """Return the missions of a file, without keys; raise `BadInput` as `check` does."""
+def shapes_of(
+    text: str, app: App, airspace: Airspace, file: str = NAME, folder: Path | None = None
+) -> list[Shape]:
+    """Return the missions of a file, without keys, areas and lists as plain trips and missions.
+
+    `folder`: where it lies, and its lists beside it. Raises `BadInput` as `check` does.
+    """
     document = parsed(file, text)
-    missions_of(document, app, airspace)
-    given: Any = document.data["mission"]  # it has just been checked to be a list of tables
-    return [_shape(mission, str(i), app) for i, mission in enumerate(given, 1)]
+    document.folder = folder
+    missions = missions_of(document, app, airspace)
+    tables: Any = [
+        _sparse(mission_table(app, mission), app) if given is None or "area" in given else given
+        for mission, given in zip(missions, document.given, strict=True)
+    ]
+    return [_shape(mission, str(i), app) for i, mission in enumerate(tables, 1)]
+
+
+def _sparse(table: dict[str, Any], app: App) -> dict[str, Any]:
+    """Return a mission that a list or an area has made without what only says a default again."""
+    trips = [_unusual(trip, app, Entity.TRIP) for trip in table["trip"]]
+    return {**_unusual(table, app, Entity.MISSION), "trip": trips}
+
+
+def _unusual(table: dict[str, Any], app: App, entity: Entity) -> dict[str, Any]:
+    usual = {one.name: one.default for one in app.fields if one.on is entity}
+    return {key: one for key, one in table.items() if key not in usual or one != usual[key]}
 
 
 def _mission(app: App, mission: Shape) -> Iterator[str]:
     given = as_in_a_file(mission)
     yield "[[mission]]"
-    yield from _pairs(given, ("name", *fields_of(app, Entity.MISSION)), "")
+    yield from _pairs(given, ("name", *KEYS, *fields_of(app, Entity.MISSION)), "")
     yield ""
     for trip in trips_of({"trips": given["trip"]}):
         yield "  [[mission.trip]]"
@@ -57,8 +81,20 @@ def _pairs(given: Mapping[str, object], keys: Sequence[str], indent: str) -> Ite
 def _shape(given: Mapping[str, Any], number: str, app: App) -> Shape:
     return {
         "name": given.get("name", number),
+        **_promises(given),
         **_fields(given, app, Entity.MISSION),
         "trips": [_trip(trip, app) for trip in given["trip"]],
+    }
+
+
+def _promises(given: Mapping[str, Any]) -> Shape:
+    opens, deadline = given.get("window", (None, given.get("deadline")))
+    after = given.get("after", [])
+    found = {"opens": opens, "deadline": deadline}
+    shape = {key: _plain(value) for key, value in found.items() if value is not None}
+    return {
+        **shape,
+        **({"after": [after] if isinstance(after, str) else [*after]} if after else {}),
     }
 
 

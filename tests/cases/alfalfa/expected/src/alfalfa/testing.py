@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 from ._runtime.alone.testing import AppKit, Clock, HookCall, KitContext
+from ._runtime.domain.model import Results
 from .flow import APP
 from .model import Mission, Trip
 
 __all__ = ["Clock", "HookCall", "Kit", "KitContext"]
 
 
-class Kit(AppKit[Mission, Trip]):
+class Kit(AppKit[Mission, Trip, Results[Mission, Trip]]):
     """What the hooks of alfalfa are given, for one test."""
 
     def __init__(self) -> None:

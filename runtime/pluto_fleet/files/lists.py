@@ -1,0 +1,171 @@
+"""A list of items: `each = "beds.csv"` makes one mission of each row of a CSV file."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from io import StringIO
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from typing import TYPE_CHECKING
+
+from ..shared.domain import values
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import quoted
+from . import errors
+from .filled import columns_of, filled
+from .reading import Table, text_of
+
+if TYPE_CHECKING:
+    from .toml import TomlPath
+
+MOST_ROWS = 10_000
+"""The most missions that one list makes."""
+
+_SAID = {
+    "unexpected end of data": "a quoted value begins there, and no quote ends it",
+    "',' expected after '\"'": "something stands behind a quoted value: a quote within one is written twice",
+    "';' expected after '\"'": "something stands behind a quoted value: a quote within one is written twice",
+}
+"""What the module `csv` says, for people."""
+
+Row = tuple[int, Mapping[str, str]]
+"""Its number, as a spreadsheet counts, and its values by column."""
+
+
+class _Unusable(ValueError):
+    """What is wrong with a list; the message continues after its name."""
+
+
+def each_row(top: Table) -> Iterator[Table]:
+    """Yield the missions' tables; of one with `each` a table for each row of its list."""
+    for index, table in enumerate(top.tables("mission", "mission")):
+        if "each" in table.data:
+            known = table.valid_name("name")
+            table.who = f"mission {index + 1 if known is None else quoted(known)}"
+            yield from _of_rows(table)
+        else:
+            yield table
+
+
+def _of_rows(table: Table) -> Iterator[Table]:
+    template = {key: value for key, value in table.data.items() if key != "each"}
+    table.document.is_made = True
+    list_ = table.read("each", _beside)
+    if list_ is None:
+        return
+    if table.document.folder is None:
+        table.problem(errors.no_folder(list_), "each")
+        return
+    try:
+        rows, odd = _rows(table.document.folder / list_)
+    except _Unusable as wrong:
+        odd, rows = [f"{wrong}"], []
+    for wrong_row in odd:
+        table.problem(f"each {quoted(list_)} {wrong_row}", "each")
+    if not rows or odd:
+        return
+    if _are_known(table, template, [*rows[0][1]]):
+        if len(rows) > 1 and "name" in template and not [*columns_of(template["name"])]:
+            table.problem(errors.same_for_all(template["name"], [*rows[0][1]]), "name")
+            return
+        for number, row in rows:
+            data = {key: filled(value, row) for key, value in template.items()}
+            yield Table(table.document, data, table.place, row=f"{list_}, row {number}")
+
+
+def _beside(value: object) -> str:
+    """Read the path of a list."""
+    name: str = values.name(value).replace("\\", "/")
+    parts = PurePosixPath(name).parts
+    if ".." in parts or parts[:1] == ("/",) or PureWindowsPath(name).drive:
+        raise ValueError(
+            "lies elsewhere: a list is in the folder of its missions file, or in one below"
+        )
+    return name
+
+
+def _are_known(table: Table, template: Mapping[str, object], columns: Sequence[str]) -> bool:
+    """Return whether a list has all columns that a template names; what it has not is reported."""
+    before = len(table.document.problems)
+    for path, column in columns_of(dict(template)):
+        if column is None:
+            table.problem(errors.brace_alone(_key(path)), *path)
+        elif column not in columns:
+            table.problem(errors.unknown_column(_key(path), column, columns), *path)
+    return len(table.document.problems) == before
+
+
+def _key(path: TomlPath) -> str:
+    return next((str(part) for part in reversed(path) if isinstance(part, str)), "")
+
+
+# The file
+
+
+def _rows(path: Path) -> tuple[list[Row], list[str]]:
+    """Return the rows of a list that have values, at least one, and what is wrong with others.
+
+    Raises `_Unusable` if it cannot be read as a whole.
+    """
+    text = _text(path)
+    if not text.strip():
+        raise _Unusable("is empty: its first line names the columns")
+    lines = csv.reader(StringIO(text, newline=""), delimiter=_delimiter(text), strict=True)
+    rows: list[Row] = []
+    odd: list[str] = []
+    columns: list[str] = []
+    number = 0
+    try:
+        for number, cells in enumerate(lines, 1):
+            stripped = [cell.strip() for cell in cells]
+            if not any(stripped):
+                continue
+            if not columns:
+                columns = _columns(stripped)
+                continue
+            if len(cells) != len(columns):
+                odd.append(errors.other_width(number, len(cells), len(columns)))
+            rows.append((number, dict(zip(columns, stripped, strict=False))))
+            if len(rows) > MOST_ROWS:
+                raise _Unusable(errors.too_many_rows(MOST_ROWS))
+    except csv.Error as error:
+        said = _SAID.get(str(error), str(error))
+        raise _Unusable(f"cannot be read in row {number + 1}: {said}") from None
+    if not rows:
+        raise _Unusable("has no row below the one that names its columns")
+    return rows, odd
+
+
+def _text(path: Path) -> str:
+    try:
+        return text_of(path)
+    except BadInput as error:
+        said = re.sub(rf"^{re.escape(str(path))}(:\d+)?: ", "", str(error))
+        raise _Unusable(f"cannot be used: {said}") from None
+
+
+def _delimiter(text: str) -> str:
+    """Return what separates the columns: what splits the first line into more of them."""
+    first = next(line for line in text.splitlines() if line.strip())
+    counts = {mark: len(next(csv.reader([first], delimiter=mark), ())) for mark in (",", ";")}
+    return ";" if counts[";"] > counts[","] else ","
+
+
+def _columns(names: Sequence[str]) -> list[str]:
+    for place, name in enumerate(names, 1):
+        if not name:
+            raise _Unusable(f"has no name for its column {place}: its first line names the columns")
+        if name in names[: place - 1]:
+            raise _Unusable(f"has two columns {quoted(name)}: names must differ")
+        if "\t" in name:
+            raise _Unusable("has tabs between its columns: separate them by commas or semicolons")
+        if set(name) & set("{}"):
+            raise _Unusable(f"has a column {quoted(name)}: a column's name has no braces")
+    if all(_is_number(name) for name in names):
+        raise _Unusable("has no line that names its columns: its first line holds numbers")
+    return [*names]
+
+
+def _is_number(text: str) -> bool:
+    return re.fullmatch(r"[+-]?[\d.,]+", text) is not None

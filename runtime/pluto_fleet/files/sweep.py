@@ -1,0 +1,212 @@
+"""The places from which an area is covered, and the order in which they are flown to.
+
+The area, less what may not be flown over, is cut into cells no larger than `spacing`. Each cell gets one place, from
+which all of the area that is in it lies within the square of side `spacing` around the place; where a no-fly area
+leaves no such place, it gets more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain, pairwise
+from math import ceil, dist, floor
+from typing import TYPE_CHECKING, Any
+
+import shapely
+from shapely.geometry import Polygon, box
+from shapely.ops import nearest_points
+
+from ..shared.domain.text import place
+
+if TYPE_CHECKING:
+    from ..shared.domain.airspace import Airspace, Corner
+
+MOST = 2_000
+"""The most places of one area."""
+
+_TINY = 1e-9
+"""Square metres, and metres, that come of rounding."""
+_DIGITS = 6
+"""A place is told to a micrometre, which is within what the map takes for its edge."""
+
+
+_VALID = "Valid Geometry"
+
+
+class TooManyPlaces(ValueError):
+    """The places are too near to each other for an area of this size."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """How an area is flown."""
+
+    places: Sequence[Corner]
+    """In the order in which they are flown to; empty: none of the area may be flown over."""
+    forbidden: float
+    """The share of the area that may not be flown over."""
+
+
+def problem_of(corners: Sequence[Corner]) -> str | None:
+    """Return what is wrong with an outline, or None."""
+    shape = Polygon(corners)
+    if shape.convex_hull.area <= _TINY:
+        return "covers no ground: its corners lie on one line"
+    found = shapely.is_valid_reason(shape)
+    if found == _VALID:
+        return None
+    x, y = map(float, found.rpartition("[")[2].rstrip("]").split())
+    return f"crosses or touches itself near {place((x, y, 0.0))}: name the corners in their order around it"
+
+
+def sweep(
+    corners: Sequence[Corner], spacing: float, airspace: Airspace, before: Corner | None
+) -> Sweep:
+    """Return the places for an area, swept back and forth along its longer side.
+
+    `before`: where the drones come from, if that is known. Raises `TooManyPlaces`.
+    """
+    whole = Polygon(corners)
+    allowed = _permitted(whole, airspace)
+    forbidden = 1.0 - sum(part.area for part in allowed) / whole.area
+    if not allowed:
+        return Sweep((), 1.0)
+    if any(_least(part, spacing) > MOST for part in allowed):
+        raise TooManyPlaces
+    grid = _Grid(shapely.union_all(allowed), spacing)
+    lanes: list[list[Corner]] = []
+    count = 0
+    for lane in grid.lanes():
+        lanes.append(lane)
+        count += len(lane)
+        if count > MOST:
+            raise TooManyPlaces
+    return Sweep(_shortest([lane for lane in lanes if lane], before), max(0.0, forbidden))
+
+
+def _permitted(area: Any, airspace: Airspace) -> list[Any]:
+    """Return the parts of an area that may be flown over."""
+    width, depth = airspace.size
+    closed = [shapely.make_valid(Polygon(one)) for one in airspace.areas if len(one) > 2]
+    left = area.intersection(box(0.0, 0.0, width, depth)).difference(shapely.union_all(closed))
+    return _parts(left)
+
+
+def _parts(shape: Any) -> list[Any]:
+    """Return the polygons of a shape, without what has no width."""
+    return [
+        part
+        for part in shapely.get_parts(shape)
+        if part.geom_type == "Polygon" and part.area > _TINY
+    ]
+
+
+def _least(part: Any, spacing: float) -> float:
+    """Return how many places a connected part takes at least."""
+    x, y, most_x, most_y = part.bounds
+    least: float = max(part.area / spacing**2, (most_x - x) / spacing, (most_y - y) / spacing)
+    return least
+
+
+class _Grid:
+    """The cells of an area: lanes along its longer side, each cut into cells of one size."""
+
+    def __init__(self, allowed: Any, spacing: float) -> None:
+        self._allowed, self._spacing = allowed, spacing
+        self._x, self._y, most_x, most_y = allowed.bounds
+        self._is_wide = most_x - self._x >= most_y - self._y
+        self._cell_x = _even(most_x - self._x, spacing)
+        self._cell_y = _even(most_y - self._y, spacing)
+
+    def lanes(self) -> Iterator[list[Corner]]:
+        """Yield the places of each lane, in order along it."""
+        along, across = (0, 1) if self._is_wide else (1, 0)
+        for lane in self._touched(self._allowed, across):
+            part = self._allowed.intersection(self._strip(lane, across))
+            places: list[Corner] = []
+            for number in self._touched(part, along):
+                column, row = (number, lane) if self._is_wide else (lane, number)
+                places += self._places(part, column, row)
+            yield sorted(places, key=lambda spot: (spot[along], spot[across]))
+
+    def _touched(self, shape: Any, axis: int) -> list[int]:
+        """Return which lanes, or cells of a lane, a shape reaches."""
+        start, side = ((self._x, self._cell_x), (self._y, self._cell_y))[axis]
+        found: set[int] = set()
+        for part in _parts(shape):
+            first = floor((part.bounds[axis] - start) / side + _TINY)
+            last = ceil((part.bounds[axis + 2] - start) / side - _TINY)
+            found.update(range(max(0, first), last))
+        return sorted(found)
+
+    def _strip(self, lane: int, across: int) -> Any:
+        x, y, most_x, most_y = self._allowed.bounds
+        if across:
+            return box(
+                x, self._y + lane * self._cell_y, most_x, self._y + (lane + 1) * self._cell_y
+            )
+        return box(self._x + lane * self._cell_x, y, self._x + (lane + 1) * self._cell_x, most_y)
+
+    def _places(self, part: Any, column: int, row: int) -> Iterator[Corner]:
+        """Yield the places of one cell: one, wherever that is enough."""
+        x, y = self._x + column * self._cell_x, self._y + row * self._cell_y
+        cell = box(x, y, x + self._cell_x, y + self._cell_y)
+        rest = shapely.union_all(_parts(part.intersection(cell)))
+        if rest.is_empty:
+            return
+        spot = self._nearest(rest, cell)
+        yield spot
+        for quarter in _quarters(cell):  # from any place in one, all of it is covered
+            rest = shapely.union_all(_parts(rest.difference(self._seen(spot))))
+            inside = shapely.union_all(_parts(rest.intersection(quarter)))
+            if not inside.is_empty:
+                spot = self._nearest(inside, quarter)
+                yield spot
+
+    def _nearest(self, shape: Any, cell: Any) -> Corner:
+        """Return the place of a shape nearest to the middle of its cell, if there is one, from which all of it is seen."""
+        half, (x, y, most_x, most_y) = self._spacing / 2, shape.bounds
+        middle = cell.centroid
+        from_there = box(
+            most_x - half - _TINY, most_y - half - _TINY, x + half + _TINY, y + half + _TINY
+        )
+        best = shape.intersection(from_there)
+        found, _ = nearest_points(shape if best.is_empty else best, middle)
+        return round(found.x, _DIGITS) + 0.0, round(found.y, _DIGITS) + 0.0
+
+    def _seen(self, spot: Corner) -> Any:
+        (x, y), half = spot, self._spacing / 2
+        return box(x - half, y - half, x + half, y + half)
+
+
+def _even(side: float, spacing: float) -> float:
+    """Return the side of the cells of which a whole number make up a side."""
+    return side / max(1, ceil(side / spacing - _TINY))
+
+
+def _quarters(cell: Any) -> Iterator[Any]:
+    x, y, most_x, most_y = cell.bounds
+    middle = cell.centroid
+    for across in ((x, middle.x), (middle.x, most_x)):
+        for up in ((y, middle.y), (middle.y, most_y)):
+            yield box(across[0], up[0], across[1], up[1])
+
+
+def _shortest(lanes: Sequence[Sequence[Corner]], before: Corner | None) -> Sequence[Corner]:
+    """Return the shortest of the four ways back and forth, each from another corner."""
+    ways = [
+        [
+            *chain.from_iterable(
+                lane[:: -1 if (n + turned) % 2 else 1] for n, lane in enumerate(order)
+            )
+        ]
+        for order in (lanes, lanes[::-1])
+        for turned in (0, 1)
+    ]
+    come = [] if before is None else [before]
+    return min(ways, key=lambda way: round(_length([*come, *way]), 3))
+
+
+def _length(way: Sequence[Corner]) -> float:
+    return sum(dist(a, b) for a, b in pairwise(way))

@@ -1,0 +1,211 @@
+"""A policy of the app's own that is asked for all trips that wait with one priority, at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
+from itertools import islice
+from math import inf
+from types import FunctionType
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
+
+from ..domain.awaited import all_awaited
+from ..domain.errors import HookFault
+from ..domain.guard import unless_by_a_person
+from ..domain.model import Drone, Mission, Trip
+from ..domain.text import class_of, quoted, said
+from ..hooks.calls import hook_name, trace_of
+from ..time.kernel import FLEET, EventKind
+from .batch import Batch
+
+if TYPE_CHECKING:
+    from .needs import Request
+    from .policies import Choice
+    from .queue import Queue
+
+M = TypeVar("M", bound=Mission[Any])
+T = TypeVar("T", bound=Trip)
+
+
+class Waiting(NamedTuple, Generic[M, T]):
+    """A trip that waits for a drone."""
+
+    mission: M
+    trip: T
+    drones: Sequence[Drone]
+    """The free drones that can fly it now."""
+    since: float = 0.0
+    """When it began to wait, in seconds since the app started."""
+    priority: int = 0
+    deadline: float | None = None
+    """When its mission is to have ended, in seconds since the app started."""
+
+    def __hash__(self) -> int:
+        """Hash by identity: its drones may be a list."""
+        return object.__hash__(self)
+
+
+class Again(NamedTuple):
+    """An assignment after which a policy is asked again, even if nothing changes until then."""
+
+    after: float
+    """In how many seconds; 0.1 at least."""
+    pairs: Mapping[Any, Drone] | Iterable[tuple[Any, Drone]] = ()
+    """Which trips get which drones now."""
+
+
+Assignment: TypeAlias = Mapping[Any, Drone] | Iterable[tuple[Any, Drone]] | Again
+"""Which waiting trips get which drones; none: all wait."""
+
+Hook = Callable[[Sequence[Waiting[Any, Any]], Sequence[Drone], float], Assignment]
+
+SOONEST = 0.1
+MOST_IN_VAIN = 100_000
+"""How often a policy may ask to be asked again before it gives a drone."""
+_POSITIONAL = ("POSITIONAL_ONLY", "POSITIONAL_OR_KEYWORD")
+
+
+def chooses_for_all(hook: Callable[..., object]) -> bool:
+    """Return whether a policy is `(waiting, drones, now)`: it has three parameters without a default."""
+    if type(hook) is FunctionType and not hasattr(hook, "__wrapped__"):
+        return hook.__code__.co_argcount - len(hook.__defaults__ or ()) == 3
+    # it takes long to load, and few hooks are anything else
+    from inspect import signature
+
+    try:
+        given = signature(hook).parameters.values()
+    except (TypeError, ValueError):
+        return False  # it does not say
+    needed = [one for one in given if one.kind.name in _POSITIONAL and one.default is one.empty]
+    return len(needed) == 3
+
+
+def own_batch(hook: Hook) -> Batch:
+    """Make a policy of such a hook; what it may not answer fails a mission."""
+    name = hook_name(hook)
+
+    def choose(
+        requests: Sequence[Request], free: Sequence[Drone], queue: Queue
+    ) -> Sequence[Choice | None]:
+        asked = _Asked(name, requests, free, queue)
+        chosen = dict[int, Drone]()
+        if any(one.drones for one in asked.waiting):
+            try:
+                chosen = asked.chosen(hook)
+            except HookFault as fault:
+                queue.refuse(requests[asked.guilty], fault)
+                queue.changed()  # it is asked again for the others
+        why, places = f"chosen by {name}", range(len(requests))
+        return [(chosen[place], why) if place in chosen else None for place in places]
+
+    return Batch(choose, of=hook)
+
+
+class _Asked:
+    """One question to a policy."""
+
+    def __init__(
+        self, name: str, requests: Sequence[Request], free: Sequence[Drone], queue: Queue
+    ) -> None:
+        self.name, self._requests, self._queue = name, requests, queue
+        self._free = tuple(free)
+        self.guilty = 0  # whose mission fails if the answer is wrong: it has waited longest
+        self.waiting = [
+            Waiting(
+                mission=one.mission,
+                trip=one.trip,
+                drones=tuple(filter(one.able, free)),
+                since=one.since,
+                priority=one.rank[0],
+                deadline=one.mission.deadline,
+            )
+            for one in requests
+        ]
+
+    def chosen(self, hook: Hook) -> dict[int, Drone]:
+        """Ask, and return the drones by the places of the trips; raise `HookFault`."""
+        queue = self._queue
+        question = partial(hook, tuple(self.waiting), self._free, queue.kernel.now)
+        try:
+            after, pairs = all_awaited(partial(self._answer, question))
+        except HookFault:
+            raise
+        except BaseException as error:
+            unless_by_a_person(error)
+            raise HookFault(f"policy {self.name} raised {said(error)}", trace_of(error)) from error
+        chosen = dict[int, Drone]()
+        for pair in pairs:
+            place, drone = self._checked(pair, chosen)
+            chosen[place] = drone
+        self._ask_again(after, bool(chosen))
+        return chosen
+
+    def _answer(self, question: Callable[[], Any]) -> tuple[float | None, list[Any]]:
+        answer = question()
+        after = None
+        if type(answer) is Again:
+            after, answer = answer
+        if isinstance(answer, Mapping):
+            answer = answer.items()
+        if isinstance(answer, (str, bytes)) or not isinstance(answer, Iterable):
+            raise self._fault(
+                f"must return pairs of a waiting trip and a drone, not {_what(answer)}"
+            )
+        pairs: Iterator[Any] = iter(answer)
+        return after, [*islice(pairs, len(self.waiting) + 1)]  # one more is wrong in any case
+
+    def _checked(self, pair: Any, chosen: Mapping[int, Drone]) -> tuple[int, Drone]:
+        """Return the place of a trip, and its drone, if one may have the other."""
+        if not (issubclass(type(pair), (tuple, list)) and len(pair) == 2):
+            raise self._fault(f"must return pairs of a waiting trip and a drone, not {_what(pair)}")
+        one, drone = pair[0], pair[1]
+        places = (n for n, waits in enumerate(self.waiting) if waits is one)
+        if (place := next(places, None)) is None:
+            raise self._fault(f"gives a drone to {_what(one)}, which is none of those that wait")
+        self.guilty = place
+        trip = _named(self.waiting[place])
+        if not any(drone is free for free in self._free):
+            raise self._fault(f"gives {trip} {_what(drone)}, which is none of the free drones")
+        if place in chosen:
+            raise self._fault(f"gives {trip} two drones, {chosen[place].id} and {drone.id}")
+        for other, its in chosen.items():
+            if its is drone:
+                both = f"{_named(self.waiting[other])} and {trip}"
+                raise self._fault(f"gives drone {drone.id} twice, to {both}")
+        if not any(drone is able for able in self.waiting[place].drones):
+            raise self._fault(f"gives {trip} drone {drone.id}, which cannot fly it now")
+        return place, drone
+
+    def _ask_again(self, after: Any, gives: bool) -> None:
+        queue, key = self._queue, ("again", self.name)
+        timer, in_vain = queue.plans.pop(key, (None, 0))
+        if timer is not None:
+            timer.cancel()
+        if after is None:
+            return
+        if type(after) not in (int, float) or not SOONEST <= after < inf:
+            wants = f"wants to be asked again after {_what(after)}"
+            raise self._fault(f"{wants}: that must be a number of seconds, {SOONEST} or more")
+        in_vain = 0 if gives else in_vain + 1
+        if in_vain > MOST_IN_VAIN:
+            wants = f"has asked {MOST_IN_VAIN:,} times to be asked again"
+            raise self._fault(f"{wants}, and given no drone meanwhile")
+        when = queue.kernel.now + after
+        timer = queue.kernel.at(when, EventKind.CLOCK, FLEET, queue.changed)
+        queue.plans[key] = timer, in_vain
+
+    def _fault(self, what: str) -> HookFault:
+        return HookFault(f"policy {self.name} {what}")
+
+
+def _named(waiting: Waiting[Any, Any]) -> str:
+    return f"trip {waiting.trip.name} of mission {quoted(waiting.mission.name)}"
+
+
+def _what(value: object) -> str:
+    """Return what a hook has answered, for a person."""
+    if type(value) is Drone:
+        return f"drone {value.id}"
+    if type(value) is Waiting:
+        return _named(value)
+    return f"{value!r}" if type(value) in (int, float, type(None)) else class_of(value)
