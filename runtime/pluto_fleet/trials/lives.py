@@ -411,7 +411,8 @@ class TrialRun(TrialWorld):
         records = self.record.records(self.case.weather.snapshot, self.chance)
         self.brain = TrialLife(self, records)
         self.brains.append(self.brain)
-        if self.gateway.commander is not None:  # what is done beside its place is told, as in a flight
+        # What is done beside its place is told, as in a flight.
+        if self.gateway.commander is not None:
             self.gateway.commander.on_flown(self.brain.life.flown)
 
     def lose_brain(self, down: float) -> None:
