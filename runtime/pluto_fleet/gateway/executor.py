@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Point
     from .ledger import Ledger
     from .traffic.traffic import Traffic, Ways
-    from .traffic.wait_queue import Beside
 
 
 T = TypeVar("T")
@@ -104,8 +103,8 @@ class Executor:
             seconds = flight_seconds(category, airspace, here, job.stops, job.seconds)
             controls.begins(drone, job, seconds)
 
-        beside = partial(self._to_beside, drone, job.stops) if job.beside else None
-        way = await self.travels(drone, partial(self._to, drone, job.stops), begins, beside=beside)
+        plan = partial(self._to, drone, job.stops)
+        way = await self.travels(drone, plan, begins, beside=job.beside)
         if way.target is not None and self._hear is not None:
             here = controls.telemetry[drone].location
             self._hear(is_beside(drone, job.id, way.target, here))
@@ -271,7 +270,7 @@ class Executor:
         begins: Callable[[], None] = _nothing,
         *,
         ways: Ways | None = None,
-        beside: Beside | None = None,
+        beside: bool = False,
         anywhere: bool = False,
     ) -> Section:
         """Fly a section, or an alternative to the same end, as soon as one is free; return which.
@@ -339,14 +338,6 @@ class Executor:
         for stop in stops:
             points += way_from(self._airspace, drone, points[-1], stop)
         return Section(drone, tuple(points), stands, False)
-
-    def _to_beside(self, drone: str, stops: Sequence[Point], place: Point) -> Section | None:
-        """To a place beside the last stop; None: there is no way."""
-        try:
-            section = self._to(drone, (*stops[:-1], place))
-        except FlightFailed:
-            return None
-        return replace(section, target=stops[-1])
 
     def _up(self, drone: str, height: float) -> Section:
         """Straight up."""

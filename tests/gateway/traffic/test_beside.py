@@ -11,8 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.gateway.traffic.beside import FURTHEST, places_above, places_around
+from pluto_fleet.gateway.traffic.beside import FURTHEST, places_above, places_around, to_beside
 from pluto_fleet.gateway.traffic.legs import leg_problem
+from pluto_fleet.gateway.traffic.ways import Section
 from pluto_fleet.jobs.flown import BESIDE
 from pluto_fleet.shared.domain.actions import PHOTO
 from pluto_fleet.shared.domain.airspace import Airspace, Polygon
@@ -243,3 +244,28 @@ def test_places_are_permitted_and_the_nearest_come_first(
         for place in (*around, *above):
             assert airspace.problem(place) is None
             assert leg_problem(airspace, target, place) is None
+
+
+AROUND = Section("cf1", ((5.0, 8.0, 1.2), (6.3, 5.2, 1.2), SPOT), False, False)
+"""A way past the wall's right end."""
+
+
+def test_a_way_beside_differs_in_its_last_leg() -> None:
+    """So no route is searched for each of many places, while other drones fly."""
+    place = (5.5, 4.9, 1.2)
+    way = to_beside(AROUND, place, WALLED)
+    assert way is not None
+    assert way.points == (*AROUND.points[:-1], place)
+    assert way.target == SPOT
+    assert to_beside(AROUND, (3.9, 5.3, 1.2), WALLED) is None, "the wall is on its last leg"
+
+
+@pytest.mark.parametrize(("below", "stands"), [((5.0, 5.0, 0.0), True), (SPOT, False)])
+def test_from_its_target_or_right_below_it_a_drone_goes_on_to_a_place_beside(
+    below: Point, stands: bool
+) -> None:
+    """Straight up first."""
+    points = (below, SPOT) if stands else (SPOT,)
+    way = to_beside(Section("cf1", points, stands, False), (5.5, 5.0, 1.2), OPEN)
+    assert way is not None
+    assert way.points == (*points, (5.5, 5.0, 1.2))

@@ -7,6 +7,7 @@ of them, or all are taken, are there places above it.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import atan2, cos, pi, sin
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,7 @@ from .legs import leg_problem
 if TYPE_CHECKING:
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Point
+    from .ways import Section
 
 FURTHEST = 2
 """How far a place may be from the target, in multiples of what keeps drones apart."""
@@ -57,6 +59,19 @@ def places_above(target: Point, step: float, airspace: Airspace) -> Iterator[Poi
         place = (x, y, z + count * step)
         if airspace.problem(place) is None:
             yield place
+
+
+def to_beside(section: Section, place: Point, airspace: Airspace) -> Section | None:
+    """Return a section to a place beside its target; None: something forbidden is on the last leg.
+
+    Only its last leg is another one: to search a route to each of many places takes too long.
+    """
+    points = section.points
+    if len(points) > (2 if section.stands else 1):  # else it is at its target, or right below
+        points = points[:-1]
+    if leg_problem(airspace, points[-1], place) is not None:
+        return None
+    return replace(section, points=(*points, place), target=section.points[-1])
 
 
 def _is_permitted(airspace: Airspace, target: Point, place: Point) -> bool:

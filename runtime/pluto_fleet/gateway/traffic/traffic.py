@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import lru_cache, partial
 from math import dist, inf
 from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import Failure, FlightFailed
 from ...shared.time.kernel import FLEET, EventKind, Kernel, Timer
-from .beside import best_angle, places_above, places_around
+from .beside import best_angle, places_above, places_around, to_beside
 from .reservations import Reservation, ahead, are_near, meets
 from .space import SWAY, Space
 from .wait_queue import HOVERS, Elder, Obstacle, Wait, WaitQueue
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from ...jobs.controls import Controls, FleetDrone
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Point
-    from .wait_queue import Beside
 
 AGAIN = 0.5
 """Seconds between two looks at the waiting drones that are due, even if none has reported to have passed."""
@@ -34,6 +34,8 @@ NEARER = 4.0
 """Seconds that a drone flies longer rather than act one step, by which drones are kept apart, farther from its target."""
 OVERSHOOT, STOPPING = 0.6, 2.0
 """How far a real drone overshoots when it stops, in metres, and for how long."""
+REMEMBERED = 2_000
+"""How many places beside targets, and ways to them, are kept."""
 _EXACT = 1e-9
 
 Ways = Callable[[Section], Iterable[Section]]
@@ -67,6 +69,10 @@ class Traffic:
         most = len(drones) if max_airborne is None else max_airborne
         self.is_limited = most < len(drones)
         """Whether the number of drones in the air is limited."""
+        # Those that wait ask for the same again and again.
+        around = partial(places_around, step=self.level, airspace=airspace)
+        self._places_around = lru_cache(REMEMBERED)(around)
+        self._to_beside = lru_cache(REMEMBERED)(partial(to_beside, airspace=airspace))
         self._waiting = WaitQueue(self.limit)
         self._space = Space(
             kernel, self._drones, controls.telemetry, apart, self.limit, self.is_real, most
@@ -92,7 +98,7 @@ class Traffic:
     # A drone's section
 
     def clear(
-        self, section: Section, ways: Ways | None = None, beside: Beside | None = None
+        self, section: Section, ways: Ways | None = None, beside: bool = False
     ) -> Section | None:
         """Reserve a section for a drone, or an alternative; return None if it must wait.
 
@@ -104,9 +110,9 @@ class Traffic:
         for way in self._ways(section, ways):
             if self._space.blocker(way) is None and not (self._waiting and self._elder(way, now)):
                 return self._give(way)
-        if beside is None or not self._is_taken(section, now):
+        if not (beside and self._is_taken(section, now)):
             return None
-        way_beside = self._beside(section, now, beside)
+        way_beside = self._beside(section, now)
         return None if way_beside is None else self._give(way_beside)
 
     async def cleared(
@@ -114,7 +120,7 @@ class Traffic:
         section: Section,
         since: float,
         ways: Ways | None = None,
-        beside: Beside | None = None,
+        beside: bool = False,
     ) -> Section:
         """Wait for a section, and return it; it may only lead out of the way."""
         wait = Wait(section, since, tuple(self._ways(section, ways)), beside)
@@ -208,9 +214,8 @@ class Traffic:
 
     def _serve(self, wait: Wait) -> None:
         section = self._found(wait)
-        beside = None if section is not None else wait.beside
-        if beside is not None and self._is_taken(wait.section, wait.since):
-            section = self._beside(wait.section, wait.since, beside)
+        if section is None and wait.beside and self._is_taken(wait.section, wait.since):
+            section = self._beside(wait.section, wait.since)
             wait.due = self._kernel.now  # a place may become free at any time
         if section is None and self._should_land(wait):
             ways = self.ground.ways_down(wait.section.drone)
@@ -284,32 +289,31 @@ class Traffic:
 
     # Beside a target
 
-    def _beside(self, section: Section, since: float, beside: Beside) -> Section | None:
+    def _beside(self, section: Section, since: float) -> Section | None:
         """Return a free section to a place beside the target, which another drone has taken."""
         if not self._space.has_room(section):
             return None
-        target, airspace = section.points[-1], self._airspace
+        target = section.points[-1]
         best, least, soon = None, inf, self._seconds(section)
-
-        def cost(way: Section) -> float:
-            """Return the seconds that count: it need not be there earlier than at its target."""
-            far = dist(way.points[-1], target) / self.level
-            return max(soon, self._seconds(way)) + NEARER * far
-
         holder = self._space.holder(target, section.drone)
         holders = holder.points if holder is not None and holder.moves else None
         angle = best_angle(section.points, holders)
-        around = places_around(target, self.level, airspace, angle)
+        around = self._places_around(target, angle=angle)
         free = [place for place in around if self._space.holder(place, section.drone) is None]
-        for place in free or places_above(target, self.level, airspace):
-            way = beside(place)
-            if way is None or cost(way) >= least or self._is_shut(section.drone, place):
+        for place in free or places_above(target, self.level, self._airspace):
+            far = NEARER * dist(place, target) / self.level
+            if soon + far >= least:  # it need not be there earlier than at its target
+                break  # all others are farther still
+            if self._is_shut(section.drone, place):
+                continue
+            way = self._to_beside(section, place)
+            if way is None or self._seconds(way) + far >= least:
                 continue  # so it is at other heights, where it takes longer still
-            for one in sections(way, self.level, airspace):
-                seconds = cost(one)
-                is_free = seconds < least and self._space.blocker(one) is None
+            for one in sections(way, self.level, self._airspace):
+                cost = max(soon, self._seconds(one)) + far
+                is_free = cost < least and self._space.blocker(one) is None
                 if is_free and not self._elder(one, since):
-                    best, least = one, seconds
+                    best, least = one, cost
         return best
 
     def _is_shut(self, drone: str, place: Point) -> bool:

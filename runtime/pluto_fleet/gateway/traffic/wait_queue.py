@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from math import dist, inf
 from typing import TYPE_CHECKING, NamedTuple
@@ -26,10 +26,6 @@ _ALMOST = 0.9
 _STEPS = 1000
 _SMOOTHLY = [smoothly(step / _STEPS) for step in range(_STEPS + 1)]
 """The share of a smooth leg that is flown after each step of its time."""
-
-
-Beside = Callable[["Point"], Section | None]
-"""Returns a section that ends at a place instead of at the target; None: there is no way."""
 
 
 class Obstacle:
@@ -129,8 +125,8 @@ class Wait:
     section: Section
     since: float
     ways: Sequence[Section]
-    beside: Beside | None = None
-    """Makes a section to another place than the target; None: no other will do."""
+    beside: bool = False
+    """It may end beside its target, if another drone has taken that."""
     over: Future[Section] = field(default_factory=Future)
     due: float = -inf
     """When it has to be looked at again, unless what keeps it changes before."""
