@@ -199,7 +199,7 @@ class Brain:
 
     @property
     def living(self) -> int:
-        """How many missions are on their way through their graphs."""
+        """How many missions are on their way through their graphs, and not waiting for others."""
         return self._engine.living
 
     @property

@@ -286,3 +286,33 @@ def test_a_hook_that_puts_anything_anywhere_stops_no_journal() -> None:
     living = Living(enterable(prepare=odd), mission)
     assert living.run() == ["COMPLETED"]
     assert json.dumps(living.life.recorder.records.data)
+
+
+@pytest.mark.parametrize(("answer", "then"), [("done", "COMPLETED"), ("cancel", "FAILED")])
+def test_a_mission_that_comes_after_an_uncertain_one_does_not_keep_the_run_alive(
+    answer: str, then: str
+) -> None:
+    """Nothing can happen until a person has decided, so it ends, and goes on with that."""
+    app = enterable(clock=True, actions=(OwnAction(name="spray", hook=_spray),))
+    a = apps.mission("a", apps.trip("1", 3, action="spray", delay=1.0))
+    b = apps.mission("b", apps.trip("1", 3), promises={"after": ["a"]})
+    c = apps.mission("c", apps.trip("1", 3), promises={"after": ["a", "b"]})
+    living = Living(app, a, b, c)
+    living.crash(12.0)
+    assert living.run() == ["UNCERTAIN", "UNEXECUTED", "UNEXECUTED"]
+    living.decide_at_rest("a", answer)
+    assert living.run()[1:] == [then, then]
+
+
+def test_missions_that_come_after_others_are_called_off_or_paused_while_they_wait() -> None:
+    """What is left is flown to its end."""
+    a = apps.mission("a", apps.trip("1", 15.0))
+    b = apps.mission("b", apps.trip("1", 3.0), promises={"after": ["a"]})
+    c = apps.mission("c", apps.trip("1", 3.0), promises={"after": ["a"]})
+    living = Living(enterable(), a, b, c)
+    living.at(2.0, lambda: living.life.control.pause("b"))
+    living.at(3.0, lambda: living.life.control.cancel("c"))
+    living.at(4.0, lambda: living.life.control.go_on("b"))
+    assert living.run() == ["COMPLETED", "COMPLETED", "CANCELLED"]
+    (ended,) = [one for one in living.named("mission.ended") if one["mission"] == "a"]
+    assert living.times("trip.launched")[-1] >= float(str(ended["t"]))

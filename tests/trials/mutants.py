@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -23,7 +22,6 @@ from pluto_fleet.shared.flow.engine import Engine
 from pluto_fleet.shared.flow.promises import Promises
 from pluto_fleet.shared.flow.restore import Restorer
 from pluto_fleet.shared.hooks import plain_data
-from pluto_fleet.shared.time.future import Future
 from pluto_fleet.trials.record import TrialRecord
 
 Plant = Callable[[pytest.MonkeyPatch], None]
@@ -74,7 +72,7 @@ def cancel_forgets_the_task(patch: pytest.MonkeyPatch) -> None:
 
     def leave(self: Engine, state: Any) -> None:
         if state.task is not None:
-            self.living -= 1
+            self._begun -= 1
             state.task.over = lambda _: None
 
     patch.setattr(Engine, "_leave", leave)
@@ -183,30 +181,22 @@ def delays_go_on_while_stopped(patch: pytest.MonkeyPatch) -> None:
 def nothing_is_waited_for(patch: pytest.MonkeyPatch) -> None:
     """A mission begins at once, whatever was promised."""
 
-    async def at_once(self: Promises, mission: Any) -> None:
-        pass
+    async def at_once(self: Promises, run: Any) -> Any:
+        return await self._core.app.flow(run)
 
-    patch.setattr(Promises, "_may_begin", at_once)
+    patch.setattr(Promises, "in_time", at_once)
 
 
 def only_one_is_waited_for(patch: pytest.MonkeyPatch) -> None:
-    """A mission begins when one of those that it comes after has ended, well or not."""
-    really = Promises._may_begin
+    """A mission begins when the first of those that it comes after has completed."""
+    really = Promises.in_time
 
-    async def may_begin(self: Promises, mission: Any) -> None:
-        names = mission.promises.get("after", ())
-        if not any(self._states[name].ended for name in names):
-            one: Future[Any] = Future()
-            for name in names:
-                self._ends.setdefault(name, Future()).watch(one.set)
-            if names:
-                await one
-        alone: Any = SimpleNamespace(
-            promises={**mission.promises, "after": ()}, index=mission.index
-        )
-        await really(self, alone)
+    async def in_time(self: Promises, run: Any) -> Any:
+        promises = run.mission.promises
+        run.mission.promises = {**promises, "after": [*promises.get("after", ())][:1]}
+        return await really(self, run)
 
-    patch.setattr(Promises, "_may_begin", may_begin)
+    patch.setattr(Promises, "in_time", in_time)
 
 
 def the_past_is_forgiven(patch: pytest.MonkeyPatch) -> None:

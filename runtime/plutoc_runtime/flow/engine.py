@@ -24,9 +24,14 @@ class Engine:
 
     def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
         self.core, self.states = core, states
-        self.promises = Promises(core, states)
-        self.living = 0  # how many missions are on their way through their graphs
+        self.promises = Promises(core, states, self.look_for_the_end)
+        self._begun = 0  # how many missions are on their way through their graphs
         self.done: Future[None] = Future()  # set when the last mission has ended, or was suspended
+
+    @property
+    def living(self) -> int:
+        """How many missions are on their way through their graphs, and not waiting for others."""
+        return self._begun - len(self.promises.waiting)
 
     def start(self, missions: Sequence[Mission[Any]]) -> None:
         """Start the missions, all at the same instant."""
@@ -65,7 +70,7 @@ class Engine:
         flow = self.promises.in_time(run) if waits else core.app.flow(run)
         run.task = state.task = task = core.kernel.spawn(flow, key, mission.name)
         task.over = partial(self._ended, state)
-        self.living += 1
+        self._begun += 1
 
     def _doomed(self, state: MissionState) -> None:
         key, name = mission_key(state.mission.index), f"{state.mission.name} is doomed"
@@ -106,14 +111,15 @@ class Engine:
 
     def _leave(self, state: MissionState) -> None:
         task, state.task = state.task, None
+        self.promises.waiting.pop(state.mission.name, None)
         if task is not None:
-            self.living -= 1
+            self._begun -= 1
             task.over = None
             task.cancel()
 
     def _ended(self, state: MissionState, task: Task[Status]) -> None:
         """End a mission by the outcome of its coroutine."""
-        self.living -= 1
+        self._begun -= 1
         error, reason = task.error, ""
         if error is None:
             status = task.result()
@@ -149,7 +155,7 @@ class Engine:
         self.core.log(fault.detail + (f"\nin block {block}" if block else ""), mission.name)
 
     def look_for_the_end(self) -> None:
-        """Set `done` if every mission has ended."""
+        """Set `done` if every mission has ended, or was suspended, or waits for others that were."""
         if not self.living:
             self.done.set(None)
 

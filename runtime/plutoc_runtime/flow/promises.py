@@ -6,7 +6,7 @@ since the mission was started, or a text, a time of day; once it was started, se
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -23,14 +23,17 @@ if TYPE_CHECKING:
     from .mission import Core, MissionState
     from .run import Run
 
+Waits = Callable[[], None]  # called when a mission begins to wait for others
+
 
 class Promises:
     """The promises of all missions of one running app."""
 
-    def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
-        self._core, self._states = core, states
-        self._ends: dict[str, Future[str]] = {}
-        """For each mission that others wait for: set to which mission has ended, when they must look again."""
+    def __init__(self, core: Core, states: dict[str, MissionState], waits: Waits) -> None:
+        self._core, self._states, self._waits = core, states, waits
+        self.waiting: dict[str, Future[str]] = {}
+        """Of each mission that waits for others: set to which has ended, when it must look again."""
+        self._waited_for: dict[str, list[str]] = {}
 
     def start(self, mission: Mission[Any]) -> None:
         """Fix a new mission's promises in seconds since the app started, and record them."""
@@ -54,35 +57,34 @@ class Promises:
     def _look(self, mission: Mission[Any]) -> None:
         if not (mission.late or self._states[mission.name].ended):
             mission.late = True
-            if self._core.trace.live:
-                facts = {"mission": mission.name, "deadline": mission.deadline}
-                self._core.trace.note("mission.late", **facts)
+            if (trace := self._core.trace).live:
+                trace.note("mission.late", mission=mission.name, deadline=mission.deadline)
 
     def ended(self, mission: Mission[Any]) -> None:
         """Called when a mission has ended, in any way; of one that did not complete all hear that wait for any."""
-        some = [mission.name] if mission.status is COMPLETED else [*self._ends]
-        for name in some:
-            if name in self._ends:
-                self._ends.pop(name).set(mission.name)
+        self.waiting.pop(mission.name, None)
+        some = [mission.name] if mission.status is COMPLETED else [*self._waited_for]
+        for name in [name for one in some for name in self._waited_for.pop(one, ())]:
+            if name in self.waiting:
+                self.waiting.pop(name).set(mission.name)
 
     async def in_time(self, run: Run[Any]) -> Status:
         """Run a mission's flow once all that it comes after has completed, and its window has opened."""
-        await self._may_begin(run.mission)
-        return await self._core.app.flow(run)
-
-    async def _may_begin(self, mission: Mission[Any]) -> None:
-        names = mission.promises.get("after", ())
+        mission, names = run.mission, run.mission.promises.get("after", ())
         for name in names:
             self._refuse_vain(name)
         for name in names:
             while not self._states[name].ended:
-                if (ended := await self._ends.setdefault(name, Future())) in names:
+                self._waited_for.setdefault(name, []).append(mission.name)
+                self.waiting[mission.name] = must_look = Future[str]()
+                self._waits()
+                if (ended := await must_look) in names:
                     self._refuse_vain(ended)
             self._refuse_vain(name)
         kernel, opens = self._core.kernel, mission.promises.get("opens", 0.0)
         if opens > kernel.now:
-            key = mission_key(mission.index)
-            await kernel.sleep(opens - kernel.now, EventKind.CLOCK, key)
+            await kernel.sleep(opens - kernel.now, EventKind.CLOCK, mission_key(mission.index))
+        return await self._core.app.flow(run)
 
     def _refuse_vain(self, name: str) -> None:
         """Raise if it would be in vain to come after a mission."""
