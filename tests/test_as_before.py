@@ -1,4 +1,4 @@
-"""What a mission does, and when, is what it was when packages carried everything: 20 seeds of each."""
+"""What a mission does, and when, is what it was when packages carried everything: 10 seeds of each."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 
 from tests.as_before import EXAMPLES, KEPT, MISHAPS, as_it_was, compiled, hashes
 
-SEEDS = 20
+SEEDS = 10
 
 
 @pytest.mark.parametrize("example", sorted(path.name for path in EXAMPLES.iterdir()))

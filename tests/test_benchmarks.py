@@ -78,22 +78,22 @@ def test_compiling_is_measured() -> None:
 
 def test_the_choice_of_drones_is_measured() -> None:
     """Here in small: every policy chooses, shares out and empties a queue."""
-    few = ["--rounds", "1", "--fleets", "5", "120", "--shares", "3x2", "--plans", "2", "60"]
+    few = ["--rounds", "1", "--fleets", "5", "30", "--shares", "3x2", "--plans", "2", "15"]
     told = json.loads(python(str(ROOT / "benchmarks" / "choosing.py"), *few, "--json").stdout)
     policies = (
         *("first", "least_used", "nearest", "batch_optimal"),
         *("least_makespan", "nearest, charging"),
     )
-    assert list(told["queue_s"]) == [f"{name} {size}" for name in policies for size in (2, 60)]
+    assert list(told["queue_s"]) == [f"{name} {size}" for name in policies for size in (2, 15)]
     assert len(told["choice_us"]) == 6
     assert list(told["share_ms"]) == ["3 x 2"]
 
 
 def test_makespans_are_measured_by_policy() -> None:
-    """Here of two plans, without a solver: the defaults are nowhere near the former ones."""
-    few = ["--plans", "2", "--seconds", "0", "--json"]
+    """Here of one plan, without a solver: the defaults are nowhere near the former ones."""
+    few = ["--plans", "1", "--seconds", "0", "--json"]
     told = json.loads(python(str(ROOT / "benchmarks" / "allocation.py"), *few).stdout)
-    assert list(told["makespans_s"]) == ["1 few drones", "2 few, apart"]
+    assert list(told["makespans_s"]) == ["1 few drones"]
     defaults, former = told["ratios"]["defaults"], told["ratios"]["nearest, home"]
     assert 1.0 <= defaults["median"] <= defaults["worst"] < 1.5 < former["median"]
     assert told["ratios"]["defaults"] == told["ratios"]["least_makespan, next"]

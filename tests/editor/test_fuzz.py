@@ -84,7 +84,7 @@ MESSAGES = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(st.lists(MESSAGES, min_size=1, max_size=5))
 def test_no_message_is_met_with_more_than_a_sentence(messages: list[dict[str, object]]) -> None:
     async def sent(folder: Path) -> None:

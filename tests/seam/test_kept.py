@@ -29,6 +29,14 @@ from tests.seam.packages import (
     unpacked,
 )
 
+ENDED = [
+    pytest.param(seam, end, id=f"{seam}-{said_so}")
+    for seam in SEAMS
+    for end, said_so in ((signal.SIGINT, "stopped"), (signal.SIGKILL, "killed"))
+    if seam in (SEAMS[0], SEAMS[-1]) or end is signal.SIGKILL
+]
+"""How flights end: of seams between the oldest and the newest, by a death alone."""
+
 POURS = "pours on"
 """What the action of the app with hooks says, in the middle of a flight."""
 
@@ -131,8 +139,7 @@ def test_it_simulates_as_if_it_were_compiled_today(kept: Kept, tmp_path: Path) -
     assert told[0] == told[1]
 
 
-@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=["stopped", "killed"])
-@pytest.mark.parametrize("seam", SEAMS)
+@pytest.mark.parametrize(("seam", "end"), ENDED)
 def test_it_is_resumed(seam: str, end: signal.Signals, tmp_path: Path) -> None:
     package, journal = unpacked(Kept(seam, NAME), tmp_path), tmp_path / "flight.journal"
     with begun(package, journal) as flying:
@@ -149,8 +156,7 @@ def test_it_is_resumed(seam: str, end: signal.Signals, tmp_path: Path) -> None:
     [False, pytest.param(True, marks=pytest.mark.long)],  # whole flights once more
     ids=["as_it_is", "compiled_anew"],
 )
-@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=["stopped", "killed"])
-@pytest.mark.parametrize("seam", SEAMS)
+@pytest.mark.parametrize(("seam", "end"), ENDED)
 def test_an_action_that_was_cut_short_is_decided_on(
     seam: str, end: signal.Signals, compiled_anew: bool, tmp_path: Path
 ) -> None:
