@@ -14,7 +14,7 @@ from tests.equivalence.graphs import random_source
 from tests.equivalence.mutants import MUTANTS
 from tests.equivalence.shrink import shrunk
 
-GRAPHS = 80
+GRAPHS = 60
 ENOUGH = 150
 """Graphs within which every mutant must have shown itself; most do within ten."""
 

@@ -63,7 +63,7 @@ def crowd(
     return waits(outcome)
 
 
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=3, deadline=None)
 @given(
     st.sampled_from(POLICIES),
     st.lists(st.floats(0.5, 18.0), min_size=1, max_size=3),
