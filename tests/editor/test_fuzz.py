@@ -9,7 +9,7 @@ from random import Random
 from tempfile import TemporaryDirectory
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from plutoc.editor.asked import Refused, parsed
@@ -85,6 +85,7 @@ MESSAGES = st.fixed_dictionaries(
 
 
 @settings(max_examples=150)
+@example([{"op": "edit", "operation": {"do": []}}])
 @given(st.lists(MESSAGES, min_size=1, max_size=5))
 def test_no_message_is_met_with_more_than_a_sentence(messages: list[dict[str, object]]) -> None:
     async def sent(folder: Path) -> None:
