@@ -179,7 +179,7 @@ class NotAnOperation(Exception):
 
 def operation(data: object) -> Operation:
     """Return the operation that plain data means: `{"do": "Connect", "arrow": {…}}`."""
-    if not isinstance(data, Mapping) or data.get("do") not in [*KINDS]:
+    if not isinstance(data, Mapping) or data.get("do") not in [*KINDS]:  # it may not be hashable
         raise NotAnOperation(f"`do` must be one of {', '.join(KINDS)}")
     made: Operation = _made(KINDS[data["do"]], {k: v for k, v in data.items() if k != "do"})
     return made

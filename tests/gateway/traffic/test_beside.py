@@ -258,14 +258,3 @@ def test_a_way_beside_differs_in_its_last_leg() -> None:
     assert way.points == (*AROUND.points[:-1], place)
     assert way.target == SPOT
     assert to_beside(AROUND, (3.9, 5.3, 1.2), WALLED) is None, "the wall is on its last leg"
-
-
-@pytest.mark.parametrize(("below", "stands"), [((5.0, 5.0, 0.0), True), (SPOT, False)])
-def test_from_its_target_or_right_below_it_a_drone_goes_on_to_a_place_beside(
-    below: Point, stands: bool
-) -> None:
-    """Straight up first."""
-    points = (below, SPOT) if stands else (SPOT,)
-    way = to_beside(Section("cf1", points, stands, False), (5.5, 5.0, 1.2), OPEN)
-    assert way is not None
-    assert way.points == (*points, (5.5, 5.0, 1.2))

@@ -66,12 +66,10 @@ def to_beside(section: Section, place: Point, airspace: Airspace) -> Section | N
 
     Only its last leg is another one: to search a route to each of many places takes too long.
     """
-    points = section.points
-    if len(points) > (2 if section.stands else 1):  # else it is at its target, or right below
-        points = points[:-1]
-    if leg_problem(airspace, points[-1], place) is not None:
+    *before, target = section.points
+    if leg_problem(airspace, before[-1], place) is not None:
         return None
-    return replace(section, points=(*points, place), target=section.points[-1])
+    return replace(section, points=(*before, place), target=target)
 
 
 def _is_permitted(airspace: Airspace, target: Point, place: Point) -> bool:

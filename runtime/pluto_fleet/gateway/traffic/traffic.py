@@ -34,8 +34,8 @@ NEARER = 4.0
 """Seconds that a drone flies longer rather than act one step, by which drones are kept apart, farther from its target."""
 OVERSHOOT, STOPPING = 0.6, 2.0
 """How far a real drone overshoots when it stops, in metres, and for how long."""
-REMEMBERED = 2_000
-"""How many places beside targets, and ways to them, are kept."""
+_TARGETS, _WAYS = 100, 2_000
+"""Of how many targets the places beside them are kept, and how many ways to such places."""
 _EXACT = 1e-9
 
 Ways = Callable[[Section], Iterable[Section]]
@@ -71,8 +71,8 @@ class Traffic:
         """Whether the number of drones in the air is limited."""
         # Those that wait ask for the same again and again.
         around = partial(places_around, step=self.level, airspace=airspace)
-        self._places_around = lru_cache(REMEMBERED)(around)
-        self._to_beside = lru_cache(REMEMBERED)(partial(to_beside, airspace=airspace))
+        self._places_around = lru_cache(_TARGETS)(around)
+        self._to_beside = lru_cache(_WAYS)(partial(to_beside, airspace=airspace))
         self._waiting = WaitQueue(self.limit)
         self._space = Space(
             kernel, self._drones, controls.telemetry, apart, self.limit, self.is_real, most
