@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from base64 import b64encode
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import cache
+from hashlib import sha256
 from hmac import compare_digest
 from ipaddress import IPv4Address, IPv6Address, ip_address
 
@@ -14,6 +17,7 @@ from ...shared.domain.text import quoted
 from . import refusals
 from .http import Reply, Request
 from .refusals import Refusal
+from .static import pages
 
 _CLIENTS_KEPT = 1024
 """The most clients that are remembered; a forgotten one starts afresh."""
@@ -173,9 +177,11 @@ def _address(text: str) -> IPv4Address | IPv6Address | None:
 
 
 _PAGE = (
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:;"
-    " connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    "default-src 'none'; script-src 'self' {hashes}; style-src 'self'; img-src 'self' data: blob:;"
+    " connect-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none';"
+    " frame-ancestors 'none'"
 )
+_INLINE_SCRIPT = re.compile(rb"<script type=\"importmap\">(.*?)</script>", re.DOTALL)
 _PICTURE = (
     "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'; sandbox"
 )
@@ -205,4 +211,14 @@ def with_safe_headers(request: Request, reply: Reply) -> Reply:
 def _policy(request: Request, reply: Reply) -> str:
     if request.path == "/map":
         return _PICTURE
-    return _PAGE if reply.type.startswith("text/html") else _DATA
+    if not reply.type.startswith("text/html"):
+        return _DATA
+    return _PAGE.format(hashes=_hashes())
+
+
+@cache
+def _hashes() -> str:
+    """Return what allows the page's import map, which a browser takes only from within the page."""
+    found = _INLINE_SCRIPT.findall(pages()["/"].plain)
+    digests = (b64encode(sha256(script).digest()).decode() for script in found)
+    return " ".join(f"'sha256-{digest}'" for digest in digests)

@@ -25,6 +25,7 @@ _KINDS = {
     ".css": "text/css; charset=utf-8",
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
+    ".mjs": "text/javascript; charset=utf-8",
     ".png": "image/png",
     ".svg": "image/svg+xml",
 }
@@ -52,10 +53,11 @@ class StaticFile:
 def pages(folder: Path = FOLDER) -> Mapping[str, StaticFile]:
     """Return the files by their addresses."""
     table = {}
-    for file in sorted(folder.iterdir()):
+    for file in sorted(folder.rglob("*")):
         kind = _KINDS.get(file.suffix)
         if kind is not None and _NAME.fullmatch(file.name) and file.is_file():
-            table[f"/pages/{file.name}"] = _held(kind, file.read_bytes(), packs=True)
+            address = f"/pages/{file.relative_to(folder).as_posix()}"
+            table[address] = _held(kind, file.read_bytes(), packs=True)
     if "/pages/index.html" in table:
         table["/"] = table["/pages/index.html"]
     return table

@@ -1,0 +1,39 @@
+// The list of what wants attention: why, since when, and who has seen it.
+
+import { h } from "preact";
+import { say, t } from "../core/i18n.js";
+import { moment } from "../core/format.js";
+import { go } from "../core/route.js";
+import { mayFly, perform, selectDrone, selectMission } from "../core/station.js";
+import { Button } from "../ui/button.js";
+import { Dialog, Empty } from "../ui/parts.js";
+import { Icon } from "../ui/icon.js";
+import { isOpen, open } from "./button.js";
+
+/** @import { Alert } from "../wire" */
+
+/** @param {{ alert: Alert }} props */
+function Item({ alert }) {
+  const show = () => {
+    if (alert.drone) selectDrone(alert.drone);
+    else if (alert.mission) selectMission(alert.mission);
+    isOpen.value = false;
+    go("monitor");
+  };
+  return h("li", { class: `alert ${alert.urgent ? "urgent" : ""}` },
+    h(Icon, { name: alert.urgent ? "warning" : "info" }),
+    h("div", null, h("p", null, say(alert.said)),
+      h("p", { class: "hint" }, moment(alert.since_at),
+        alert.by !== null && ` · ${t("attention.by", { who: alert.by || t("attention.unnamed") })}`)),
+    h("div", { class: "row" },
+      (alert.drone || alert.mission) && h(Button, { small: true, kind: "quiet", onClick: show }, t("attention.show")),
+      alert.by === null && mayFly.value && h(Button, {
+        small: true, onClick: () => { perform("acknowledge", { alert: alert.id }); },
+      }, t("attention.acknowledge"))));
+}
+
+export const AttentionList = () => h(Dialog, {
+  title: t("attention.title"), class: "attention-list", onClose: () => { isOpen.value = false; },
+}, open.value.length
+  ? h("ul", null, open.value.map((alert) => h(Item, { key: alert.id, alert })))
+  : h(Empty, null, t("attention.none")));

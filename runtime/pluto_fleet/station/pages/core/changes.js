@@ -1,0 +1,99 @@
+// Changes of a plan: functions from missions to missions that find what they change by its key, so
+// that they can be made again on top of what others have changed meanwhile. Pure.
+
+import { freeName, newKey } from "./keys.js";
+
+/** @import { PlanMission, PlanTrip } from "../app" */
+/** @typedef {(missions: PlanMission[]) => PlanMission[]} Change */
+
+/** @param {PlanMission[]} missions @param {string} key */
+const has = (missions, key) => missions.some((mission) => mission.key === key);
+
+/** Change one mission. @param {string} key @param {(mission: PlanMission) => PlanMission} change @returns {Change} */
+export const inMission = (key, change) => (missions) =>
+  missions.map((mission) => (mission.key === key ? change(mission) : mission));
+
+/**
+ * A copy with a field set; `undefined` takes it away.
+ * @template {object} Thing
+ * @param {Thing} thing @param {string} name @param {unknown} value @returns {Thing}
+ */
+export function withField(thing, name, value) {
+  const { [name]: _, ...rest } = /** @type {any} */ (thing);
+  return value === undefined ? rest : { ...thing, [name]: value };
+}
+
+/** @param {string} key @param {string} name @param {unknown} value */
+export const setField = (key, name, value) =>
+  inMission(key, (mission) => withField(mission, name, value));
+
+/** @param {string} key of the new mission @param {string} stem of its name @param {Partial<PlanMission>} [extra] @returns {Change} */
+export const addMission = (key, stem, extra = {}) => (missions) => (has(missions, key) ? missions : [
+  ...missions,
+  {
+    key, launched: false, ended: null, trips: [],
+    name: freeName(stem, missions.map(({ name }) => name), missions.length + 1), ...extra,
+  },
+]);
+
+/** @param {string} key @param {string} fresh the copy's key @returns {Change} */
+export function copyMission(key, fresh) {
+  /** @type {Map<string, string>} the same new keys each time that the change is made */
+  const keys = new Map();
+  const another = (/** @type {string} */ old) => {
+    if (!keys.has(old)) keys.set(old, newKey());
+    return /** @type {string} */ (keys.get(old));
+  };
+  return (missions) => {
+    const at = missions.findIndex((mission) => mission.key === key);
+    if (at < 0 || has(missions, fresh)) return missions;
+    const original = missions[at];
+    const stem = original.name.trim().replace(/ \d+$/, "");
+    const copy = {
+      ...structuredClone(original),
+      key: fresh, launched: false, ended: null,
+      name: freeName(stem, missions.map(({ name }) => name), 2),
+      trips: original.trips.map((trip) => ({ ...structuredClone(trip), key: another(trip.key) })),
+    };
+    return missions.toSpliced(at + 1, 0, copy);
+  };
+}
+
+/** @param {string} key @returns {Change} */
+export const removeMission = (key) => (missions) =>
+  missions.filter((mission) => mission.key !== key || mission.launched);
+
+/** @template {{ key: string }} Item @param {Item[]} items @param {string} key @param {number} to @returns {Item[]} */
+export function moved(items, key, to) {
+  const at = items.findIndex((item) => item.key === key);
+  if (at < 0) return items;
+  return items.toSpliced(at, 1).toSpliced(Math.max(0, to), 0, items[at]);
+}
+
+/** @param {string} mission @param {(trips: PlanTrip[]) => PlanTrip[]} change */
+export const inTrips = (mission, change) =>
+  inMission(mission, (one) => ({ ...one, trips: change(one.trips) }));
+
+/** @param {string} mission @param {string} trip @param {(trip: PlanTrip) => PlanTrip} change */
+export const inTrip = (mission, trip, change) =>
+  inTrips(mission, (trips) => trips.map((one) => (one.key === trip ? change(one) : one)));
+
+/** @param {string} mission @param {PlanTrip[]} fresh @param {number} [at] the end, if it is left out */
+export const addTrips = (mission, fresh, at) => inTrips(mission, (trips) =>
+  trips.toSpliced(at ?? trips.length, 0, ...fresh.filter(({ key }) => !trips.some((one) => one.key === key))));
+
+/** @param {string} mission @param {readonly string[]} keys */
+export const removeTrips = (mission, keys) =>
+  inTrips(mission, (trips) => trips.filter(({ key }) => !keys.includes(key)));
+
+/** Each value of a plan, by where it stands. @param {PlanMission[]} missions @returns {Map<string, string>} */
+export const leaves = (missions) => new Map(missions.flatMap(({ key, trips, launched, ...own }) =>
+  [[key, own], ...trips.map(({ key: trip, ...its }) => [`${key} ${trip}`, its])])
+  .flatMap(([at, value]) => flat(String(at), value)));
+
+/** @param {string} at @param {unknown} value @returns {[string, string][]} */
+function flat(at, value) {
+  return value && typeof value === "object"
+    ? Object.entries(value).flatMap(([name, one]) => flat(`${at} ${name}`, one))
+    : [[at, String(value ?? "")]];
+}

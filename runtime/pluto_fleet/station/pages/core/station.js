@@ -1,0 +1,138 @@
+// The station as this page knows it: its app, the flight, the plan, and what is selected. Made once.
+
+import { computed, effect, signal } from "@preact/signals";
+import { command, get, pause, StationError, who } from "./api.js";
+import { t } from "./i18n.js";
+import { newKey } from "./keys.js";
+import { LiveLine } from "./live.js";
+import { tell } from "./notices.js";
+import { PlanStore } from "./plan.js";
+import { prefs } from "./prefs.js";
+import { page } from "./route.js";
+import { World } from "./world.js";
+
+/** @import { AppShape } from "../app" */
+/** @import { Signal } from "@preact/signals" */
+
+/** The flight as it is now. */
+export const world = new World();
+/** @type {Signal<AppShape | null>} the app, once it is known */
+export const app = signal(null);
+/** Why the station cannot be seen: its token is missing, or it refuses. */
+export const refusal = signal(/** @type {StationError | null} */ (null));
+export const plan = new PlanStore((text) => tell(text, { bad: true }));
+
+/**
+ * What is selected, on all pages: a mission (by the key in the plan and its name in the flight) with
+ * one of its trips, or a drone.
+ * @typedef {object} Selection
+ * @property {string | null} key
+ * @property {string | null} mission
+ * @property {string | null} trip
+ * @property {string | null} drone
+ */
+/** @type {Signal<Selection>} */
+export const selection = signal({ key: null, mission: null, trip: null, drone: null });
+
+/** Select a mission of the plan. @param {string | null} key @param {string | null} [trip] */
+export function selectKey(key, trip = null) {
+  const mission = plan.missions.peek().find((one) => one.key === key);
+  selection.value = { key: mission ? key : null, mission: mission?.name ?? null, trip, drone: null };
+}
+
+/** Select a mission of the flight. @param {string | null} name @param {string | null} [trip] */
+export function selectMission(name, trip = null) {
+  const key = plan.missions.peek().find((one) => one.name === name)?.key ?? null;
+  selection.value = { key, mission: name, trip, drone: null };
+}
+
+/** @param {string | null} drone */
+export function selectDrone(drone) {
+  selection.value = { key: null, mission: null, trip: null, drone };
+}
+
+/** The selected mission of the plan. */
+export const selected = computed(() => plan.mission(selection.value.key));
+
+effect(() => { // it was deleted, here or by another page
+  const { key } = selection.peek();
+  if (key && plan.isLoaded.value && !plan.mission(key)) selectKey(null);
+});
+
+/** Whether this browser may command; one that watches sees no buttons. */
+export const mayFly = computed(() => app.value?.role !== "watch");
+
+const browser = sessionStorage.getItem("pluto-browser") ?? newKey();
+sessionStorage.setItem("pluto-browser", browser);
+effect(() => { who.value = prefs.name.value; });
+
+export const line = new LiveLine(world, {
+  restarted: describeAgain,
+  denied: () => { refusal.value = new StationError("", 401); },
+  me: () => ({
+    id: browser, name: prefs.name.peek(), page: page.peek(), touches: selection.peek().key ?? "",
+  }),
+});
+
+/** Learn what app this is; false: we may not know. */
+async function describe() {
+  for (;;) {
+    try {
+      app.value = await get("/api/app");
+      return true;
+    } catch (error) {
+      if (error instanceof StationError && [401, 403].includes(error.status)) {
+        refusal.value = error;
+        return false;
+      }
+    }
+    await pause(1000);
+  }
+}
+
+// The station was started again: its app may be another by now.
+async function describeAgain() {
+  const shape = () => JSON.stringify({ ...app.peek(), server: "", sim: "", speed: "" });
+  const was = shape();
+  if (!await describe()) return;
+  if (shape() !== was) location.reload();
+  tell(t("live.restarted"));
+  loadPlan();
+}
+
+let isLoading = false;
+async function loadPlan() {
+  if (isLoading) return;
+  isLoading = true;
+  await plan.load().catch(() => pause(500)); // asked again as long as the revisions differ
+  isLoading = false;
+}
+
+/** Begin to know the station. */
+export async function connect() {
+  if (!await describe()) return;
+  line.keep();
+  loadPlan();
+  effect(() => {
+    const { known, plan: revision } = world.state.value;
+    if (known && revision !== plan.revision && plan.isSaved) loadPlan();
+  });
+  window.addEventListener("beforeunload", (event) => {
+    if (plan.trouble.peek()) event.preventDefault();
+  });
+}
+
+/**
+ * Command the station, and tell what it says; returns whether it was done.
+ * @param {string} name @param {Record<string, unknown>} [given]
+ */
+export async function perform(name, given = {}) {
+  try {
+    tell(await command(name, given));
+    return true;
+  } catch (error) {
+    if (!(error instanceof StationError)) throw error;
+    tell(error.message, { bad: true });
+    return false;
+  }
+}

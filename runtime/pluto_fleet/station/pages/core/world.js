@@ -1,0 +1,146 @@
+// What is known of a flight: each row a signal of its own, so that a page draws what has changed and
+// nothing else. The same for a live flight, a replay and a rehearsal.
+
+import { batch, signal } from "@preact/signals";
+
+/** @import { Alert, DroneRow, LiveMessage, LogLine, MissionRow, Person, Result, State } from "../wire" */
+/** @import { Signal } from "@preact/signals" */
+
+const LINES_KEPT = 5000; // of the console, and results
+
+/**
+ * Rows by their key.
+ * @template {Record<string, any>} Row
+ */
+class Rows {
+  /** @param {keyof Row & string} key */
+  constructor(key) {
+    this.key = key;
+    /** @type {Map<string, Signal<Row>>} */
+    this.rows = new Map();
+    /** The keys, in the order in which they came. */
+    this.keys = signal(/** @type {string[]} */ ([]));
+    /** Counts the changes, for those who read all rows. */
+    this.version = signal(0);
+  }
+
+  /** @param {Row[]} fresh */
+  take(fresh) {
+    if (!fresh.length) return;
+    let isNew = false;
+    for (const row of fresh) {
+      const known = this.rows.get(row[this.key]);
+      if (known) known.value = row;
+      else {
+        this.rows.set(row[this.key], signal(row));
+        isNew = true;
+      }
+    }
+    if (isNew) this.keys.value = [...this.rows.keys()];
+    this.version.value += 1;
+  }
+
+  /** @param {string | null | undefined} key @returns {Row | undefined} */
+  get(key) {
+    return key === null || key === undefined ? undefined : this.rows.get(key)?.value;
+  }
+
+  /** All rows; subscribes to every change. @returns {Row[]} */
+  all() {
+    void this.version.value;
+    return [...this.rows.values()].map((row) => row.peek());
+  }
+
+  clear() {
+    this.rows.clear();
+    this.keys.value = [];
+    this.version.value += 1;
+  }
+}
+
+/**
+ * The newest entries of a list that only grows, by their numbers.
+ * @template {{ number: number }} Entry
+ */
+class Tail {
+  constructor() {
+    /** @type {Signal<Entry[]>} */
+    this.entries = signal([]);
+  }
+
+  get last() {
+    return this.entries.peek().at(-1)?.number ?? 0;
+  }
+
+  /** @param {Entry[]} fresh */
+  take(fresh) {
+    const { last } = this;
+    const newer = fresh.filter(({ number }) => number > last);
+    if (newer.length) this.entries.value = [...this.entries.peek(), ...newer].slice(-LINES_KEPT);
+  }
+
+  clear() {
+    this.entries.value = [];
+  }
+}
+
+/** @returns {State & { known: boolean }} */
+const unknown = () => ({
+  known: false, phase: "idle", time: 0, plan: 0, map: 0, said: "", how: null, busy: "",
+});
+
+/** What is known of one flight. */
+export class World {
+  constructor() {
+    this.state = signal(unknown());
+    /** @type {Rows<MissionRow>} */
+    this.missions = new Rows("name");
+    /** @type {Rows<DroneRow>} */
+    this.drones = new Rows("id");
+    /** @type {Rows<Alert>} */
+    this.alerts = new Rows("id");
+    /** @type {Tail<LogLine>} */
+    this.log = new Tail();
+    /** @type {Tail<Result>} */
+    this.results = new Tail();
+    /** @type {Signal<Person[]>} */
+    this.people = signal([]);
+    /** The flight's id; empty: none. */
+    this.flight = signal("");
+  }
+
+  /**
+   * Take what has changed; what is left out stays.
+   * @param {Partial<LiveMessage> & Pick<LiveMessage, "state">} message
+   */
+  take(message) {
+    batch(() => {
+      if (message.flight !== undefined && message.flight !== this.flight.peek()) {
+        this.clear();
+        this.flight.value = message.flight;
+      }
+      this.state.value = { ...message.state, known: true };
+      this.missions.take(message.missions ?? []);
+      this.drones.take(message.drones ?? []);
+      this.alerts.take(message.alerts ?? []);
+      this.log.take(message.log ?? []);
+      this.results.take(message.results ?? []);
+      if (message.people) this.people.value = message.people;
+    });
+  }
+
+  /** Forget the flight, but not how the station stands. */
+  clear() {
+    batch(() => {
+      for (const part of [this.missions, this.drones, this.alerts, this.log, this.results]) part.clear();
+      this.flight.value = "";
+    });
+  }
+}
+
+/** @param {string} phase */
+export const isFlying = (phase) => phase === "flying" || phase === "stopping";
+
+const ENDED = ["COMPLETED", "FAILED", "CANCELLED"];
+/** @param {MissionRow} row */
+export const hasEnded = (row) => ENDED.includes(row.status);

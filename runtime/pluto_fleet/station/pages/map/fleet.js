@@ -1,0 +1,141 @@
+// The drones on the map, each with its battery, the way it came and where it is bound, and their names.
+
+import { computed } from "@preact/signals";
+import { h } from "preact";
+import { useEffect, useMemo, useRef } from "preact/hooks";
+import { effect, signal } from "@preact/signals";
+import { percent } from "../core/format.js";
+import { t, tOr } from "../core/i18n.js";
+import { Mark, useCamera } from "./camera.js";
+import { LINE, placed } from "./labels.js";
+import { toPixels } from "./view.js";
+
+/** @import { Signal } from "@preact/signals" */
+/** @import { AppShape } from "../app" */
+/** @import { DroneRow, MissionRow } from "../wire" */
+/** @import { World } from "../core/world.js" */
+/** @import { Label } from "./labels.js" */
+
+const TAIL = 30; // seconds of the way that it came
+const ROUND = 2 * Math.PI * 10; // pixels around the ring of the battery
+const LABELS_EVERY = 250; // ms
+const BAD = ["LOST", "CRASHED"];
+
+/** The homes of the drones. @param {{ app: AppShape }} props */
+export const Homes = ({ app }) => h("g", { class: "layer homes" },
+  app.drones.map(({ id, home: [x, y] }) => h(Mark, { key: id, x, y },
+    h("path", { d: "M-6 6V-1L0 -7L6 -1V6Z" }, h("title", null, t("map.home", { drone: id }))))));
+
+/** Where a mission's drone is bound: its present trip's target. @param {MissionRow | undefined} mission */
+const target = (mission) =>
+  (mission && mission.current !== null ? mission.trips[mission.current] : undefined);
+
+/**
+ * @param {object} props
+ * @param {World} props.world
+ * @param {string | null} props.chosen the selected drone
+ * @param {(id: string) => void} props.onPick
+ */
+export function Fleet({ world, chosen, onPick }) {
+  return h("g", { class: "layer fleet" },
+    world.drones.keys.value.map((id) => h(Drone, { key: id, world, id, isChosen: id === chosen, onPick })));
+}
+
+/** @param {{ world: World, id: string, isChosen: boolean, onPick: (id: string) => void }} props */
+function Drone({ world, id, isChosen, onPick }) {
+  const row = /** @type {DroneRow} */ (world.drones.get(id));
+  const to = useMemo(() => computed(() => {
+    const drone = world.drones.get(id);
+    const trip = drone?.mission ? target(world.missions.get(drone.mission)) : undefined;
+    return trip ? `${trip.x} ${trip.y}` : "";
+  }), [world, id]);
+  const { x, y } = row;
+  if (x === null || y === null) return null;
+  const [toX, toY] = to.value.split(" ").map(Number);
+  const status = tOr(`drone.${row.status}`, row.status);
+  return h("g", { class: `drone ${isChosen ? "chosen" : ""}`, "data-status": row.status, "data-drone": id },
+    to.value && h("line", { class: "bound", x1: x, y1: y, x2: toX, y2: toY }),
+    h(Tail, { world, id }),
+    h(Mark, { x, y }, h("g", {
+      role: "button", tabIndex: 0, "data-own": true, class: "drone-mark",
+      "aria-label": t("map.drone", { drone: id, status, battery: percent(row.battery) }),
+      onClick: () => onPick(id),
+      onKeyDown: (/** @type {KeyboardEvent} */ event) => {
+        if (!["Enter", " "].includes(event.key)) return;
+        event.preventDefault();
+        onPick(id);
+      },
+    },
+    h("circle", { class: "touch", r: 20 }), h("circle", { class: "body", r: 8 }),
+    h("circle", { class: "ring", r: 10 }),
+    row.battery !== null && h("circle", {
+      class: `ring level ${row.battery < 0.2 ? "bad" : ""}`, r: 10,
+      "stroke-dasharray": `${ROUND * row.battery} ${ROUND}`, transform: "rotate(-90)",
+    }),
+    BAD.includes(row.status) && h("path", { class: "cross", d: "M-4 -4L4 4M4 -4L-4 4" }))));
+}
+
+/** The way of the last half minute. @param {{ world: World, id: string }} props */
+function Tail({ world, id }) {
+  const line = useRef(/** @type {SVGPolylineElement | null} */ (null));
+  useEffect(() => {
+    /** @type {[number, number, number][]} */
+    let points = [];
+    return effect(() => {
+      const row = world.drones.get(id);
+      const { time } = world.state.peek();
+      if (!row || row.x === null || row.y === null) return;
+      const [last] = points.slice(-1);
+      if (last && time < last[0]) points = []; // a replay went back
+      points = points.filter(([at]) => at > time - TAIL);
+      points.push([time, row.x, row.y]);
+      line.current?.setAttribute("points", points.map(([, px, py]) => `${px},${py}`).join(" "));
+    });
+  }, [world, id]);
+  return h("polyline", { ref: line, class: "tail" });
+}
+
+/** @param {DroneRow} row @param {string | null} chosen @returns {number} */
+function importance({ id, status, mission }, chosen) {
+  if (id === chosen) return 4;
+  if (BAD.includes(status)) return 3;
+  return mission ? 2 : 1;
+}
+
+/**
+ * The drones' names, laid out anew a few times a second; those that are lost are always named.
+ * @param {{ world: World, chosen: string | null, more?: Signal<Label[]> }} props more: names in metres of other things
+ */
+export function Names({ world, chosen, more }) {
+  const camera = useCamera();
+  const list = useMemo(() => signal(/** @type {ReturnType<typeof placed>} */ ([])), []);
+  useEffect(() => {
+    let timer = 0;
+    const lay = () => {
+      timer = 0;
+      const view = camera.view.peek();
+      const rows = world.drones.all().filter(({ x }) => x !== null);
+      const at = (/** @type {number} */ x, /** @type {number} */ y) => toPixels(view, x, y);
+      const drones = rows.map((row) => ({
+        key: `drone ${row.id}`, text: row.id, gap: 14, kind: BAD.includes(row.status) ? "bad" : "",
+        importance: importance(row, chosen), always: BAD.includes(row.status) || row.id === chosen,
+        ...at(row.x ?? 0, row.y ?? 0),
+      }));
+      const others = (more?.peek() ?? []).map((label) => ({ ...label, ...at(label.x, label.y) }));
+      list.value = placed([...drones, ...others], camera.box.peek(), drones.map(({ x, y }) => ({ x, y, r: 10 })));
+    };
+    const stop = effect(() => {
+      void [world.drones.version.value, camera.view.value, camera.box.value, more?.value];
+      timer ||= setTimeout(lay, timer ? LABELS_EVERY : 60);
+    });
+    return () => {
+      stop();
+      clearTimeout(timer);
+    };
+  }, [world, chosen, camera, more]);
+  return h("div", { class: "names", "aria-hidden": true }, list.value.map(({ key, text, left, top, width, kind }) =>
+    h("span", {
+      key, class: `name ${kind ?? ""}`,
+      style: { transform: `translate(${left}px, ${top}px)`, width: `${width}px`, height: `${LINE}px` },
+    }, text)));
+}

@@ -1,0 +1,9 @@
+// In the making.
+
+/** @import { World } from "../core/world.js" */
+
+/** @param {{ world: World, live?: boolean, chosen?: string | null }} props */
+export function Graph({ world }) {
+  void world;
+  return null;
+}

@@ -1,0 +1,80 @@
+// The head of every page: the app, its pages, how it stands, and what flies or stops it.
+
+import { h } from "preact";
+import { clock } from "../core/format.js";
+import { t } from "../core/i18n.js";
+import { page, PAGES, go } from "../core/route.js";
+import { app, line, plan, world } from "../core/station.js";
+import { AttentionButton } from "../attention/button.js";
+import { leadTo, StartButtons, Stops, words } from "../start/commands.js";
+import { isFlying } from "../core/world.js";
+import { Chip, Tabs } from "../ui/parts.js";
+import { Icon } from "../ui/icon.js";
+
+/** @import { PageName } from "../core/route.js" */
+/** @import { IconName } from "../ui/icon.js" */
+
+/** @type {Record<string, ["" | "good" | "warn" | "info", IconName]>} */
+const PHASES = {
+  idle: ["info", "info"], flying: ["good", "start"], stopping: ["warn", "wait"],
+  stopped: ["warn", "pause"], over: ["info", "good"], interrupted: ["warn", "warning"],
+};
+/** @type {Record<PageName, IconName>} */
+export const SIGNS = {
+  missions: "list", trips: "pin", monitor: "map", results: "chart", history: "history", map: "settings",
+  help: "help",
+};
+
+export function Head() {
+  return h("header", { class: "head" },
+    h("h1", { class: "title" }, app.value?.title ?? "Pluto"),
+    h(Pages, null),
+    h(Standing, null),
+    h(Why, null),
+    h("div", { class: "fly", role: "group", "aria-label": t("start.group") },
+      h(AttentionButton, null), h(StartButtons, null), h(Stops, null)));
+}
+
+const Pages = () => h(Tabs, {
+  label: t("pages"), names: PAGES, now: page.value, onPick: go, controls: (name) => `page-${name}`,
+  title: (/** @type {PageName} */ name) => [h(Icon, { name: SIGNS[name] }), h("span", { class: "tab-words" }, t(`page.${name}`))],
+});
+
+function Standing() {
+  const { known, phase, time } = world.state.value;
+  const [kind, icon] = PHASES[phase];
+  const { sim = false, speed = 1 } = app.value ?? {};
+  return h("div", { class: "standing" },
+    h("span", { role: "status" }, known
+      ? h(Chip, { kind, icon }, t(`phase.${phase}`)) : h(Chip, { icon: "wait" }, t("phase.unknown"))),
+    (isFlying(phase) || time > 0) && h("span", { class: "num" }, clock(time)),
+    sim && h(Chip, null, speed === 1 ? t("simulated") : t("simulated.at", { speed })),
+    plan.trouble.value && h(Chip, { kind: "warn" }, t("plan.unsaved")),
+    h(Age, null));
+}
+
+function Age() {
+  const age = line.age.value;
+  const seconds = Math.round(age / 1000);
+  if (!world.state.value.known) return h(Chip, { kind: "warn" }, t("live.none"));
+  return h(Chip, { kind: line.isLost.value ? "bad" : age < 1500 ? "good" : "warn" },
+    age < 1500 ? t("live.now") : t("live.old", { seconds }));
+}
+
+/** Why Start waits, or what it would leave out. */
+function Why() {
+  const { said, problem } = words.value;
+  if (!said) return h("span", { class: "why" });
+  return h("span", { class: "why" }, problem
+    ? h("button", { type: "button", class: "link", onClick: () => leadTo(problem) }, said)
+    : h("span", { class: "muted" }, said));
+}
+
+/** What stays in sight as long as the station does not answer. */
+export function LostLine() {
+  const isLost = world.state.value.known && line.isLost.value;
+  const seconds = Math.round(line.age.value / 1000);
+  return h("div", { class: "lost-line", role: "alert" }, isLost && [
+    h(Icon, { name: "warning" }),
+    h("p", null, h("strong", null, t("live.lost")), " ", t("live.lost-more", { seconds }))]);
+}

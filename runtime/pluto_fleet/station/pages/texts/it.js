@@ -1,0 +1,5 @@
+// In the making.
+
+import en from "./en.js";
+
+export default { ...en };
