@@ -98,7 +98,7 @@ def neglected(server: Server, seconds: float) -> Numbers:
         time.sleep(min(SETTLE, seconds))
         used = share(lambda: server.used, seconds)
         grown = server.memory - memory
-        newest = server.ask("/api/live?flight=&seen=0&log=0&results=0")["n"]
+        newest = server.ask("/api/live?flight=&seen=0&log=0&results=0")["version"]
         behind = newest - back()
     return {
         "server, a client never reads, %": used,

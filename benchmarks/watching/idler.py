@@ -29,7 +29,7 @@ def idler(url: str) -> Iterator[Callable[[], int]]:
             asking.join()
             with _line(url) as again:
                 again.send(ASK)
-                version: int = json.loads(again.recv(timeout=10))["n"]
+                version: int = json.loads(again.recv(timeout=10))["version"]
                 return version
 
         try:

@@ -32,7 +32,7 @@ LISTEN = """
   let painted = 0, updates = 0;
   window.__ages = () => ({ages: ages.splice(0), updates});
   const heard = (event) => {
-    const made = /"made":\\s*(\\d+)/.exec(event.data);
+    const made = /"made_at":\\s*(\\d+)/.exec(event.data);
     if (!made) return;
     updates += 1;
     requestAnimationFrame(() => setTimeout(() => { painted = Number(made[1]); }));

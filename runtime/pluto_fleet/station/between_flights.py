@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from ..files.drones import DroneEntry
     from ..files.fleet import FleetFile
     from .config import StationConfig
+    from .wire import DroneRow
 
 FRESH_FOR = 4.0
 """Seconds for which a drone's last known state counts as current."""
@@ -50,7 +51,7 @@ class IdleDrones:
         self._read_at: object = None
         self._sightings: dict[str, Sighting] = {}
 
-    def rows(self, known: Records | None) -> Iterator[rows.Row]:
+    def rows(self, known: Records | None) -> Iterator[DroneRow]:
         """Yield the row of each; `known` is the journal's record of them."""
         sightings, now = self._newest(), time.time()
         for entry in self._fleet:
@@ -83,7 +84,7 @@ class IdleDrones:
         return self._sightings
 
 
-def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> rows.Row:
+def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> DroneRow:
     lost = known.lost.get(id) if known is not None else None
     trips = known.flown.get(id, 0) if known is not None else 0
     retired = known is not None and id in known.retired
@@ -291,7 +292,7 @@ class FleetHistory:
             return [CRAZYFLIES]
         return [DRONES] if self._config.sim else []
 
-    def rows(self) -> Iterator[rows.Row]:
+    def rows(self) -> Iterator[DroneRow]:
         """Yield the rows of the drones while there is no flight."""
         if self._idle.write_down(self._app, self.records):
             self.read()

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from collections import deque
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from ..jobs.flown import ACTS_BESIDE
 from ..report.sentences import line_of, sentence_of
@@ -15,15 +16,18 @@ from ..shared.domain.text import bounded
 if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.trace import Event
+    from .wire import LineKind, LogLine, Result, ResultKind
+
+Row = TypeVar("Row", bound=Mapping[str, object])
 
 
-class VersionedRows:
+class VersionedRows(Generic[Row]):
     """Rows by name, each as JSON with the version of its last change."""
 
     def __init__(self) -> None:
-        self._rows: dict[str, tuple[int, object, str]] = {}
+        self._rows: dict[str, tuple[int, Row, str]] = {}
 
-    def put(self, name: str, row: object, number: int) -> bool:
+    def put(self, name: str, row: Row, number: int) -> bool:
         """Store a row; return whether it has changed."""
         known = self._rows.get(name)
         if known is not None and known[1] == row:
@@ -53,25 +57,27 @@ LARGEST_ROUNDED = 1_000_000
 """Pages show six digits of a number; larger whole numbers are sent as text, in full."""
 
 
-class Tail:
+class Tail(Generic[Row]):
     """The newest entries of an append-only list, numbered from 1."""
 
     def __init__(self) -> None:
         self.last = 0
         self._texts: deque[str] = deque(maxlen=LINES_KEPT)
 
-    def add(self, *facts: object) -> None:
-        """Append an entry with these facts."""
+    @property
+    def next(self) -> int:
+        """The number that the next entry has."""
+        return self.last + 1
+
+    def add(self, entry: Row) -> None:
+        """Append an entry."""
         self.last += 1
-        self._texts.append(json.dumps([self.last, *facts]))
+        self._texts.append(json.dumps(entry))
 
     def since(self, number: int) -> Iterator[str]:
         """Yield the entries after a number, up to the most in one message."""
         new = min(self.last - number, LINES_A_MESSAGE, len(self._texts))
         return (self._texts[place] for place in range(-new, 0))
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._texts)
 
 
 class Feed:
@@ -80,19 +86,20 @@ class Feed:
     def __init__(self, app: App, units: Mapping[str, str]) -> None:
         """`units` are those of the quantities that `measure` measures, if known."""
         self._app, self._units = app, units
-        self.log, self.results = Tail(), Tail()
+        self.log: Tail[LogLine] = Tail()
+        self.results: Tail[Result] = Tail()
         self._lines: deque[str] = deque(maxlen=LINES_KEPT)
-        self._whole: deque[object] = deque(maxlen=LINES_KEPT)
-        """The full values of results that pages get shortened."""
+        self._brought: deque[object] = deque(maxlen=LINES_KEPT)
+        """The results as they are downloaded, with the full values that pages get shortened."""
         self._beside: dict[tuple[object, object], object] = {}
         """Where actions are done that are done beside their targets, by mission and trip."""
 
-    def take(self, event: Event) -> None:
+    def take(self, event: Mapping[str, Any]) -> None:
         """Process a durable event."""
         said = sentence_of(event)
         if said is not None:
             self._lines.append(line_of(event) or "")
-            self.log.add(event["t"], event.get("mission"), said, _kind(event))
+            self._line(event["t"], event.get("mission"), said, _kind(event))
         verdict = _VERDICTS.get(str(event["event"]))
         if event["event"] == ACTS_BESIDE:
             self._beside[event["mission"], event["trip"]] = event["at"]
@@ -103,10 +110,16 @@ class Feed:
         elif verdict is not None:
             self._result(event, "verdict", f"{verdict}: {event.get('reason') or said}")
 
-    def say(self, time: float, text: str, kind: str = "info") -> None:
+    def say(self, time: float, text: str, kind: LineKind = "info") -> None:
         """Add a line that is not an event of the flight."""
         self._lines.append(f"{time:>8.1f} s  {text}")
-        self.log.add(time, None, text, kind)
+        self._line(time, None, text, kind)
+
+    def _line(self, time: float, mission: str | None, text: str, kind: LineKind) -> None:
+        number = self.log.next
+        self.log.add(
+            {"number": number, "time": time, "mission": mission, "text": text, "kind": kind}
+        )
 
     def console(self) -> str:
         """Return all kept lines as text."""
@@ -114,12 +127,9 @@ class Feed:
 
     def brought(self) -> list[object]:
         """Return the kept results, each as a mapping."""
-        return [
-            dict(zip(FACTS, json.loads(text), strict=False)) | {"value": value}
-            for text, value in zip(self.results, self._whole, strict=True)
-        ]
+        return list(self._brought)
 
-    def _completed(self, event: Event) -> None:
+    def _completed(self, event: Mapping[str, Any]) -> None:
         """Add the result of a trip's action, with its quantity and place."""
         trip: Any = event["did"]
         action = self._app.actions[trip["action"]]
@@ -130,32 +140,60 @@ class Feed:
         if action.name == MEASURE and kind != "photo":
             kind, quantity = "measurement", given.pop("quantity")
         unit = self._units.get(str(quantity))
-        at = self._beside.pop((event["mission"], event["trip"]), None)
-        facts = [trip["target"], given, quantity, unit, *([] if at is None else [at])]
-        self._result(event, kind, value, action.name, *facts)
+        done: dict[str, Any] = {"action": action.name, "target": trip["target"]}
+        done["parameters"] = given
+        if at := self._beside.pop((event["mission"], event["trip"]), None):
+            done["at"] = at
+        self._result(event, kind, value, done, quantity, unit)
 
     def _result(
-        self, event: Event, kind: str, value: object, action: str | None = None, *more: object
+        self,
+        event: Mapping[str, Any],
+        kind: ResultKind,
+        value: Any,
+        done: Mapping[str, Any] = MappingProxyType({}),
+        quantity: str | None = None,
+        unit: str | None = None,
     ) -> None:
-        facts = (event.get(fact) for fact in ("t", "mission", "trip", "round", "attempt", "drone"))
-        said = value if kind == "photo" or action in (PICK, RELEASE) else _in_words(value)
-        self.results.add(*facts, kind, said, *([action, *more] if action is not None else []))
-        self._whole.append(value)
+        """Add a result; `done` is what was done for it, and where."""
+        said = (
+            value if kind == "photo" or done.get("action") in (PICK, RELEASE) else _in_words(value)
+        )
+        result: Result = {
+            "number": self.results.next,
+            "time": event["t"],
+            "mission": event["mission"],
+            "trip": event.get("trip"),
+            "round": event.get("round"),
+            "attempt": event.get("attempt"),
+            "drone": event.get("drone"),
+            "kind": kind,
+            "action": done.get("action"),
+            "parameters": done.get("parameters", {}),
+            "target": done.get("target"),
+            "at": done.get("at"),
+            "place": None,
+            "value": said,
+            "values": [],
+            "tags": [],
+        }
+        if quantity is not None and isinstance(value, (int, float)):
+            result["values"] = [{"quantity": quantity, "value": value, "unit": unit}]
+        self.results.add(result)
+        facts = {key: fact for key, fact in result.items() if key in _FILED}
+        asked = {"quantity": quantity, "unit": unit} if done else {}
+        self._brought.append({**facts, "value": value, **done, **asked})
 
 
-FACTS = (
-    *("number", "time", "mission", "trip", "round", "attempt", "drone", "kind", "value"),
-    *("action", "target", "parameters", "quantity", "unit", "at"),
-)
-"""The facts of a result, in this order; of a verdict only those in the first line.
-
-The last is there only where the action was not done at its target.
-"""
+_FILED = ("number", "time", "mission", "trip", "round", "attempt", "drone", "kind")
+"""What the results' file has of every result; of a verdict nothing more than its value."""
 
 
-def _value(data: Any) -> tuple[str, object]:
+def _value(data: Any) -> tuple[ResultKind, Any]:
     """Return the kind of a result for pages, and its value."""
-    return "photo" if isinstance(data, dict) and "$photo" in data else "result", _plain(data)
+    if isinstance(data, dict) and "$photo" in data:
+        return "photo", {**data["$photo"], "picture": None}
+    return "result", _plain(data)
 
 
 def _plain(data: Any) -> object:
@@ -171,7 +209,7 @@ def _plain(data: Any) -> object:
             return data
 
 
-def _in_words(value: object) -> object:
+def _in_words(value: Any) -> Any:
     """Return an action's result as text for a page."""
     match value:
         case None:
@@ -191,7 +229,7 @@ _BAD = (
 )
 
 
-def _kind(event: Event) -> str:
+def _kind(event: Event) -> LineKind:
     """Return the style of a line: `good`, `bad`, `hook` (the app's own text), or `info`."""
     kind = event["event"]
     if kind == "log":

@@ -18,6 +18,7 @@ from ..shared.domain.text import cut_off
 if TYPE_CHECKING:
     from ..gateway.sightings import Sighting
     from ..journal.fold import Record
+    from .wire import DroneRow, MissionRow, Question, TripRow
 
 END = "end"
 """The pseudo-block of missions that have ended."""
@@ -38,8 +39,6 @@ def blocks_of(declaration: str) -> tuple[str, ...]:
     return (word[0],) if word is not None else ()
 
 
-Row = dict[str, object]
-
 LONGEST_REASON = 200
 """Characters of the reason why a drone may not fly; the full text is on the console."""
 
@@ -53,7 +52,7 @@ def living_row(
     now: float,
     fleet: Callable[[str, Sequence[Record]], str],
     first: Sequence[str],
-) -> Row:
+) -> MissionRow:
     """Return the row of a mission that is `where` its brain says.
 
     `first` are the missions after which it comes and that have not ended. `resumes` are the blocks that allocate drones, `priority` is that of a trip whose record has none;
@@ -64,22 +63,19 @@ def living_row(
     until = where["until"] or opens
     until = until if (until or 0.0) > now else None
     why = partial(fleet, name, todo)
-    return {
-        **recorded_row(name, record, lives=True),
-        # once its trips are done, a block has yet to decide
-        "status": (Status.STANDBY if status in ENDED else status).value,
-        "trips": [_trip(trip, "COMPLETED", priority) for trip in record["done"]]
-        + [_trip(trip, "WAITING", priority) for trip in todo],
-        "drone": where["drone"],
-        "at": list(at),
-        "wait": (
-            "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
-        ),
-        "until": until,
-    }
+    row = recorded_row(name, record, lives=True)
+    # once its trips are done, a block has yet to decide
+    row["status"] = (Status.STANDBY if status in ENDED else status).value
+    row["trips"] = [_trip(trip, "COMPLETED", priority) for trip in record["done"]]
+    row["trips"] += [_trip(trip, "WAITING", priority) for trip in todo]
+    row["drone"], row["at"], row["until"] = where["drone"], list(at), until
+    row["wait"] = (
+        "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
+    )
+    return row
 
 
-def recorded_row(name: str, record: Record, *, lives: bool = False) -> Row:
+def recorded_row(name: str, record: Record, *, lives: bool = False) -> MissionRow:
     """Return the row of a mission from its journal's record; `lives`: its app is running."""
     done, todo = record["done"], record["todo"]
     status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
@@ -112,7 +108,7 @@ def recorded_row(name: str, record: Record, *, lives: bool = False) -> Row:
 
 def drone_row(
     id: str, drone: Mapping[str, Any], silence: float, mission: str | None, why: str, status: str
-) -> Row:
+) -> DroneRow:
     """Return the row of a drone as it stands, rounded to centimetres and thousandths.
 
     `silence`: the seconds since it was heard last; `why`: why it may not fly; `status` replaces its
@@ -139,7 +135,7 @@ def drone_at(
     trips: int,
     retired: bool,
     why: str,
-) -> Row:
+) -> DroneRow:
     """Return the row of a drone without a flight; `seen` is the time of its last known state."""
     if seen is None:
         return _drone_row(id, status, None, None, None, trips, retired, why)
@@ -157,7 +153,7 @@ def _drone_row(
     retired: bool,
     why: str = "",
     when: float | None = None,
-) -> Row:
+) -> DroneRow:
     x, y, z = (None, None, None) if at is None else (round(metres, 2) for metres in at)
     return {
         "id": id,
@@ -165,7 +161,7 @@ def _drone_row(
         "x": x,
         "y": y,
         "z": z,
-        "seen": None if when is None else round(when) * 1000,
+        "seen_at": None if when is None else round(when) * 1000,
         "battery": None if battery is None else round(battery, 3),
         "mission": mission,
         "trips": trips,
@@ -174,14 +170,19 @@ def _drone_row(
     }
 
 
-def _trip(data: Record, status: str, usual: object = None) -> list[object]:
+def _trip(data: Record, status: str, usual: object = None) -> TripRow:
     x, y, _ = data["target"]
-    priority = data.get("fields", {}).get(PRIORITY, usual)
-    stands = data.get("status", status)
-    return [data["name"], stands, round(x, 3), round(y, 3), priority, data["action"]]
+    return {
+        "name": data["name"],
+        "status": data.get("status", status),
+        "x": round(x, 3),
+        "y": round(y, 3),
+        "priority": data.get("fields", {}).get(PRIORITY, usual),
+        "action": data["action"],
+    }
 
 
-def _recorded_trip(data: Record, status: str) -> list[object]:
+def _recorded_trip(data: Record, status: str) -> TripRow:
     """Return a trip as far as its journal knows it: whether it still flies must be asked first."""
     flew = data.get("status") == TripStatus.EXECUTING.value
     return _trip({**data, "status": TripStatus.WAITING.value} if flew else data, status)
@@ -211,6 +212,6 @@ def _why_it_waits(
 _WAITS = {Status.PAUSED: "paused", **dict.fromkeys(ANSWERS, "waits for your decision")}
 
 
-def _question(status: Status, text: str) -> Row | None:
+def _question(status: Status, text: str) -> Question | None:
     answers = ANSWERS.get(status)
     return None if answers is None else {"text": text, "answers": list(answers)}

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from ..flight.recorded_flight import RecordedFlight
     from ..journal.store import Store
     from ..shared.domain.trace import Event
+    from .wire import DroneRow, LineKind, MissionRow
 
 
 class Phase(Enum):
@@ -83,9 +84,10 @@ class FlightSession:
         `known` has the drones' states before the first record.
         """
         self.flight = flight
-        self.id = flight.journal.name
+        self.id = flight.journal.stem
         self.feed = Feed(flight.app, UNITS if flight.sim else {})
-        self.missions, self.drones = VersionedRows(), VersionedRows()
+        self.missions: VersionedRows[MissionRow] = VersionedRows()
+        self.drones: VersionedRows[DroneRow] = VersionedRows()
         self.stops = Stops()
         self.one: LiveFlight | None = None
         """The current run."""
@@ -198,7 +200,7 @@ class FlightSession:
         """Tell users on the console what they should know of it."""
         self._say(text)
 
-    def _say(self, text: str, kind: str = "bad") -> None:
+    def _say(self, text: str, kind: LineKind = "bad") -> None:
         self.feed.say(self.now, text, kind)
 
     @property
@@ -262,10 +264,10 @@ class FlightSession:
         put, changed = self.drones.put, False
         life = self.life
         for row in self._idle.rows(self.records) if life is None else self._drones_now(life):
-            changed |= put(str(row["id"]), row, number)
+            changed |= put(row["id"], row, number)
         return changed
 
-    def _drones_now(self, life: RecordedFlight) -> Iterator[rows.Row]:
+    def _drones_now(self, life: RecordedFlight) -> Iterator[DroneRow]:
         where = life.brain.whereabouts()
         work = {one["drone"]: name for name, one in where.items() if one["drone"] is not None}
         for id, drone in life.brain.drones().items():

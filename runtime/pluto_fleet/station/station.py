@@ -60,6 +60,8 @@ class Station:
         """The current or last flight."""
         self.leaves = asyncio.Event()
         """Set when the station is to end and nothing flies any more."""
+        self.map_revision = 0
+        """The revision of what is drawn on the map, which nothing changes while a station runs."""
         self._leaving = False
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._updates = Updates(self)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .between_flights import FleetHistory
     from .plan.plan import MissionPlan
     from .session import FlightSession
+    from .wire import Busy, DroneRow, State
 
 LOOK_EVERY = 0.12
 """The sampling interval in seconds, unless a change is announced."""
@@ -37,6 +38,7 @@ class StationState(Protocol):
     session: FlightSession | None
     plan: MissionPlan
     history: FleetHistory
+    map_revision: int
 
 
 class Updates:
@@ -44,8 +46,9 @@ class Updates:
 
     def __init__(self, station: StationState) -> None:
         self._station = station
-        self._number, self._state = 0, ""
-        self.drones = VersionedRows()
+        self._version = 0
+        self._state: State | None = None
+        self.drones: VersionedRows[DroneRow] = VersionedRows()
         """The drones' rows while there is no flight."""
         self._tick: asyncio.Future[None] | None = None
         self._timer: asyncio.Handle | None = None
@@ -60,7 +63,7 @@ class Updates:
             session = self._station.session
             if (session.id if session is not None else "") != flight:
                 return self._told(session, 0, 0, 0)
-            new = seen < self._number
+            new = seen < self._version
             if session is not None:
                 new |= log < session.feed.log.last or results < session.feed.results.last
             if new or loop.time() >= until:
@@ -97,55 +100,55 @@ class Updates:
                 tick.set_result(None)
 
     def _note_what_is_new(self) -> None:
-        number = self._number + 1
-        session, state = self._station.session, self._state_now()
+        version = self._version + 1
+        session, state = self._station.session, self._state_at(0.0)  # time alone is no change
         changed = state != self._state
         self._state = state
         if session is not None:
-            changed |= session.look(number)
+            changed |= session.look(version)
         else:
             for row in self._station.history.rows():
-                changed |= self.drones.put(str(row["id"]), row, number)
+                changed |= self.drones.put(row["id"], row, version)
         if changed:
-            self._number = number
+            self._version = version
 
-    def _state_now(self) -> str:
-        session = self._station.session
+    def _state_at(self, now: float) -> State:
+        session, plan = self._station.session, self._station.plan
         how = session.stops.asked if session is not None and session.lives else None
-        return json.dumps(
-            {
-                "phase": phase_of(session).value,
-                "journal": str(session.journal) if session is not None else None,
-                "plan": self._station.plan.revision,
-                "said": (session.trouble if session is not None else "")
-                or self._station.plan.trouble,
-                "how": how.value if how is not None else None,
-                "busy": _busy(session),
-            }
-        )
+        return {
+            "phase": phase_of(session).value,
+            "time": round(now, 3),
+            "plan": plan.revision,
+            "map": self._station.map_revision,
+            "said": (session.trouble if session is not None else "") or plan.trouble,
+            "how": how.value if how is not None else None,
+            "busy": _busy(session),
+        }
 
     def _told(self, session: FlightSession | None, seen: int, log: int, results: int) -> str:
+        """Return a `LiveMessage`, whose rows have been serialised once for all pages."""
         parts = {
             "server": json.dumps(self._station.described["server"]),
-            "n": str(self._number),
-            "made": str(round(time.time() * 1000)),
             "flight": json.dumps(session.id if session is not None else ""),
-            "state": f'{{"time": {session.now if session else 0.0:.3f}, {self._state[1:]}',
+            "version": str(self._version),
+            "made_at": str(round(time.time() * 1000)),
+            "state": json.dumps(self._state_at(session.now if session is not None else 0.0)),
             "missions": _listed(session.missions.since(seen) if session else ()),
             "drones": _listed((session or self).drones.since(seen)),
             "log": _listed(session.feed.log.since(log) if session else ()),
             "results": _listed(session.feed.results.since(results) if session else ()),
+            "alerts": "[]",
         }
         return "{" + ", ".join(f'"{name}": {text}' for name, text in parts.items()) + "}"
 
 
-def _busy(session: FlightSession | None) -> str:
+def _busy(session: FlightSession | None) -> Busy:
     """Return what all missions wait for."""
     if session is None or not session.lives:
         return ""
     if session.life is None:
-        return "looking for the drones"
-    return "" if session.life.is_set_out else "asking the drones where they are"
+        return "connecting"
+    return "" if session.life.is_set_out else "asking"
 
 
 def _listed(texts: Iterable[str]) -> str:

@@ -13,6 +13,13 @@ Point = list[float]
 """x and y, and z where it is known."""
 Scalar = str | int | float | bool
 Phase = Literal["idle", "flying", "stopping", "stopped", "interrupted", "over"]
+Busy = Literal["", "connecting", "asking"]
+LineKind = Literal["good", "bad", "info", "hook"]
+ResultKind = Literal["measurement", "photo", "result", "verdict", "handling"]
+AlertKind = Literal[
+    "lost", "crashed", "battery", "uncertain", "finding", "late", "waiting", "failed"
+]
+Role = Literal["watch", "fly"]
 
 
 class Words(TypedDict):
@@ -39,7 +46,7 @@ class State(TypedDict):
     """What is wrong; empty: nothing."""
     how: Literal["rtl", "land"] | None
     """How the drones come down."""
-    busy: Literal["", "connecting", "asking"]
+    busy: Busy
     """What all missions wait for: drones to be found, or asked where they are."""
 
 
@@ -113,7 +120,7 @@ class LogLine(TypedDict):
     time: float
     mission: str | None
     text: str
-    kind: Literal["good", "bad", "info", "hook"]
+    kind: LineKind
 
 
 class PhotoValue(TypedDict):
@@ -141,7 +148,7 @@ class Result(TypedDict):
     round: int | None
     attempt: int | None
     drone: str | None
-    kind: Literal["measurement", "photo", "result", "verdict", "handling"]
+    kind: ResultKind
     action: str | None
     parameters: dict[str, Scalar]
     target: Point | None
@@ -166,7 +173,7 @@ class Alert(TypedDict):
     """Something that somebody must know of, until it is over."""
 
     id: str
-    kind: Literal["lost", "crashed", "battery", "uncertain", "finding", "late", "waiting", "failed"]
+    kind: AlertKind
     urgent: bool
     mission: str | None
     drone: str | None
@@ -185,7 +192,7 @@ class Person(TypedDict):
 
     id: str
     name: str
-    role: Literal["watch", "fly"]
+    role: Role
     page: str
     touches: str
     """The key of the mission or trip that it has selected; empty: none."""

@@ -79,7 +79,7 @@ def agree(page: Page, station: Station, *words: str) -> list[dict[str, Any]]:
 def is_away(station: Station) -> bool:
     """Whether a drone is in the air, and well away from home."""
     homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
-    heard = [row for row in station.now()["drones"] if row["seen"] is None]
+    heard = [row for row in station.now()["drones"] if row["seen_at"] is None]
     rows = [row for row in heard if row["x"] is not None and row["z"] > 0.3]
     return any(abs(row["x"] - homes[row["id"]][0]) > 1 for row in rows)
 

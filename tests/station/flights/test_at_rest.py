@@ -90,7 +90,7 @@ def test_after_each_end_drones_are_shown_where_they_lie_before_and_after_a_resum
     if ends is not is_killed_with_its_gateway:
         assert {row["status"] for row in seen} == {"LANDED"}
         assert any(not is_home(station, row) for row in seen) is (ends is not ends_by_a_stop_home)
-    assert all(row["seen"] for row in seen)
+    assert all(row["seen_at"] for row in seen)
     assert world.keys() == {row["id"] for row in seen}
     tell(station, "resume")
     comes_to(station, "over")
@@ -122,11 +122,11 @@ def test_a_lost_drone_stays_lost_over_ends_restarts_and_starts_until_it_is_broug
         end()
         station.start()
         assert station.phase == "over"
-        assert {**before, "seen": 0} == {**found(station, who), "seen": 0}
+        assert {**before, "seen_at": 0} == {**found(station, who), "seen_at": 0}
     assert all_again(station) == f"3 missions started; without {who}, lost until brought back"
     comes_to(station, "over")
     assert who not in [event["drone"] for event in events_of_newest(station, "trip.launched")]
-    assert {**before, "seen": 0, "trips": 0} == {**found(station, who), "seen": 0}
+    assert {**before, "seen_at": 0, "trips": 0} == {**found(station, who), "seen_at": 0}
     assert agrees(station)
     assert refused(station, "bring-back", drone="cf9")[1].startswith('no drone "cf9" is in the')
     assert tell(station, "bring-back", drone=who).startswith(f"{who} is brought back: it is asked")

@@ -85,7 +85,7 @@ def test_what_cannot_be_kept_is_said_when_it_starts(serve: Serve) -> None:
     station.put("/api/plan", {name: plan[name] for name in ("revision", "missions")})
     said = tell(station, "start", missions=[late["key"]])
     assert said == "1 mission started; not all will be in time: the console says why"
-    lines = [part for line in station.now()["log"] for part in line if isinstance(part, str)]
+    lines = [line["text"] for line in station.now()["log"]]
     why = f'Mission "{late["name"]}": it is due after 1 s, and takes'
     assert any(line.startswith(why) for line in lines), lines
     completes_all_once(station)
@@ -235,9 +235,9 @@ def test_a_priority_can_be_changed_while_missions_fly_and_only_in_apps_that_have
 ) -> None:
     station = flying(serve("drugs_distribution_retry"))
     waiting = next(r for r in station.now()["missions"] if r["current"] is not None)
-    trip = waiting["trips"][-1][0]
+    trip = waiting["trips"][-1]["name"]
     tell(station, "prioritise", mission=waiting["name"], trip=trip, priority=7)
-    assert row(station, waiting["name"])["trips"][-1][4] == 7
+    assert row(station, waiting["name"])["trips"][-1]["priority"] == 7
     without = flying(serve())
     given = {"mission": "Mission 1", "trip": "A", "priority": 7}
     assert refused(without, "prioritise", **given) == (

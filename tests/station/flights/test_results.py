@@ -10,7 +10,7 @@ from pluto_fleet.shared.domain.model import Photo
 from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.plain_data import value_data
-from pluto_fleet.station.feed import FACTS, UNITS, Feed
+from pluto_fleet.station.feed import UNITS, Feed
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, tell
@@ -103,7 +103,7 @@ def shown(value: object, action: str = "spray") -> tuple[object, object]:
     feed.take({**event, "result": value_data(value), "did": did})
     [page], [found] = feed.results.since(0), feed.brought()
     assert isinstance(found, dict)
-    return json.loads(page)[FACTS.index("value")], found["value"]
+    return json.loads(page)["value"], found["value"]
 
 
 def test_what_an_action_returned_is_downloaded_as_it_is_and_shown_in_words() -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.station.rows import living_row, recorded_row
+from pluto_fleet.station.wire import MissionRow
 
 
 def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, Any]:
@@ -18,9 +19,7 @@ def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, 
     return record | dict.fromkeys(("question", "held", "paused")) | more
 
 
-def row(
-    record: dict[str, Any], block: str, first: Sequence[str] = (), **more: Any
-) -> dict[str, object]:
+def row(record: dict[str, Any], block: str, first: Sequence[str] = (), **more: Any) -> MissionRow:
     where = {"block": block, "drone": None, "flies": False, "allocated": False, "until": None}
 
     def why(mission: str, todo: Sequence[Mapping[str, Any]]) -> str:
@@ -68,13 +67,13 @@ def test_a_mission_that_may_not_begin_yet_says_why() -> None:
 def test_a_trip_without_a_priority_of_its_own_has_the_usual_one() -> None:
     """A record leaves out what was not changed; what does not fly is not weighed either."""
     rows = row(record_of("STANDBY", TRIP), ""), recorded_row("a", record_of("STANDBY", TRIP))
-    assert [seen["trips"][0][4] for seen in rows if isinstance(seen["trips"], list)] == [1, None]
+    assert [seen["trips"][0]["priority"] for seen in rows] == [1, None]
 
 
 def test_a_trip_is_shown_as_it_flies_only_while_its_brain_knows_that() -> None:
     record = record_of("RUNNING", {**TRIP, "status": "EXECUTING"})
     shown = [seen["trips"] for seen in (row(record, ""), recorded_row("a", record))]
-    assert [trips[0][1] for trips in shown if isinstance(trips, list)] == ["EXECUTING", "WAITING"]
+    assert [trips[0]["status"] for trips in shown] == ["EXECUTING", "WAITING"]
 
 
 @pytest.mark.parametrize(

@@ -39,6 +39,7 @@ class Shown:
         self.session: Any = Unseen()
         self.plan = MissionPlan(APP, FLEET, None)
         self.history: Any = Nothing()
+        self.map_revision = 0
 
 
 def test_a_mistake_in_what_is_shown_leaves_no_one_waiting_nor_who_heard_of_the_drones() -> None:

@@ -89,7 +89,7 @@ class AStation:
         if self.busy is not None:
             await self.busy()
         self.told += 1
-        return json.dumps({"n": self.told, "flight": flight})
+        return json.dumps({"version": self.told, "flight": flight})
 
     def console(self) -> str:
         return "<script>alert(1)</script>\ud800"

@@ -213,7 +213,7 @@ def test_what_there_is_can_be_read() -> None:
     assert json.loads(ask("GET", "/api/app").body) == {"name": "alfalfa"}
     assert json.loads(ask("GET", "/api/plan").body)["revision"] == 1
     assert ask("GET", "/api/plan.toml").body == b"[[mission]]\n"
-    assert json.loads(ask("GET", "/api/live", flight="a").body) == {"n": 1, "flight": "a"}
+    assert json.loads(ask("GET", "/api/live", flight="a").body) == {"version": 1, "flight": "a"}
     results = json.loads(ask("GET", "/api/results.json").body)
     assert results == [{"value": "nan"}, {"value": [1.5, "inf"]}]
     console = ask("GET", "/api/console.txt")

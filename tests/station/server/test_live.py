@@ -54,8 +54,8 @@ def talk(ask: Asked, line: ALine, headers: dict[str, str] = OURS) -> ALine:
 def test_each_question_is_answered_once() -> None:
     line = talk(asked(), ALine(SEEN, {**SEEN, "flight": "a"}))
     assert [json.loads(text) for text in line.heard] == [
-        {"n": 1, "flight": ""},
-        {"n": 2, "flight": "a"},
+        {"version": 1, "flight": ""},
+        {"version": 2, "flight": "a"},
     ]
     assert line.closed is None
 

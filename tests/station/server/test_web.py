@@ -48,7 +48,7 @@ def test_pages_and_answers_come_over_a_socket() -> None:
         assert status(await station.say(station.request("POST", "/api/start", {"id": "1"}))) == 200
         assert station.station.done == [("start", {})]
         poll = await station.say(station.request("GET", "/api/live?flight=a+b&seen=3"))
-        assert json.loads(poll.split(b"\r\n\r\n")[1]) == {"n": 1, "flight": "a b"}
+        assert json.loads(poll.split(b"\r\n\r\n")[1]) == {"version": 1, "flight": "a b"}
 
     play(scene)
 
@@ -216,7 +216,7 @@ def test_a_page_stays_connected() -> None:
         async with connect(where, origin=station.origin) as page:
             for n in (1, 2, 3):
                 await page.send(json.dumps(SEEN))
-                assert json.loads(await page.recv())["n"] == n
+                assert json.loads(await page.recv())["version"] == n
             await page.send(b"\x00\x01")
             with pytest.raises(ConnectionClosed) as closed:
                 await page.recv()
@@ -251,7 +251,9 @@ def test_who_asks_and_does_not_read_costs_nothing_and_hears_all_of_it_later() ->
             for _ in range(10):
                 await page.send(json.dumps(SEEN))
             await station.stop()
-            assert [json.loads(await page.recv())["n"] for _ in range(10)] == list(range(1, 11))
+            assert [json.loads(await page.recv())["version"] for _ in range(10)] == list(
+                range(1, 11)
+            )
 
     play(scene)
 
