@@ -19,7 +19,7 @@ import { toPixels } from "./view.js";
 const TAIL = 30; // seconds of the way that it came
 const ROUND = 2 * Math.PI * 10; // pixels around the ring of the battery
 const LABELS_EVERY = 250; // ms
-const BAD = ["LOST", "CRASHED"];
+const BAD = ["LOST"];
 
 /** The homes of the drones. @param {{ app: AppShape }} props */
 export const Homes = ({ app }) => h("g", { class: "layer homes" },
@@ -52,7 +52,7 @@ function Drone({ world, id, isChosen, onPick }) {
   const { x, y } = row;
   if (x === null || y === null) return null;
   const [toX, toY] = to.value.split(" ").map(Number);
-  const status = tOr(`drone.${row.status}`, row.status);
+  const status = tOr(`status.${row.status}`, row.status);
   return h("g", { class: `drone ${isChosen ? "chosen" : ""}`, "data-status": row.status, "data-drone": id },
     to.value && h("line", { class: "bound", x1: x, y1: y, x2: toX, y2: toY }),
     h(Tail, { world, id }),

@@ -1,15 +1,109 @@
-// In the making.
+// The drones as a list, and the card of the selected one: how it is, why, and what can be done with it.
 
+import { h } from "preact";
+import { useRef, useState } from "preact/hooks";
+import { duration, many, number, roughly } from "../core/format.js";
+import { t } from "../core/i18n.js";
+import { app, mayFly, perform, selectDrone, selection, selectMission } from "../core/station.js";
+import { Button, IconButton } from "../ui/button.js";
+import { Battery, Empty } from "../ui/parts.js";
+import { Slide } from "../ui/slide.js";
+import { Standing, toneOf } from "../ui/standing.js";
+
+/** @import { AppShape } from "../app" */
+/** @import { DroneRow } from "../wire" */
 /** @import { World } from "../core/world.js" */
 
-/** @param {{ world: World, live?: boolean }} props */
-export function DroneList({ world }) {
-  void world;
-  return null;
+const IN_THE_AIR = 0.2; // metres: below, a drone may stand on something
+
+/** @param {DroneRow} row */
+export const statusOf = ({ status, retired }) => (retired && status !== "LOST" ? "RETIRED" : status);
+
+/** How old what is known is, and where it was then. @param {DroneRow} row @param {number} now ms since 1970 */
+function seen({ seen_at: at, x, y }, now) {
+  if (at === null || x === null || y === null) return "";
+  return t("drone.seen", { x: number(x), y: number(y), time: roughly(Math.max(0, now - at) / 1000) });
 }
 
-/** @param {{ world: World, id: string, live?: boolean }} props */
-export function DroneCard({ world }) {
-  void world;
-  return null;
+/** @param {{ world: World, live: boolean }} props */
+export function DroneList({ world, live }) {
+  const ids = world.drones.keys.value;
+  if (!ids.length) return h(Empty, null, t("monitor.no-drones"));
+  return h("ul", { class: "drone-rows", "aria-label": t("monitor.drones") },
+    ids.map((id) => h(DroneLine, { key: id, world, id, live })));
+}
+
+/** @param {{ world: World, id: string, live: boolean }} props */
+function DroneLine({ world, id, live }) {
+  const row = /** @type {DroneRow} */ (world.drones.get(id));
+  const isChosen = selection.value.drone === id;
+  return h("li", { class: `drone-entry ${isChosen ? "open" : ""}`, "data-drone": id },
+    h("button", { type: "button", class: "opener", "aria-pressed": isChosen, onClick: () => selectDrone(isChosen ? null : id) },
+      h("span", { class: `dot ${toneOf(statusOf(row))}`, "aria-hidden": true }),
+      h("span", { class: "opener-words" }, h("strong", { class: "called" }, id),
+        row.mission && h("small", null, row.mission)),
+      h("span", { class: "opener-end" }, h(Standing, { status: statusOf(row) }), h(Battery, { level: row.battery }))),
+    h(WhyNot, { row, live }));
+}
+
+/** @param {{ row: DroneRow, live: boolean }} props */
+function WhyNot({ row, live }) {
+  const facts = [
+    row.why, live ? seen(row, Date.now()) : "",
+    row.ready_in ? t("drone.ready-in", { time: duration(row.ready_in) }) : "",
+  ].filter(Boolean);
+  return facts.length ? h("p", { class: "because" }, facts.join(" · ")) : null;
+}
+
+/**
+ * The card of a drone, on the map.
+ * @param {{ world: World, id: string, live: boolean }} props
+ */
+export function DroneCard({ world, id, live }) {
+  const row = world.drones.get(id);
+  if (!row) return null;
+  const { categories, drones } = /** @type {AppShape} */ (app.value);
+  const category = categories.length > 1 ? drones.find((one) => one.id === id)?.category : undefined;
+  const can = live && mayFly.value;
+  const isAway = row.retired || row.status === "LOST";
+  const flies = (row.z ?? 0) > IN_THE_AIR;
+  const isRunning = world.state.value.phase === "flying";
+  return h("section", { class: "drone-card card stack", "aria-label": t("drone.card", { drone: id }) },
+    h("div", { class: "row" }, h("h2", { class: "called" }, id), category && h("span", { class: "muted" }, category),
+      h("span", { class: "spread" }, h(IconButton, { icon: "close", label: t("close"), onClick: () => selectDrone(null) }))),
+    h("div", { class: "row" }, h(Standing, { status: statusOf(row) }), h(Battery, { level: row.battery }),
+      h("span", { class: "muted num" }, many("many.trips", row.trips))),
+    h(WhyNot, { row, live }),
+    row.mission && h("p", null, t("drone.mission"), " ",
+      h("button", { type: "button", class: "link", onClick: () => selectMission(row.mission) }, row.mission)),
+    row.x !== null && row.y !== null && row.seen_at === null && h("p", { class: "muted num" },
+      t("drone.at", { x: number(row.x), y: number(row.y), z: number(row.z ?? 0) })),
+    can && h("div", { class: "row" },
+      (isAway || isRunning) && h(Button, {
+        small: true, onClick: () => { perform(isAway ? "bring-back" : "retire", { drone: id }); },
+      }, t(isAway ? "drone.bring-back" : "drone.retire"))),
+    can && flies && h(CutMotors, { id }));
+}
+
+/** The motors off at once: by a slide, or by a word that is typed, for screen readers and voices. @param {{ id: string }} props */
+function CutMotors({ id }) {
+  const [isTyping, type] = useState(false);
+  const field = useRef(/** @type {HTMLInputElement | null} */ (null));
+  const cut = () => { perform("cut-motors", { drone: id }); };
+  /** @param {SubmitEvent} event */
+  function submit(event) {
+    event.preventDefault();
+    const isRight = field.current?.value.trim().toLowerCase() === t("drone.cut-word");
+    if (field.current) field.current.value = "";
+    if (!isRight) return;
+    type(false);
+    cut();
+  }
+  return h("div", { class: "stack" },
+    h(Slide, { label: t("drone.cut", { drone: id }), onEnd: cut }),
+    isTyping
+      ? h("form", { class: "field", onSubmit: submit },
+        h("label", { for: "cut-word" }, t("drone.cut-how", { word: t("drone.cut-word") })),
+        h("input", { id: "cut-word", ref: field, autocomplete: "off" }))
+      : h("button", { type: "button", class: "link", onClick: () => type(true) }, t("drone.cut-type")));
 }

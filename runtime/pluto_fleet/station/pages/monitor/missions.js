@@ -1,9 +1,176 @@
-// In the making.
+// The missions of the flight: how each stands, and why; the one that is open shows its trips.
 
+import { computed, useSignal } from "@preact/signals";
+import { h } from "preact";
+import { useEffect, useMemo, useRef } from "preact/hooks";
+import { capital, inWords, number } from "../core/format.js";
+import { t } from "../core/i18n.js";
+import { app, mayFly, perform, plan, selection, selectDrone, selectMission } from "../core/station.js";
+import { hasEnded } from "../core/world.js";
+import { start } from "../start/commands.js";
+import { Button, IconButton } from "../ui/button.js";
+import { Battery, Chip, Empty } from "../ui/parts.js";
+import { Standing, toneOf } from "../ui/standing.js";
+import { SureButton } from "../ui/sure.js";
+import { calledTrip, done, due, progress, why } from "./waiting.js";
+
+/** @import { AppShape, FieldShape } from "../app" */
+/** @import { MissionRow, TripRow } from "../wire" */
 /** @import { World } from "../core/world.js" */
 
-/** @param {{ world: World, live?: boolean, chosen?: string | null }} props */
-export function MissionList({ world }) {
-  void world;
-  return null;
+/** @type {Record<string, (row: MissionRow) => boolean>} */
+const FILTERS = {
+  all: () => true,
+  flying: ({ status }) => status === "RUNNING",
+  waiting: (row) => !hasEnded(row) && row.status !== "RUNNING",
+  ended: hasEnded,
+  trouble: ({ status, late, question }) => status === "FAILED" || late || question !== null,
+};
+const MANY = 8; // missions from which on they can be searched
+
+/** @param {{ world: World, live: boolean }} props */
+export function MissionList({ world, live }) {
+  const filter = useSignal("all");
+  const text = useSignal("");
+  const names = useMemo(() => computed(() => {
+    const wanted = text.value.trim().toLowerCase();
+    return world.missions.all()
+      .filter((row) => FILTERS[filter.value](row) && row.name.toLowerCase().includes(wanted))
+      .sort((a, b) => a.index - b.index).map(({ name }) => name).join("\n");
+  }), [world, filter, text]);
+  const counts = useMemo(() => computed(() => {
+    const rows = world.missions.all();
+    return Object.fromEntries(Object.entries(FILTERS).map(([name, fits]) => [name, rows.filter(fits).length]));
+  }), [world]);
+  const total = world.missions.keys.value.length;
+  if (!total) return h(Empty, null, t(live ? nothingYet() : "monitor.no-missions"));
+  const shown = names.value ? names.value.split("\n") : [];
+  return h("div", { class: "mission-rows" },
+    total > MANY && h("input", {
+      type: "search", class: "input", "aria-label": t("monitor.find-mission"),
+      placeholder: t("monitor.find-mission"), value: text.value,
+      onInput: (/** @type {InputEvent} */ event) => { text.value = /** @type {HTMLInputElement} */ (event.target).value; },
+    }),
+    h("div", { class: "sieve", role: "group", "aria-label": t("monitor.which-missions") },
+      Object.keys(FILTERS).map((name) => h("button", {
+        type: "button", key: name, class: "sift", "aria-pressed": filter.value === name,
+        onClick: () => { filter.value = name; },
+      }, t(/** @type {any} */ (`monitor.filter.${name}`)), " ", h("span", { class: "num" }, counts.value[name])))),
+    h("ul", { "aria-label": t("monitor.missions") }, shown.map((name) => h(Mission, { key: name, world, name, live }))),
+    !shown.length && h(Empty, null, t("monitor.none-like-that")));
 }
+
+const nothingYet = () => (plan.missions.value.length ? "monitor.press-start" : "monitor.make-some");
+
+/** @param {{ world: World, name: string, live: boolean }} props */
+function Mission({ world, name, live }) {
+  const row = /** @type {MissionRow} */ (world.missions.get(name));
+  const { retries = false, rounds = false, fields } = /** @type {AppShape} */ (app.value);
+  const isOpen = selection.value.mission === name;
+  const element = useRef(/** @type {HTMLLIElement | null} */ (null));
+  useEffect(() => { if (isOpen) element.current?.scrollIntoView({ block: "nearest" }); }, [isOpen]);
+  const texts = fields.mission.filter(({ own, type }) => own && type === "text")
+    .map(({ name: key }) => row.fields[key]).filter(Boolean);
+  const facts = [
+    progress(row), retries && row.attempt > 1 && t("monitor.attempt", { n: row.attempt }),
+    rounds && t("monitor.round", { n: row.round + 1 }),
+  ].filter(Boolean).join(" · ");
+  return h("li", { ref: element, class: `mission-entry ${isOpen ? "open" : ""}`, "data-mission": name },
+    h("button", {
+      type: "button", class: "opener", "aria-expanded": isOpen,
+      onClick: () => selectMission(isOpen ? null : name),
+    },
+    h("span", { class: `token ${toneOf(row.status)}` }, row.index + 1),
+    h("span", { class: "opener-words" },
+      h("strong", { class: "called" }, name), texts.length > 0 && h("small", null, texts.join(" · ")),
+      h("small", { class: "num" }, facts)),
+    h("span", { class: "opener-end" }, h(Standing, { status: row.status }), h(Due, { world, row }))),
+    h("div", { class: "track", "aria-hidden": true },
+      h("span", { style: { width: `${row.total ? (100 * row.done) / row.total : 0}%` } })),
+    h("div", { class: "mission-more" }, row.drone && h(Carrier, { world, id: row.drone }), h(Because, { world, row })),
+    isOpen && h(Details, { world, row, live }));
+}
+
+/** @param {{ world: World, row: MissionRow }} props */
+function Due({ world, row }) {
+  if (row.due === null && !row.late) return null;
+  return h(Chip, { kind: row.late ? "bad" : "" }, due(row, world.state.value.time));
+}
+
+/** @param {{ world: World, row: MissionRow }} props */
+function Because({ world, row }) {
+  const now = row.until === null ? 0 : world.state.value.time;
+  const said = why(row, now);
+  return said ? h("span", { class: "because" }, said) : null;
+}
+
+/** @param {{ world: World, id: string }} props */
+function Carrier({ world, id }) {
+  return h("span", { class: "carrier" },
+    h("button", { type: "button", class: "link", onClick: () => selectDrone(id) }, id),
+    h(Battery, { level: world.drones.get(id)?.battery ?? null }));
+}
+
+/** @param {FieldShape} field @param {MissionRow} row */
+function filled({ name, label, default: usual, units }, row) {
+  const value = row.fields[name] ?? usual;
+  if (value === undefined || value === null || value === "") return null;
+  const said = typeof value === "boolean" ? t(value ? "yes" : "no") : inWords(value, units);
+  return `${label ?? capital(name)}: ${said}`;
+}
+
+/** @param {{ world: World, row: MissionRow, live: boolean }} props */
+function Details({ world, row, live }) {
+  const { fields } = /** @type {AppShape} */ (app.value);
+  const { phase } = world.state.value;
+  const can = live && mayFly.value;
+  const isOver = hasEnded(row) || phase !== "flying";
+  const own = fields.mission.filter((field) => field.own).map((field) => filled(field, row)).filter(Boolean);
+  const drawn = plan.missions.value.find((mission) => mission.name === row.name);
+  const send = (/** @type {string} */ name, more = {}) => { perform(name, { mission: row.name, ...more }); };
+  return h("div", { class: "details" },
+    own.length > 0 && h("p", { class: "hint" }, own.join(" · ")),
+    h("ol", { class: "trip-lines" }, row.trips.map((trip, index) => h(Trip, {
+      key: `${trip.name} ${index}`, trip, index, isCurrent: index === row.current && !hasEnded(row),
+      can: can && !isOver, send, hasPriority: fields.trip.some(({ name }) => name === "priority"),
+    }))),
+    can && h("div", { class: "row" },
+      !isOver && row.question === null && h(Button, {
+        small: true, onClick: () => send(row.status === "PAUSED" ? "go-on" : "pause"),
+      }, t(row.status === "PAUSED" ? "monitor.go-on" : "monitor.pause")),
+      !isOver && h(SureButton, {
+        label: t("monitor.cancel"), sure: t("monitor.cancel-sure"), onSure: () => send("cancel"),
+      }),
+      phase === "over" && drawn && h(Button, { small: true, onClick: () => { start([drawn.key]); } },
+        t("monitor.start-again"))));
+}
+
+/**
+ * @param {object} props
+ * @param {TripRow} props.trip
+ * @param {number} props.index
+ * @param {boolean} props.isCurrent
+ * @param {boolean} props.can
+ * @param {boolean} props.hasPriority
+ * @param {(name: string, more?: object) => void} props.send
+ */
+function Trip({ trip, index, isCurrent, can, hasPriority, send }) {
+  const name = calledTrip(trip, index);
+  const isOpen = can && trip.status !== "COMPLETED" && trip.status !== "SKIPPED";
+  const priority = trip.priority ?? 1;
+  const prioritise = (/** @type {number} */ by) => send("prioritise", { trip: trip.name, priority: priority + by });
+  return h("li", { "aria-current": isCurrent ? "step" : undefined },
+    h("span", { class: "nth num" }, `${index + 1}.`),
+    h("span", { class: "trip-words" }, h("span", { class: "called" }, name), h("small", null, done(trip))),
+    h(Standing, { status: trip.status }),
+    isOpen && h("span", { class: "row" },
+      hasPriority && trip.priority !== null && h("span", { class: "weighs" },
+        h(IconButton, { icon: "minus", label: t("monitor.lower", { trip: name }), onClick: () => prioritise(-1) }),
+        h("span", { class: "num", title: t("monitor.priority") }, number(priority)),
+        h(IconButton, { icon: "plus", label: t("monitor.raise", { trip: name }), onClick: () => prioritise(1) })),
+      h("button", {
+        type: "button", class: "button quiet small", "aria-label": t("monitor.skip-trip", { trip: name }),
+        onClick: () => send("skip", { trip: trip.name }),
+      }, t("monitor.skip"))));
+}
+
