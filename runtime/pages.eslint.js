@@ -18,5 +18,4 @@ export default [
       "no-restricted-syntax": ["error", "Property[key.name='dangerouslySetInnerHTML']"],
     },
   },
-  { files: ["**/*.test.js", "**/tests/**"], languageOptions: { globals: globals.node } },
 ];

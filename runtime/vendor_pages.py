@@ -29,7 +29,9 @@ def file_of(name: str) -> str:
 
 def main() -> None:
     """Write the modules with their licences, and a list of where each came from."""
-    subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=HERE, check=True)
+    subprocess.run(
+        ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=HERE, check=True
+    )
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
     lines = ["# Libraries of the pages, as npm has them: `python runtime/vendor_pages.py`", ""]

@@ -1,0 +1,52 @@
+// What is known of a flight.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { effect } from "../../../runtime/node_modules/@preact/signals-core/dist/signals-core.mjs";
+import { World } from "../../../runtime/pluto_fleet/station/pages/core/world.js";
+
+/** @type {any} */
+const STATE = { phase: "flying", time: 3, plan: 1, map: 0, said: "", how: null, busy: "" };
+/** @param {string} name @param {object} [more] @returns {any} */
+const mission = (name, more) => ({ name, index: 0, status: "RUNNING", trips: [], ...more });
+
+test("a row that changes is told to those who read it, and to no others", () => {
+  const world = new World();
+  world.take({ flight: "f", state: STATE, missions: [mission("A"), mission("B")] });
+  let reads = 0;
+  effect(() => {
+    world.missions.get("A");
+    reads += 1;
+  });
+  world.take({ flight: "f", state: STATE, missions: [mission("B", { status: "COMPLETED" })] });
+  assert.equal(reads, 1);
+  world.take({ flight: "f", state: STATE, missions: [mission("A", { status: "COMPLETED" })] });
+  assert.equal(reads, 2);
+  assert.deepEqual(world.missions.keys.value, ["A", "B"]);
+});
+
+test("another flight has nothing of the one before", () => {
+  const world = new World();
+  /** @type {any[]} */
+  const log = [{ number: 1, time: 0, mission: null, text: "begun", kind: "info" }];
+  world.take({ flight: "f", state: STATE, missions: [mission("A")], log });
+  world.take({ flight: "g", state: STATE, missions: [mission("B")] });
+  assert.deepEqual(world.missions.keys.value, ["B"]);
+  assert.deepEqual(world.log.entries.value, []);
+});
+
+test("a line that comes twice is there once", () => {
+  const world = new World();
+  /** @type {any[]} */
+  const log = [1, 2, 3].map((number) => ({ number, time: 0, mission: null, text: "x", kind: "info" }));
+  world.take({ flight: "f", state: STATE, log });
+  world.take({ flight: "f", state: STATE, log: [...log, { ...log[0], number: 4 }] });
+  assert.deepEqual(world.log.entries.value.map(({ number }) => number), [1, 2, 3, 4]);
+});
+
+test("until the station has spoken, nothing is known", () => {
+  const world = new World();
+  assert.equal(world.state.value.known, false);
+  world.take({ state: STATE });
+  assert.equal(world.state.value.known, true);
+});
