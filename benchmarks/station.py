@@ -35,7 +35,7 @@ SETTLE = 5.0
 
 def weight() -> float:
     """Return the kilobytes of all pages, each gzipped by itself."""
-    files = [path for path in sorted(PAGES.iterdir()) if path.suffix != ".py" and path.is_file()]
+    files = [path for path in sorted(PAGES.rglob("*")) if path.is_file()]
     return sum(len(gzip.compress(path.read_bytes(), mtime=0)) for path in files) / 1000
 
 

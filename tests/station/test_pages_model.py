@@ -31,5 +31,7 @@ def npm(tmp_path_factory: pytest.TempPathFactory) -> str:
 @pytest.mark.parametrize("step", STEPS)
 def test_pages_are_typed_clean_and_tested(npm: str, step: str) -> None:
     """A step of what the pages' own engineers run finds nothing."""
-    done = subprocess.run([npm, "run", "-s", step], cwd=RUNTIME, capture_output=True, text=True)
+    done = subprocess.run(
+        [npm, "run", "-s", step], check=False, cwd=RUNTIME, capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stdout + done.stderr

@@ -4,6 +4,7 @@
 import { signal } from "@preact/signals";
 import { h, render } from "preact";
 import { useErrorBoundary } from "preact/hooks";
+import { alarm } from "./attention/alarm.js";
 import { takeTokenFromAddress } from "./core/api.js";
 import { bestLanguage, speak, t } from "./core/i18n.js";
 import { applyLook, prefs } from "./core/prefs.js";
@@ -67,4 +68,5 @@ applyLook();
 prefs.language.subscribe((chosen) => { speak(bestLanguage([chosen, ...navigator.languages])); });
 render(h(Station, null), document.body);
 connect();
+alarm();
 load(page.peek()).then(() => PAGES.forEach((name) => name !== page.peek() && load(name)));

@@ -6,7 +6,7 @@
 /** @typedef {{ x: number, y: number }} At */
 
 export const CLOSEST = 800; // pixels a metre: one centimetre is easy to hit
-const MARGIN = { left: 34, right: 22, top: 22, bottom: 40 }; // pixels, for rulers and the foot
+const MARGIN = { left: 34, right: 22, top: 22, bottom: 64 }; // pixels, for rulers and the foot
 
 /** @param {number} value @param {number} low @param {number} high */
 export const between = (value, low, high) => Math.min(Math.max(value, low), high);

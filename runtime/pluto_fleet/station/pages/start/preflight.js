@@ -1,21 +1,100 @@
-// The preflight of a Start: what will fly, for how long, and what is not ready.
+// The preflight of a Start: what will fly, with which drones, for how long, and what is not ready.
 
 import { h } from "preact";
-import { t } from "../core/i18n.js";
+import { useState } from "preact/hooks";
+import { duration, percent } from "../core/format.js";
+import { say, t } from "../core/i18n.js";
 import { toFly } from "../core/plan.js";
-import { plan, world } from "../core/station.js";
-import { HoldButton } from "../ui/button.js";
-import { Dialog } from "../ui/parts.js";
-import { preflight, start } from "./commands.js";
+import { go } from "../core/route.js";
+import { line, plan, world } from "../core/station.js";
+import { Button, HoldButton } from "../ui/button.js";
+import { Icon } from "../ui/icon.js";
+import { Battery, Chip, Dialog } from "../ui/parts.js";
+import { preflight, rehearsal, start, words } from "./commands.js";
+import { useForecast } from "./forecast.js";
 import { counted } from "./words.js";
+
+/** @import { Forecast, MissionForecast, Readiness, Words } from "../wire" */
+
+const OFTEN = 0.05; // a share of runs that is worth a word
+const SHOWN = 12; // missions
 
 /** @param {{ missions: string[] | null }} props */
 export function Preflight({ missions: keys }) {
+  const [onlyFailed, choose] = useState(false);
   const all = plan.missions.value;
   const missions = keys ? all.filter(({ key }) => keys.includes(key))
     : toFly(all, world.state.value.phase === "flying");
+  const hasFailed = missions.some(({ ended }) => ended === "FAILED" || ended === "BROKEN_OFF");
+  const { forecast, trouble } = useForecast(keys, onlyFailed && hasFailed);
+  const { can, said } = words.value;
+  const why = (!keys && !can && said) || (line.isLost.value && t("live.none")) || null;
+  const given = onlyFailed && hasFailed ? { only_failed: true } : {};
   return h(Dialog, {
     title: t("preflight.title"), class: "preflight", onClose: () => { preflight.value = null; },
-    foot: h(HoldButton, { icon: "start", onHold: () => { start(keys); }, onPress: () => null }, t("preflight.hold")),
-  }, h("p", null, counted(missions)));
+    foot: [
+      h(HoldButton, {
+        key: "start", icon: "start", why, onHold: () => { start(keys, given); }, onPress: () => null,
+      }, t("preflight.hold")),
+      forecast?.rehearsal && h(Button, {
+        key: "rehearse", icon: "history",
+        onClick: () => {
+          rehearsal.value = forecast.rehearsal;
+          preflight.value = null;
+          go("monitor");
+        },
+      }, t("preflight.rehearse")),
+    ],
+  },
+  h("p", { class: "preflight-what" }, h("strong", null, counted(missions))),
+  why && h("p", { class: "problem" }, h(Icon, { name: "warning" }), why),
+  hasFailed && h("label", { class: "check" }, h("input", {
+    type: "checkbox", checked: onlyFailed,
+    onChange: (/** @type {Event} */ event) => choose(/** @type {HTMLInputElement} */ (event.target).checked),
+  }), t("preflight.only-failed")),
+  h("div", { "aria-live": "polite", "aria-busy": !forecast && !trouble },
+    trouble ? h("p", { class: "problem" }, h(Icon, { name: "warning" }), trouble)
+      : forecast ? h(Expected, { forecast }) : h("p", { class: "muted" }, t("preflight.computing"))));
 }
+
+/** @param {{ forecast: Forecast }} props */
+const Expected = ({ forecast }) => h("div", { class: "stack" },
+  h("dl", { class: "figures" },
+    h(Figure, { name: t("preflight.median"), value: forecast.median === null ? t("preflight.never") : duration(forecast.median) }),
+    h(Figure, { name: t("preflight.high"), value: forecast.high === null ? t("preflight.never") : duration(forecast.high) }),
+    h(Figure, { name: t("preflight.lowest"), value: percent(forecast.lowest_battery) })),
+  h(Sentences, { kind: "bad", all: forecast.problems }),
+  h(Sentences, { kind: "warn", all: forecast.bottlenecks }),
+  h(Sentences, { kind: "", all: forecast.assumed }),
+  h("h3", null, t("preflight.drones")),
+  h("ul", { class: "ready-list" }, forecast.drones.toSorted((a, b) => Number(a.ready) - Number(b.ready))
+    .map((drone) => h(Drone, { key: drone.id, drone }))),
+  h("h3", null, t("preflight.missions")),
+  h("ul", { class: "ready-list" }, forecast.missions.slice(0, SHOWN).map((mission) => h(Mission, { key: mission.key, mission }))),
+  forecast.missions.length > SHOWN && h("p", { class: "hint" }, t("preflight.more", { n: forecast.missions.length - SHOWN })),
+  h("p", { class: "hint" }, t(forecast.world === "traffic" ? "preflight.runs-traffic" : "preflight.runs-alone", { n: forecast.runs })));
+
+/** @param {{ name: string, value: string }} props */
+const Figure = ({ name, value }) => h("div", null, h("dt", null, name), h("dd", { class: "num" }, value));
+
+/** @param {{ kind: string, all: Words[] }} props */
+const Sentences = ({ kind, all }) => (all.length
+  ? h("ul", { class: `sentences ${kind}` }, all.map((one) => h("li", { key: say(one) },
+    h(Icon, { name: kind ? "warning" : "info" }), say(one))))
+  : null);
+
+/** @param {{ drone: Readiness }} props */
+function Drone({ drone: { id, battery, ready, why, ready_in: soon, assumed } }) {
+  const facts = [why && say(why), soon ? t("drone.ready-in", { time: duration(soon) }) : "", assumed && say(assumed)];
+  return h("li", null, h("span", { class: "called" }, id),
+    h(Chip, { kind: ready ? "good" : "warn", icon: ready ? "good" : "wait" }, t(ready ? "preflight.ready" : "preflight.not-ready")),
+    h(Battery, { level: battery }), h("span", { class: "hint" }, facts.filter(Boolean).join(" · ")));
+}
+
+/** @param {{ mission: MissionForecast }} props */
+const Mission = ({ mission: { name, median, high, late, fails } }) => h("li", null,
+  h("span", { class: "called" }, name),
+  h("span", { class: "num muted" }, median === null ? t("preflight.never")
+    : t("preflight.span", { median: duration(median), high: duration(high ?? median) })),
+  late > OFTEN && h(Chip, { kind: "warn" }, t("preflight.late", { share: percent(late) })),
+  fails > OFTEN && h(Chip, { kind: "bad" }, t("preflight.fails", { share: percent(fails) })));
