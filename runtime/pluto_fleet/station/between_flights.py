@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -49,6 +49,11 @@ class IdleDrones:
         self._folder = None if journal is None else gateway_folder(journal)
         self._read_at: object = None
         self._sightings: dict[str, Sighting] = {}
+
+    @property
+    def sightings(self) -> Mapping[str, Sighting]:
+        """The drones' last known states, of those that were ever heard of."""
+        return self._newest()
 
     def rows(self, known: Records | None) -> Iterator[rows.Row]:
         """Yield the row of each; `known` is the journal's record of them."""
@@ -225,6 +230,11 @@ class FleetHistory:
         """Return the facts that the next journal inherits."""
         known = self.records
         return {"lost": known.lost, "mended": known.mended, "retired": known.retired}
+
+    @property
+    def sightings(self) -> Mapping[str, Sighting]:
+        """The drones' last known states, of those that were ever heard of."""
+        return self._idle.sightings
 
     @property
     def lost(self) -> Sequence[str]:

@@ -92,7 +92,7 @@ class Feed:
         said = sentence_of(event)
         if said is not None:
             self._lines.append(line_of(event) or "")
-            self.log.add(event["t"], event.get("mission"), said, _kind(event))
+            self.log.add(event["t"], event.get("mission"), said, kind_of(event))
         verdict = _VERDICTS.get(str(event["event"]))
         if event["event"] == ACTS_BESIDE:
             self._beside[event["mission"], event["trip"]] = event["at"]
@@ -191,7 +191,7 @@ _BAD = (
 )
 
 
-def _kind(event: Event) -> str:
+def kind_of(event: Event) -> str:
     """Return the style of a line: `good`, `bad`, `hook` (the app's own text), or `info`."""
     kind = event["event"]
     if kind == "log":

@@ -202,7 +202,7 @@ def change_of(before: Row | None, row: Row) -> dict[str, Any]:
     change = {
         name: value
         for name, value in row.items()
-        if name not in before or before[name] is not value and before[name] != value
+        if name not in before or (before[name] is not value and before[name] != value)
     }
     gone = [name for name in before if name not in row]
     return {**change, "-": gone} if gone else change
