@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Mission
     from .config import StationConfig
     from .plan.plan import MissionPlan
-    from .preflight.start import Asked
+    from .preflight.start import PlannedStart
     from .wire import Forecast
 
 ANSWERS_KEPT = 1_000
@@ -183,7 +183,7 @@ class Station:
         late = "; not all will be in time: the console says why" if impossible else ""
         return f"{counted(len(missions), 'mission')} started{again}{without}{late}"
 
-    async def forecast(self, asked: Asked) -> Forecast:
+    async def forecast(self, asked: PlannedStart) -> Forecast:
         """Return what a Start would do; raise `BadInput` if the plan is another, or a newer one is asked for."""
         return await self._forecasts.ask(asked, self.session)
 

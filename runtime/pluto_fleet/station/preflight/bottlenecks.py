@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import defaultdict
 from typing import TYPE_CHECKING
 
 from ...shared.domain.actions import PICK
 from ...shared.domain.text import counted, duration, mass, percent
+from ...shared.fleet.reach import docked
+from ..charging import ready_in
 from .words import words
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping
 
-    from ..wire import Readiness, Words
+    from ..wire import Words
     from .question import Question
     from .rehearsal import Waits
-    from .runs import Needs
 
 NOTABLE = 0.1
 """The share of a run in which a mission must wait for something, for that to be said."""
@@ -24,12 +25,10 @@ FEW = 0.5
 """The share of the fleet up to which its able drones are few."""
 
 
-def bottlenecks(
-    question: Question, waits: Waits, needs: Needs, drones: Sequence[Readiness]
-) -> list[Words]:
+def bottlenecks(question: Question, waits: Waits) -> list[Words]:
     """Return what holds the plan up, the most important first."""
     return [
-        *_low(waits, needs, drones),
+        *_low(question, waits),
         *_few(question, waits),
         *_charging(question, waits),
         *_busy(question, waits),
@@ -37,16 +36,27 @@ def bottlenecks(
     ]
 
 
-def _low(waits: Waits, needs: Needs, drones: Sequence[Readiness]) -> Iterator[Words]:
+def _low(question: Question, waits: Waits) -> Iterator[Words]:
     """Yield that missions wait at first, as batteries are too low."""
     if waits.first is None or not waits.first[0]:
         return
     number, low = waits.first
-    short = [one for one in drones if one["id"] in low and needs.levels[one["id"]] <= 1.0]
+    short = [one for one in question.present if one.id in low]
     if not short:
         return
-    level = max(needs.levels[one["id"]] for one in short)
-    soonest = min((one["ready_in"] for one in short if one["ready_in"] is not None), default=None)
+    level = max(low.values())
+    kinds = {category.name: category for category in question.app.categories}
+    entries = {one.id: one for one in question.fleet.drones}
+    every = [
+        ready_in(
+            kinds[entries[one.id].category],
+            one.battery,
+            low[one.id],
+            docked=docked(one.at, entries[one.id].home),
+        )
+        for one in short
+    ]
+    soonest = min((seconds for seconds in every if seconds is not None), default=None)
     first = "" if soonest is None else f", the first is ready in about {duration(soonest)}"
     are = "is" if len(short) == 1 else "are"
     text = f"{_wait(number)}: {counted(len(short), 'drone')} {are} below {percent(level)}{first}"
@@ -56,17 +66,21 @@ def _low(waits: Waits, needs: Needs, drones: Sequence[Readiness]) -> Iterator[Wo
 
 def _few(question: Question, waits: Waits) -> Iterator[Words]:
     """Yield that missions wait for the few drones that can do what they need."""
-    by_drones: dict[tuple[tuple[str, ...], tuple[str, float]], int] = Counter()
+    found: dict[tuple[tuple[str, ...], str], list[float]] = defaultdict(list)
     names = {**waits.busy, **waits.low}
     both = {name: waits.busy.get(name, 0.0) + waits.low.get(name, 0.0) for name in names}
     for name in _notable(waits, both):
         able = waits.few.get(name)
         if able and len(able) <= FEW * len(question.flown.drones):
-            by_drones[able, waits.lacks[name]] += 1
-    for (able, (action, kilograms)), number in by_drones.items():
+            action, kilograms = waits.lacks[name]
+            found[able, action].append(kilograms)
+    for (able, action), masses in found.items():
+        number, kilograms = len(masses), min(masses)
         does = f"lift {mass(kilograms)}" if action == PICK else f"do {action}"
         who = "the one drone" if len(able) == 1 else f"the {len(able)} drones"
-        text = f"{number} of {_wait(len(question.all))} for {who} that can {does}"
+        wait = "waits" if number == 1 else "wait"
+        of = counted(len(question.all), "mission")
+        text = f"{number} of {of} {wait} for {who} that can {does}"
         yield words(
             "few",
             text,

@@ -57,7 +57,7 @@ def forecast(
     drones = readiness(question, needs)
     times = sorted(run.seconds for run in telling(runs))
     ends = question.until is None
-    waits = [] if rehearsed is None else bottlenecks(question, rehearsed.waits, needs, drones)
+    waits = [] if rehearsed is None else bottlenecks(question, rehearsed.waits)
     return {
         "revision": question.revision,
         "runs": len(runs),

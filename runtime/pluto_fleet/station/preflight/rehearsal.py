@@ -5,14 +5,16 @@ from __future__ import annotations
 import time
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...flight.control import PRIORITY
 from ...report.sentences import sentence_of
 from ...shared.domain.actions import PICK
-from ...shared.fleet.reach import chain_of
+from ...shared.fleet.reach import Reach, chain_of
 from ...shared.hooks.plain_data import trip_of
 from .. import rows
 from ..feed import kind_of
@@ -21,7 +23,7 @@ from ..wait_reasons import WaitReasons
 
 if TYPE_CHECKING:
     from ...shared.brain import Brain
-    from ...shared.domain.model import Telemetry
+    from ...shared.domain.model import Telemetry, Trip
     from ...shared.domain.trace import Event
     from .question import Question
 
@@ -34,9 +36,10 @@ FLUSH_EVERY = 40
 MISSIONS_IN_ALL = 30_000
 """How many missions are asked in all for where they stand: a row of each takes some 30 µs."""
 
-_ASIDE = {"paused": None, "question": None, "held": None}
+MOST_CHAINS = 200
+"""Of so many different trips it is worked out what they need of a drone."""
 
-Low = tuple[str, ...]
+_ASIDE = {"paused": None, "question": None, "held": None}
 
 
 @dataclass(kw_only=True)
@@ -55,8 +58,9 @@ class Waits:
     """The drones that could fly what a mission waited for, if fewer than all could."""
     lacks: dict[str, tuple[str, float]] = field(default_factory=dict)
     """The action of that, and the kilograms that it takes to lift."""
-    first: tuple[int, Low] | None = None
-    """At the beginning: how many missions waited for batteries alone, and the drones that were too low."""
+    first: tuple[int, Mapping[str, float]] | None = None
+    """At the beginning: how many missions waited for batteries alone, and of each drone that was too low
+    for them the level that the least of them needs."""
 
 
 class Rehearsal:
@@ -171,25 +175,22 @@ class Rehearsal:
         passed: float,
     ) -> None:
         """Note for what missions wait, and since the last look did."""
-        low = tuple(
-            id for id, one in stand.items() if one.get("aside") or one["status"] == "CHARGING"
-        )
-        short = set(low)
+        short = {id for id, one in stand.items() if one.get("aside") or one["status"] == "CHARGING"}
         free = {id for id, one in stand.items() if one["status"] == "FREE"} - short
-        at_first = 0
+        at_first = list[Mapping[str, Any]]()
         for name, record in waiting:
             able, lacks = self._fit.able(record)
             if len(able) < len(stand):
                 self.waits.few[name], self.waits.lacks[name] = able, lacks
             if able and 2 * len(short.intersection(able)) >= len(able):
-                at_first += short.issuperset(able)
+                at_first += [record] if short.issuperset(able) else []
                 self.waits.low[name] += passed
             elif free.isdisjoint(able):
                 self.waits.busy[name] += passed
             else:
                 self.waits.room[name] += passed
         if self.waits.first is None:
-            self.waits.first = at_first, low if at_first else ()
+            self.waits.first = len(at_first), self._fit.levels(short, at_first, stand)
 
     def _drone_rows(
         self,
@@ -218,14 +219,15 @@ class _Fit:
 
     def __init__(self, question: Question) -> None:
         self._app = question.app
+        self._reach = Reach(question.app, question.fleet.airspace)
+        self._homes = {one.id: one.home for one in question.flown.drones}
         kinds = {category.name: category for category in question.app.categories}
         self._drones = [(one.id, kinds[one.category]) for one in question.flown.drones]
         self._known: dict[object, tuple[str, ...]] = {}
 
     def able(self, record: Mapping[str, Any]) -> tuple[tuple[str, ...], tuple[str, float]]:
         """Return those drones, and the action and the mass in kilograms for which it takes them."""
-        todo = record["todo"][:1] if record["todo"][0]["action"] != PICK else record["todo"]
-        chain = chain_of([trip_of(self._app, one) for one in todo])
+        chain = self._chain(record)
         actions = tuple(trip.action for trip in chain)
         mass = max((trip.item.mass for trip in chain if trip.item is not None), default=0.0)
         which = actions, mass
@@ -236,3 +238,24 @@ class _Fit:
                 if mass <= kind.payload and all(map(kind.can, actions))
             )
         return self._known[which], (actions[0], mass)
+
+    def levels(
+        self,
+        drones: AbstractSet[str],
+        records: Sequence[Mapping[str, Any]],
+        stand: Mapping[str, Any],
+    ) -> Mapping[str, float]:
+        """Return the least level with which each of these drones could fly one of these missions."""
+        chains = [self._chain(record) for record in records[:MOST_CHAINS]]
+        found = dict[str, float]()
+        for id, kind in self._drones:
+            if id in drones:
+                x, y, z = stand[id]["at"]
+                every = (self._reach.level(kind, self._homes[id], (x, y, z), one) for one in chains)
+                if (least := min(every, default=inf)) <= 1.0:
+                    found[id] = least
+        return found
+
+    def _chain(self, record: Mapping[str, Any]) -> Sequence[Trip]:
+        todo = record["todo"][:1] if record["todo"][0]["action"] != PICK else record["todo"]
+        return chain_of([trip_of(self._app, one) for one in todo])

@@ -13,7 +13,7 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.status import COMPLETED
 from ...shared.fleet.reach import Reach, chain_of, miss_of
 from ...trials.case import fresh
-from .rehearsal import FRAMES, Rehearsal
+from .rehearsal import FRAMES, MOST_CHAINS, Rehearsal
 
 if TYPE_CHECKING:
     from ...flight.outcome import SimulationResult
@@ -33,9 +33,6 @@ PATIENCE = 4.0
 
 SHORTEST = 0.25
 """Seconds between two looks at a rehearsal, at least."""
-
-MOST_CHAINS = 200
-"""Of so many different trips it is worked out what they need of a drone."""
 
 
 class End(NamedTuple):

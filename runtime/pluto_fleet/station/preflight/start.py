@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Asked:
+class PlannedStart:
     """Of which Start a forecast is asked for."""
 
     revision: int
@@ -57,7 +57,7 @@ class StartForecasts:
         self.preflight = Preflight(config.own_folder)
         plan.on_change = self.preflight.revised
 
-    async def ask(self, asked: Asked, session: FlightSession | None) -> Forecast:
+    async def ask(self, asked: PlannedStart, session: FlightSession | None) -> Forecast:
         """Return the forecast; raise `BadInput` if the plan is another, or a newer one is asked for.
 
         Cancelling this gives it up.

@@ -13,7 +13,7 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable
 from ..commands import NEEDS, Malformed
 from ..plan.plan import Stale
-from ..preflight.start import Asked
+from ..preflight.start import PlannedStart
 from ..wire import Forecast
 from . import refusals
 from .audit import Audit
@@ -84,7 +84,7 @@ class ServedStation(UpdateSource, Protocol):
     async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
         """Carry out a command, unless it was carried out with this id before; raise `BadInput` if it cannot."""
 
-    async def forecast(self, asked: Asked, /) -> Forecast:
+    async def forecast(self, asked: PlannedStart, /) -> Forecast:
         """Return what a Start would do; raise `BadInput` if there is no forecast to make."""
 
     def console(self) -> str:

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from ...shared.domain.errors import BadInput
 from ..commands import Malformed
-from ..preflight.start import Asked
+from ..preflight.start import PlannedStart
 from ..wire import Forecast
 from .http import Reply, Request, json_reply, said
 
@@ -19,7 +19,7 @@ GONE = Reply(status=499)
 class Forecasting(Protocol):
     """What forecasts a Start."""
 
-    async def forecast(self, asked: Asked, /) -> Forecast:
+    async def forecast(self, asked: PlannedStart, /) -> Forecast:
         """Return what a Start would do; raise `BadInput` if there is no forecast to make."""
 
 
@@ -41,7 +41,7 @@ async def forecast(station: Forecasting, request: Request, given: dict[str, obje
             await making  # what it has begun has ended
 
 
-def _asked(given: dict[str, object]) -> Asked:
+def _asked(given: dict[str, object]) -> PlannedStart:
     revision, missions = given.pop("revision", None), given.pop("missions", None)
     only_failed, runs = given.pop("only_failed", False), given.pop("runs", None)
     if type(revision) is not int:
@@ -56,4 +56,4 @@ def _asked(given: dict[str, object]) -> Asked:
         raise Malformed("runs of a forecast is a whole number, or null")
     if given:
         raise Malformed("a forecast takes revision, missions, only_failed and runs")
-    return Asked(revision=revision, missions=missions, only_failed=only_failed, runs=runs)
+    return PlannedStart(revision=revision, missions=missions, only_failed=only_failed, runs=runs)
