@@ -14,7 +14,7 @@ from .orders import Message, Order
 if TYPE_CHECKING:
     from ..app import App
     from ..shared.brain import Brain
-    from ..shared.domain.model import Mission
+    from ..shared.domain.model import Mission, Point
     from ..shared.domain.trace import Event
     from ..shared.time.kernel import Kernel, Timer
 
@@ -22,6 +22,15 @@ if TYPE_CHECKING:
 def begun(app: App, missions: Iterable[Mission[Any]]) -> list[dict[str, Any]]:
     """Return missions as a brain takes them to begin."""
     return [{"name": one.name, **mission_data(app, one)} for one in missions]
+
+
+Stands = Mapping[str, tuple["Point", float]]
+"""Where each drone stands on the ground, and the charge of its battery, from 0 to 1."""
+
+
+def take_up(brain: Brain, drones: Iterable[str], now: float) -> None:
+    """Have a new brain look at its drones as at the start of a flight: low ones charge, or fly home."""
+    brain.go_on({}, {drone: {} for drone in drones}, now)
 
 
 class Driver:

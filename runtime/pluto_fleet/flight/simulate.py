@@ -2,28 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..app import App
-from ..shared.alone.simulate import Bound, Outcome, see_through
+from ..shared.alone.simulate import Alone, Bound, Outcome, Run, see_through
 from ..shared.alone.simulate import simulate as without_traffic
 from ..shared.fleet.telemetry import KnownState
 from ..shared.time.virtual import VirtualTime
+from .driver import take_up
 from .outcome import SimulationResult, result_of
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
     from ..shared.alone.faults import Faults
+    from ..shared.brain import Brain
     from ..shared.domain.model import Mission, Telemetry
-    from ..shared.domain.trace import Event
+    from ..shared.domain.trace import Clock, Event
+    from .driver import Stands
     from .simulation import Around, Listener
 
 _LEGS = (3, 1)
 """The first seam whose brains are told several legs at once."""
+
+Look = Callable[["Brain", float, Mapping[str, "Telemetry"]], object]
+"""Called with a brain, the time, and the drones as they are then."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sampling:
+    """How a simulation is looked at while it runs."""
+
+    every: float
+    """Seconds of virtual time."""
+    look: Look
+
+
+def has_traffic(app: App, fleet: FleetFile) -> bool:
+    """Return whether drones are kept apart in a simulation: else each has the air to itself."""
+    return bool(fleet.apart) or app.seam < _LEGS
 
 
 def simulate(
@@ -36,14 +56,27 @@ def simulate(
     until: float | None,
     on_event: Listener | None,
     around: Around | None = None,
+    stands: Stands | None = None,
+    sampling: Sampling | None = None,
 ) -> SimulationResult:
     """Fly the missions in virtual time, until the last one has ended or a time is reached.
 
     Without such a time it is given up if missions fly again and again without success.
     Drones that are not kept apart fly in the brain's own world, as each has the air to itself there.
-    `around` wraps the drones' controls for the gateway.
+    `around` wraps the drones' controls for the gateway. `stands` says where each drone stands at first;
+    without it all are in their docks, fully charged.
     """
-    if not fleet.apart and around is None and app.seam >= _LEGS:
+    if not has_traffic(app, fleet) and around is None:
+
+        def prepare(world: Alone) -> Run:
+            drones = world.drones.drones
+            for drone, (at, level) in (stands or {}).items():
+                drones[drone].stand(at, level)
+            if stands:
+                world.brain.tell({"telemetry": world.drones.news()}, world.now)
+                take_up(world.brain, stands, world.now)
+            return _looked_at(world.run, world, world.brain, drones, sampling)
+
         outcome = without_traffic(
             app,
             missions,
@@ -53,6 +86,7 @@ def simulate(
             until=until,
             on_event=on_event,
             new_brain=App.new_brain,
+            prepare=prepare,
         )
         return result_of(app, missions, fleet, outcome, partial(_known, fleet, outcome))
     from .simulation import Simulation  # with all that keeps drones apart
@@ -67,11 +101,35 @@ def simulate(
             raise enough
 
     kernel = VirtualTime()
-    simulation = Simulation(app, fleet, kernel, seed, faults, listen, around)
+    simulation = Simulation(app, fleet, kernel, seed, faults, listen, around, stands=stands)
     with closing(simulation):
         run = partial(kernel.run, simulation.start(missions))
-        ended, given_up = see_through(simulation.brain, kernel, run, app.name, bound, until)
+        seen = _looked_at(run, kernel, simulation.brain, simulation.bodies, sampling)
+        ended, given_up = see_through(simulation.brain, kernel, seen, app.name, bound, until)
         return simulation.outcome(missions, events, ended, given_up)
+
+
+def _looked_at(
+    run: Run,
+    clock: Clock,
+    brain: Brain,
+    drones: Mapping[str, Telemetry],
+    sampling: Sampling | None,
+) -> Run:
+    """Return what runs a simulation until a time, and has it looked at on the way."""
+    if sampling is None:
+        return run
+    every, look = sampling.every, sampling.look
+
+    def in_steps(until: float | None) -> bool:
+        over = False
+        while not over and (until is None or clock.now < until):
+            step = clock.now + every
+            over = run(step if until is None else min(step, until))
+            look(brain, clock.now, drones)
+        return over
+
+    return in_steps
 
 
 @dataclass(slots=True)

@@ -14,7 +14,7 @@ from ..shared.flow.standing import fleet_data
 from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation
 from .acts_beside import acts_beside
-from .driver import Driver, begun
+from .driver import Driver, Stands, begun, take_up
 from .orders import Dispatcher
 from .outcome import SimulationResult, result_of
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from ..shared.domain.trace import Event
     from ..shared.time.future import Future
     from ..shared.time.kernel import Kernel
+    from ..simulation.body import Body
 
 Listener = Callable[["Event"], object]
 Around = Callable[["Kernel", "Controls"], "Controls"]
@@ -47,8 +48,12 @@ class Simulation:
         listener: Listener,
         around: Around | None = None,
         hooks: RealHooks | None = None,
+        stands: Stands | None = None,
     ) -> None:
-        """`hooks` runs hooks in real time; without it they are called at once."""
+        """`hooks` runs hooks in real time; without it they are called at once.
+
+        `stands`: where each drone stands at first; None: in its dock, fully charged.
+        """
         app = moving(app, fleet.motion)
         self._app, self._fleet, self._kernel = app, fleet, kernel
         self._drones = simulated(app, fleet)
@@ -56,6 +61,9 @@ class Simulation:
         self._navigation = SimulatedNavigation(
             kernel, self._drones, world, faults, seed, fleet.airspace
         )
+        self._stands = {} if stands is None else stands
+        for drone, (at, level) in self._stands.items():
+            self._navigation.bodies[drone].stand(at, level, kernel.now)
         gateway = Gateway(
             kernel,
             self._navigation if around is None else around(kernel, self._navigation),
@@ -86,8 +94,20 @@ class Simulation:
 
     def start(self, missions: Iterable[Mission[Any]]) -> Future[float]:
         """Begin missions at this instant; return what is set when all has ended."""
-        self._driver.call(partial(self.brain.begin, begun(self._app, missions)))
+        given = begun(self._app, missions)
+
+        def begin(now: float) -> None:
+            if self._stands:
+                take_up(self.brain, self._stands, now)
+            self.brain.begin(given, now)
+
+        self._driver.call(begin)
         return self._driver.done
+
+    @property
+    def bodies(self) -> Mapping[str, Body]:
+        """The drones as they are, by their ids."""
+        return self._navigation.bodies
 
     def close(self) -> None:
         """End everything where it is."""

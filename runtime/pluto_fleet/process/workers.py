@@ -56,12 +56,12 @@ class _Done(NamedTuple):
     """What the task has printed."""
 
 
-class _Raised(NamedTuple):
+class Raised(NamedTuple):
     error: BaseException
     trace: str
 
 
-Message = _Done | _Raised
+Message = _Done | Raised
 
 
 class _Worker(NamedTuple):
@@ -100,7 +100,7 @@ def in_workers(
                     assert isinstance(pipe, Connection)
                     _take(pipe, workers, done)
             this = done.pop(place)
-            if isinstance(this, _Raised):
+            if isinstance(this, Raised):
                 raise this.error from (_InAWorker(f"\n{this.trace}") if this.trace else None)
             if this.out and not quiet:
                 output.line(this.out.removesuffix("\n"))
@@ -146,7 +146,7 @@ def _work(
             for place in places:
                 message = _outcome(work, tasks[place])
                 sends.send(message)
-                if isinstance(message, _Raised):
+                if isinstance(message, Raised):
                     break
         code = 0
     finally:
@@ -160,11 +160,11 @@ def _outcome(work: Callable[[T], R], task: T) -> Message:
             result = work(task)
     except ANY_ERROR as error:
         trace = "".join(traceback.format_exception(error))
-        return _Raised(_portable(error), trace)
+        return Raised(portable(error), trace)
     return _Done(result, out.getvalue(), err.getvalue())
 
 
-def _portable(error: BaseException) -> BaseException:
+def portable(error: BaseException) -> BaseException:
     """Return an error that another process can read."""
     with suppress(*ANY_ERROR):  # its class may be a hook's own
         if type(pickle.loads(pickle.dumps(error))) is type(error):
@@ -182,18 +182,18 @@ def _take(pipe: Connection, workers: dict[Connection, _Worker], done: dict[int, 
             done[place] = message
             return
     except (EOFError, OSError, pickle.UnpicklingError):
-        message = _Raised(WorkerDied(place), "")
+        message = Raised(WorkerDied(place), "")
     del workers[pipe]
     pipe.close()
     status = os.waitstatus_to_exitcode(os.waitpid(worker.process, 0)[1])
-    if isinstance(message, _Raised) and isinstance(message.error, WorkerDied):
+    if isinstance(message, Raised) and isinstance(message.error, WorkerDied):
         if status == -signal.SIGINT:
             raise KeyboardInterrupt  # the terminal has told the worker first
-        message.error.how = _how(status)
+        message.error.how = how_it_ended(status)
     done[place] = message
 
 
-def _how(status: int) -> str:
+def how_it_ended(status: int) -> str:
     if status >= 0:
         return f"ended by itself with exit code {status}"
     try:

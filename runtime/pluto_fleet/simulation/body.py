@@ -204,6 +204,12 @@ class Body:
         self._drawn = Drawn()
         self._changed()
 
+    def stand(self, place: Point, level: float, now: float) -> None:
+        """Stand there with this charge, before it has flown."""
+        self._charge = Charge(level, now, taper=self.model.taper)
+        self._leg = resting(place, now)
+        self.touch_down(now)
+
     def _grounded(self, now: float) -> Charge:
         """Return the battery of a drone that is on the ground now, and may have touched down before."""
         touched = min(now, self._leg.arrives) if self._leg.end[2] <= 0.0 else now

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -51,7 +51,16 @@ class IdleDrones:
         self._read_at: object = None
         self._sightings: dict[str, Sighting] = {}
 
+<<<<<<< HEAD
     def rows(self, known: Records | None) -> Iterator[DroneRow]:
+=======
+    @property
+    def sightings(self) -> Mapping[str, Sighting]:
+        """The drones' last known states, of those that were ever heard of."""
+        return self._newest()
+
+    def rows(self, known: Records | None) -> Iterator[rows.Row]:
+>>>>>>> e40fad06b39332b548746df89d5a784debea9b34
         """Yield the row of each; `known` is the journal's record of them."""
         sightings, now = self._newest(), time.time()
         for entry in self._fleet:
@@ -226,6 +235,11 @@ class FleetHistory:
         """Return the facts that the next journal inherits."""
         known = self.records
         return {"lost": known.lost, "mended": known.mended, "retired": known.retired}
+
+    @property
+    def sightings(self) -> Mapping[str, Sighting]:
+        """The drones' last known states, of those that were ever heard of."""
+        return self._idle.sightings
 
     @property
     def lost(self) -> Sequence[str]:

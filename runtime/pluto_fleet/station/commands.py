@@ -11,7 +11,11 @@ _MISSION, _TRIP = {"mission": (str,)}, {"trip": (str,)}
 _ALL = {"mission": (str, type(None))}
 
 NEEDS: Mapping[str, Mapping[str, tuple[type, ...]]] = {
-    "start": {"revision": (int, type(None)), "missions": (list, type(None))},
+    "start": {
+        "revision": (int, type(None)),
+        "missions": (list, type(None)),
+        "only_failed": (bool, type(None)),
+    },
     "stop": {"how": (str,)},
     "resume": {},
     "discard": {},
@@ -63,5 +67,11 @@ def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:
 
 
 def _said(types: tuple[type, ...]) -> str:
-    names = {str: "a text", int: "a whole number", list: "a list", type(None): "null"}
+    names = {
+        str: "a text",
+        bool: "true or false",
+        int: "a whole number",
+        list: "a list",
+        type(None): "null",
+    }
     return " or ".join(names[one] for one in types)

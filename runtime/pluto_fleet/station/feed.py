@@ -99,7 +99,11 @@ class Feed:
         said = sentence_of(event)
         if said is not None:
             self._lines.append(line_of(event) or "")
+<<<<<<< HEAD
             self._line(event["t"], event.get("mission"), said, _kind(event))
+=======
+            self.log.add(event["t"], event.get("mission"), said, kind_of(event))
+>>>>>>> e40fad06b39332b548746df89d5a784debea9b34
         verdict = _VERDICTS.get(str(event["event"]))
         if event["event"] == ACTS_BESIDE:
             self._beside[event["mission"], event["trip"]] = event["at"]
@@ -229,7 +233,11 @@ _BAD = (
 )
 
 
+<<<<<<< HEAD
 def _kind(event: Event) -> LineKind:
+=======
+def kind_of(event: Event) -> str:
+>>>>>>> e40fad06b39332b548746df89d5a784debea9b34
     """Return the style of a line: `good`, `bad`, `hook` (the app's own text), or `info`."""
     kind = event["event"]
     if kind == "log":

@@ -25,6 +25,7 @@ from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
 from .between_flights import IdleDrones
 from .feed import UNITS, Feed, VersionedRows
+from .plan.missing import settled
 from .plan.shape import BROKEN_OFF
 from .wait_reasons import WaitReasons
 
@@ -141,6 +142,12 @@ class FlightSession:
             name: str(record["status"]) if record["ended"] else BROKEN_OFF
             for name, record in known.items()
         }
+
+    @property
+    def done(self) -> dict[str, list[str]]:
+        """The trips of its missions that were done, or left out by a decision."""
+        known = self.known.missions if self.known is not None else {}
+        return {name: settled(record) for name, record in known.items()}
 
     def read(self, known: Recovered) -> None:
         """Show the journal of a run that has ended."""

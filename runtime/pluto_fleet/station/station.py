@@ -29,6 +29,7 @@ from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
 from .plan.promised import broken, promised
+from .preflight.start import StartForecasts
 from .session import FlightSession, Phase, phase_of
 from .updates import Updates
 
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Mission
     from .config import StationConfig
     from .plan.plan import MissionPlan
+    from .preflight.start import PlannedStart
+    from .wire import Forecast
 
 ANSWERS_KEPT = 1_000
 """The number of commands whose answers are kept, in case they are repeated."""
@@ -68,6 +71,7 @@ class Station:
         self._one_at_a_time = asyncio.Lock()
         self.history = FleetHistory(app, config)
         """The drones' states while there is no flight."""
+        self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
         self._before: Path | None = None
         """The folder of the last discarded flight's gateway, whose drones may still be landing."""
 
@@ -143,24 +147,24 @@ class Station:
         await self.plan.examined()
         if self.session is None:
             self.begin()  # another process may have flown meanwhile
-        phase = self.phase
-        if phase is Phase.STOPPING:
-            raise BadInput("the drones are coming down: wait until they are")
-        if phase in (Phase.STOPPED, Phase.INTERRUPTED):
-            raise BadInput("the last flight has not ended: resume it, or put it away")
         await self._others_are_down()
-        if phase is not Phase.FLYING:
-            self._look_at_the_drones()
+        self._may_start()
+        phase = self.phase
         chosen = given["missions"]
-        missions, keys = self.plan.launchable(chosen if isinstance(chosen, list) else None)
+        only_failed = given["only_failed"] is True
+        missions, keys = self.plan.launchable(
+            chosen if isinstance(chosen, list) else None, only_failed
+        )
         if not missions and phase is Phase.FLYING:  # another page was quicker
             return "every mission of the plan flies already"
         if not missions:
             raise BadInput("there is no mission yet: make one first")
         if given["revision"] not in (None, self.plan.revision):
             raise BadInput("the plan has changed meanwhile: look at it, and start again")
-        text = self.plan.export_toml(keys)
-        self.plan.launched(keys)  # before anything flies: they may not be changed from now on
+        text = self.plan.export_toml(keys, only_failed)
+        self.plan.launched(
+            keys, only_failed
+        )  # before anything flies: they may not be changed from now on
         held_to = promised(missions)
         try:
             if phase is Phase.FLYING:
@@ -174,13 +178,25 @@ class Station:
         if self.session is not None:
             for said in impossible:
                 self.session.say(said)
+        trips = sum(len(mission.trips) for mission in missions)
+        again = f", {counted(trips, 'trip')} that are missing of them" if only_failed else ""
         left = self.history.lost if phase is not Phase.FLYING else ()
         without = f"; without {', '.join(left)}, lost until brought back" if left else ""
         late = "; not all will be in time: the console says why" if impossible else ""
-        return f"{counted(len(missions), 'mission')} started{without}{late}"
+        return f"{counted(len(missions), 'mission')} started{again}{without}{late}"
 
-    def _look_at_the_drones(self) -> None:
-        """Raise `BadInput` if no drone may fly."""
+    async def forecast(self, asked: PlannedStart) -> Forecast:
+        """Return what a Start would do; raise `BadInput` if the plan is another, or a newer one is asked for."""
+        return await self._forecasts.ask(asked, self.session)
+
+    def _may_start(self) -> None:
+        """Raise `BadInput` if a Start is refused, whatever the plan says."""
+        if self.phase is Phase.STOPPING:
+            raise BadInput("the drones are coming down: wait until they are")
+        if self.phase in (Phase.STOPPED, Phase.INTERRUPTED):
+            raise BadInput("the last flight has not ended: resume it, or put it away")
+        if self.phase is Phase.FLYING:
+            return
         self.history.read()
         self.history.check_free()
         lost = self.history.lost
@@ -214,7 +230,7 @@ class Station:
         if self.session is None:
             self.plan.unlock()
         elif self.phase is Phase.OVER:
-            self.plan.settle(self.session.ends)
+            self.plan.settle(self.session.ends, self.session.done)
         else:
             self.plan.adopt(self.session.names)
 
@@ -280,7 +296,7 @@ class Station:
         if self.session.records is not None:
             self.history.leave(self.session.journal, self.session.records)
         put_away(self._config, self.session.journal)
-        self.plan.settle(self.session.ends)
+        self.plan.settle(self.session.ends, self.session.done)
         self.session = None
         return "put away; its journal is kept"
 

@@ -304,6 +304,9 @@ class Readiness(TypedDict):
     ready: bool
     why: Words | None
     ready_in: float | None
+    """Seconds until its battery is high enough for one of the missions; None: it never is there."""
+    assumed: Words | None
+    """What is supposed of it, as it is not known."""
 
 
 class MissionForecast(TypedDict):
@@ -319,11 +322,23 @@ class MissionForecast(TypedDict):
     fails: float
 
 
+class ForecastRequest(TypedDict):
+    """Of which Start a forecast is asked for."""
+
+    revision: int
+    missions: list[str] | None
+    """The keys of the missions to be started; null: all that Start would."""
+    only_failed: NotRequired[bool]
+    runs: NotRequired[int | None]
+
+
 class Forecast(TypedDict):
     """What is expected of a Start, by many runs in virtual time."""
 
     revision: int
     runs: int
+    world: Literal["traffic", "alone"]
+    """Whether drones were kept apart in them, or each had the air to itself."""
     median: float | None
     high: float | None
     """95 % of runs end before."""
@@ -331,7 +346,10 @@ class Forecast(TypedDict):
     drones: list[Readiness]
     lowest_battery: float | None
     bottlenecks: list[Words]
+    assumed: list[Words]
+    """What is supposed of the whole."""
     problems: list[Words]
+    """Why a Start would be refused, and which promises cannot be kept."""
     rehearsal: str | None
     """The id of a recording of the median run, to be replayed."""
 

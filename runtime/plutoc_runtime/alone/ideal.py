@@ -51,6 +51,12 @@ class IdealDrone(KnownState):
         self._charge = Charge(1.0, clock.now, taper=self.motion.taper)
         self.touch_down(clock.now)
 
+    def stand(self, place: Point, level: float) -> None:
+        """Stand there with this charge, before it has flown."""
+        self._legs = [resting(place, now := self._clock.now)]
+        self._charge = Charge(level, now, taper=self.motion.taper)
+        self.touch_down(now)
+
     def flown(self, now: float) -> float:
         """Return how many metres it has flown at a time, up and down included."""
         return sum((leg.length(now) for leg in self._legs), self._flown)

@@ -81,10 +81,12 @@ def simulate(
     until: float | None,
     on_event: Listener | None,
     new_brain: Callable[..., Brain] = Brain,
+    prepare: Callable[[Alone], Run] | None = None,
 ) -> Outcome:
     """Fly the missions until the last one has ended or a time is reached.
 
-    Without such a time it is given up if missions fly again and again without success.
+    Without such a time it is given up if missions fly again and again without success. `prepare` is called
+    before anything begins, and returns what runs the world until a time.
     """
     app, bound, events = moving(app, fleet.motion), Bound(missions), list[Event]()
 
@@ -98,8 +100,9 @@ def simulate(
     brain = new_brain(app, fleet_data(fleet), space=fleet.airspace)
     with closing(brain):
         flown = Alone(app, fleet, faults, seed, brain, listen)
+        run = flown.run if prepare is None else prepare(flown)
         flown.begin(missions)
-        ended, given_up = see_through(brain, flown, flown.run, app.name, bound, until)
+        ended, given_up = see_through(brain, flown, run, app.name, bound, until)
         return Outcome(
             duration=ended,
             standing=brain.standing(),

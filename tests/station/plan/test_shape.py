@@ -54,7 +54,7 @@ def without(given: Json, key: str) -> Json:
         ([mission(name="\ud800")], "mission 1: name holds half a character: it is no text"),
         ([mission(launched=1)], "mission 1: launched 1 is not true or false"),
         ([mission(every="1 h")],
-         ('mission 1 has an unknown key "every"; it may have: key, name, launched, ended, opens, deadline, after, trips, '
+         ('mission 1 has an unknown key "every"; it may have: key, name, launched, ended, done, opens, deadline, after, trips, '
           "safe_time, repeat, at, evaluator")),
         ([mission(safe_time=[1])], 'mission 1: "safe_time" […] is not a number or a text'),
         ([mission(safe_time=float("nan"))], 'mission 1: "safe_time" nan is not a finite number'),

@@ -11,10 +11,13 @@ from typing import Any
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import Stale
+from pluto_fleet.station.preflight.forecast import without_runs
+from pluto_fleet.station.preflight.start import PlannedStart
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
+from pluto_fleet.station.wire import Forecast
 
 HOST = "127.0.0.1:8765"
 OURS = {
@@ -90,6 +93,13 @@ class AStation:
             await self.busy()
         self.told += 1
         return json.dumps({"version": self.told, "flight": flight})
+
+    async def forecast(self, asked: PlannedStart, /) -> Forecast:
+        if self.wrong is not None:
+            raise self.wrong
+        if self.busy is not None:
+            await self.busy()
+        return without_runs(None, asked.revision, [])
 
     def console(self) -> str:
         return "<script>alert(1)</script>\ud800"

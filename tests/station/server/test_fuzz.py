@@ -14,12 +14,14 @@ from hypothesis import strategies as st
 
 from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.plan.plan import MissionPlan
+from pluto_fleet.station.preflight.start import PlannedStart
 from pluto_fleet.station.session import Phase
 from pluto_fleet.station.station import Station
 from pluto_fleet.station.web.api import ADDRESSES, Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
+from pluto_fleet.station.wire import Forecast
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, a_plan
 
@@ -109,6 +111,9 @@ class WithAPlan:
 
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
         return await self.rest.newer(flight, seen, log, results)
+
+    async def forecast(self, asked: PlannedStart, /) -> Forecast:
+        return await self.rest.forecast(asked)
 
     def console(self) -> str:
         return self.rest.console()

@@ -215,6 +215,7 @@ export interface Readiness {
   ready: boolean;
   why: Words | null;
   ready_in: number | null;
+  assumed: Words | null;
 }
 
 export interface MissionForecast {
@@ -227,15 +228,24 @@ export interface MissionForecast {
   fails: number;
 }
 
+export interface ForecastRequest {
+  revision: number;
+  missions: string[] | null;
+  only_failed?: boolean;
+  runs?: number | null;
+}
+
 export interface Forecast {
   revision: number;
   runs: number;
+  world: "traffic" | "alone";
   median: number | null;
   high: number | null;
   missions: MissionForecast[];
   drones: Readiness[];
   lowest_battery: number | null;
   bottlenecks: Words[];
+  assumed: Words[];
   problems: Words[];
   rehearsal: string | null;
 }

@@ -15,6 +15,7 @@ from ...shared.domain.text import counted, printable, quoted
 from ...shared.domain.values import shown
 from . import kept as on_disk
 from .example import example_missions
+from .missing import only_missing
 from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, read
 from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
 from .text import NAME, shapes_of, text_of
@@ -53,6 +54,8 @@ class MissionPlan:
         self._missions = list(kept.missions)
         self._unread = read(app, fleet.airspace, self._missions)[1]
         self._flyability = FlyabilityCache(app, fleet)
+        self.on_change: Callable[[], object] = _nothing
+        """Called after each change."""
 
     def data(self) -> Shape:
         """Return the plan for pages."""
@@ -118,16 +121,16 @@ class MissionPlan:
     # Flights
 
     def launchable(
-        self, chosen: Collection[str] | None = None
+        self, chosen: Collection[str] | None = None, only_failed: bool = False
     ) -> tuple[list[Mission[Any]], list[str]]:
         """Return the missions for Start, with their keys; raise `BadInput` if it cannot start.
 
         These are the chosen ones, by their keys. Without a choice: all that have not been completed; if
         all were, all again, but not while any of them flies. They are new objects each time, as a
-        flight changes them.
+        flight changes them. `only_failed`: those that failed, each with the trips that were not done.
         """
         self._flyability.ask_at_once(self._readable())
-        waiting = self._wanted(chosen)
+        waiting = self._wanted(chosen, only_failed)
         keys = [str(one["key"]) for one in waiting]
         of_these = (None, *keys)
         problems = [one.alone for one in self._problems() if one.mission in of_these]
@@ -158,8 +161,10 @@ class MissionPlan:
         promises = {key: one for key, one in mission.promises.items() if key != "after"}
         return replace(mission, promises=promises | ({"after": after} if after else {}))
 
-    def _wanted(self, chosen: Collection[str] | None) -> list[Shape]:
+    def _wanted(self, chosen: Collection[str] | None, only_failed: bool) -> list[Shape]:
         waiting = [mission for mission in self._missions if not mission["launched"]]
+        if chosen is None and only_failed:
+            return only_missing(self._app, waiting, chosen=False)
         if chosen is None:
             to_do = [mission for mission in waiting if mission["ended"] != COMPLETED]
             return waiting if not to_do and len(waiting) == len(self._missions) else to_do
@@ -174,23 +179,41 @@ class MissionPlan:
                     f"mission {quoted(str(known[key]['name']))} belongs to the flight that is under"
                     " way: it can be started again when that has ended"
                 )
-        return [mission for mission in waiting if mission["key"] in chosen]
+        wanted = [mission for mission in waiting if mission["key"] in chosen]
+        return only_missing(self._app, wanted, chosen=True) if only_failed else wanted
 
-    def launched(self, keys: Collection[str]) -> None:
-        """Lock these missions, which fly now."""
-        self._mark(lambda mission: bool(mission["launched"]) or mission["key"] in keys)
+    def launched(self, keys: Collection[str], only_failed: bool = False) -> None:
+        """Lock these missions, which fly now; unless `only_failed`, nothing of them counts as done."""
+
+        def locked(mission: Shape) -> Shape:
+            if mission["launched"] or mission["key"] not in keys:
+                return mission
+            flies = {**mission, "launched": True}
+            if not only_failed:
+                flies.pop("done", None)
+            return flies
+
+        missions = [locked(mission) for mission in self._missions]
+        if missions != self._missions:
+            self._change(missions)
 
     def adopt(self, names: Collection[str]) -> None:
         """Lock the missions of these names, which fly according to a journal, and no others."""
         self._mark(lambda mission: mission["name"] in names)
 
-    def settle(self, ends: Mapping[str, str]) -> None:
-        """Record the final statuses of a flight's missions, by name."""
+    def settle(
+        self, ends: Mapping[str, str], done: Mapping[str, Sequence[str]] | None = None
+    ) -> None:
+        """Record the final statuses of a flight's missions, and which of their trips were done, by name."""
 
         def settled(mission: Shape) -> Shape:
             if not mission["launched"]:
                 return mission
-            return {**mission, "launched": False, "ended": ends.get(str(mission["name"]))}
+            name = str(mission["name"])
+            ended = {**mission, "launched": False, "ended": ends.get(name)}
+            before: Any = ended.pop("done", ())
+            trips = [*dict.fromkeys((*before, *(done or {}).get(name, ())))]
+            return ended | ({"done": trips} if trips and ended["ended"] != COMPLETED else {})
 
         missions = [settled(mission) for mission in self._missions]
         if missions != self._missions:
@@ -200,9 +223,11 @@ class MissionPlan:
         """Unlock all missions: nothing flies any more."""
         self._mark(lambda _: False)
 
-    def export_toml(self, keys: Collection[str] | None = None) -> str:
-        """Return the missions file of these missions, or of all."""
+    def export_toml(self, keys: Collection[str] | None = None, only_failed: bool = False) -> str:
+        """Return the missions file of these missions, or of all; `only_failed`: of what is missing of them."""
         chosen = [one for one in self._missions if keys is None or one["key"] in keys]
+        if only_failed:
+            chosen = only_missing(self._app, chosen, chosen=True)
         return text_of(self._app, chosen)
 
     def _problems(self) -> Iterator[PlanProblem]:
@@ -262,6 +287,7 @@ class MissionPlan:
         self._missions = missions
         self._unread = read(self._app, self._fleet.airspace, missions)[1]
         self.revision += 1
+        self.on_change()
         if self._keep is None:
             return
         try:
@@ -276,9 +302,16 @@ class MissionPlan:
             self.trouble = ""
 
 
+def _nothing() -> None:
+    """Do nothing: no callback is set."""
+
+
 def _as_it_ended(drawn: Shape, before: Shape | None) -> Shape:
     """Keep a mission's final status, unless more than its name has changed."""
     if before is None or not before["ended"]:
         return drawn
     same = as_in_a_file({**drawn, "name": ""}) == as_in_a_file({**before, "name": ""})
-    return {**drawn, "ended": before["ended"] if same else None}
+    if not same:
+        return drawn
+    done = {"done": before["done"]} if "done" in before else {}
+    return {**drawn, "ended": before["ended"], **done}

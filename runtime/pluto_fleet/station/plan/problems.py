@@ -176,7 +176,7 @@ def _of_its_height(
 
 
 def _bare(given: Mapping[str, object]) -> dict[str, object]:
-    ours = ("key", "launched", "ended", "trips")
+    ours = ("key", "launched", "ended", "done", "trips")
     return {
         key: value
         for key, value in given.items()

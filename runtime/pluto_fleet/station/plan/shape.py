@@ -29,7 +29,7 @@ LONGEST_TEXT = 1_000
 LARGEST = 1e15
 """The largest integer that is exact in a browser."""
 
-MISSION_KEYS = ("key", "name", "launched", "ended", "opens", "deadline", "after", "trips")
+MISSION_KEYS = ("key", "name", "launched", "ended", "done", "opens", "deadline", "after", "trips")
 MOMENTS = ("opens", "deadline")
 """When a mission may begin, and when it is due: in a file they are its window, or its deadline."""
 TRIP_KEYS = ("key", "name", "action", "target", "source", "parameters", "item")
@@ -84,16 +84,25 @@ def _mission(given: object, who: str, app: App) -> Shape:
         raise _wrong(f"{who}: launched", data["launched"], "true or false")
     if data.get("ended") not in (None, *ENDS):
         raise _wrong(f"{who}: ended", data["ended"], " or ".join(ENDS))
+    done_by(data, who)
     trips = _list(_given(data, "trips", who), f"{who}: trips")
     return {
         "key": _key(data, who),
         "name": _text(_given(data, "name", who), f"{who}: name"),
-        "launched": False,  # neither can be set by pages
+        "launched": False,  # neither can be set by pages, nor what was done
         "ended": None,
         **_scalars(data, [*MOMENTS, *fields], who),
         **_after(data, who),
         "trips": [_trip(one, f"{who}, trip {i}", app) for i, one in enumerate(trips, 1)],
     }
+
+
+def done_by(data: Mapping[str, object], who: str) -> list[str]:
+    """Return the names of the trips that a mission has done; raise `BadInput` if that is no list of texts."""
+    names = [] if data.get("done") is None else _list(data["done"], f"{who}: done")
+    if len(names) > MOST_TRIPS:
+        raise _too_many("trips", MOST_TRIPS)
+    return [_text(name, f"{who}: done") for name in names]
 
 
 def _after(data: Mapping[str, object], who: str) -> Shape:

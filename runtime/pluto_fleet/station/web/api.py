@@ -13,8 +13,11 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable
 from ..commands import NEEDS, Malformed
 from ..plan.plan import Stale
+from ..preflight.start import PlannedStart
+from ..wire import Forecast
 from . import refusals
 from .audit import Audit
+from .forecasts import forecast
 from .guard import Access, Guard, Rate, refusal, with_safe_headers
 from .http import MISTAKES, PageSocket, Reply, Request, json_reply, text_reply
 from .http import said as in_words
@@ -32,6 +35,7 @@ ADDRESSES: Mapping[str, tuple[str, ...]] = {
     "/api/plan/example": ("POST",),
     "/api/console.txt": ("GET",),
     "/api/results.json": ("GET",),
+    "/api/preflight": ("POST",),
     **{f"/api/{command}": ("POST",) for command in NEEDS},
 }
 _LONGEST_ID = 64
@@ -79,6 +83,9 @@ class ServedStation(UpdateSource, Protocol):
 
     async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
         """Carry out a command, unless it was carried out with this id before; raise `BadInput` if it cannot."""
+
+    async def forecast(self, asked: PlannedStart, /) -> Forecast:
+        """Return what a Start would do; raise `BadInput` if there is no forecast to make."""
 
     def console(self) -> str:
         """Return the console."""
@@ -129,6 +136,8 @@ async def change(station: ServedStation, audit: Audit, request: Request) -> Repl
             revision = _whole(given, "revision")
             _nothing_else(given)
             edit = _at_once(lambda: plan.example(revision))
+        case "/api/preflight":
+            return await forecast(station, request, parsed_object(body))
         case path:
             given = parsed_object(body)
             return await _commanded(station, audit, request, path.removeprefix("/api/"), given)

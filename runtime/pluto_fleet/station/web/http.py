@@ -5,6 +5,7 @@ So everything that makes decisions can be tested without one.
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
@@ -20,6 +21,11 @@ async def nothing() -> bytes:
     return b""
 
 
+async def never() -> None:
+    """Wait for ever."""
+    await asyncio.get_running_loop().create_future()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Request:
     """A request; its body is read only after the access check."""
@@ -29,6 +35,8 @@ class Request:
     query: Mapping[str, str] = field(default_factory=dict)
     headers: Mapping[str, str] = field(default_factory=dict)  # lower-case names
     read: Read = nothing
+    gone: Callable[[], Awaitable[None]] = never
+    """Waits until the client has gone away; only after the body has been read."""
     client: str = ""  # the address of the connection; headers of proxies are ignored
     local: str = ""  # the address that it connected to
 

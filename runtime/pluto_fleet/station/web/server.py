@@ -200,6 +200,7 @@ def _request(scope: Scope, receive: Receive) -> Request:
         query=_query(scope),
         headers=headers,
         read=lambda: _body(headers, scope, receive),
+        gone=lambda: _gone(receive),
         client=_host(scope.get("client")),
         local=_host(scope.get("server")),
     )
@@ -224,6 +225,11 @@ def _query(scope: Scope) -> dict[str, str]:
 
 def _host(end: object) -> str:
     return str(end[0]) if isinstance(end, (tuple, list)) and end else ""
+
+
+async def _gone(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass
 
 
 async def _body(headers: Mapping[str, str], scope: Scope, receive: Receive) -> bytes:
