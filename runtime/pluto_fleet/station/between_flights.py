@@ -51,16 +51,12 @@ class IdleDrones:
         self._read_at: object = None
         self._sightings: dict[str, Sighting] = {}
 
-<<<<<<< HEAD
-    def rows(self, known: Records | None) -> Iterator[DroneRow]:
-=======
     @property
     def sightings(self) -> Mapping[str, Sighting]:
         """The drones' last known states, of those that were ever heard of."""
         return self._newest()
 
-    def rows(self, known: Records | None) -> Iterator[rows.Row]:
->>>>>>> e40fad06b39332b548746df89d5a784debea9b34
+    def rows(self, known: Records | None) -> Iterator[DroneRow]:
         """Yield the row of each; `known` is the journal's record of them."""
         sightings, now = self._newest(), time.time()
         for entry in self._fleet:

@@ -99,11 +99,7 @@ class Feed:
         said = sentence_of(event)
         if said is not None:
             self._lines.append(line_of(event) or "")
-<<<<<<< HEAD
-            self._line(event["t"], event.get("mission"), said, _kind(event))
-=======
-            self.log.add(event["t"], event.get("mission"), said, kind_of(event))
->>>>>>> e40fad06b39332b548746df89d5a784debea9b34
+            self._line(event["t"], event.get("mission"), said, kind_of(event))
         verdict = _VERDICTS.get(str(event["event"]))
         if event["event"] == ACTS_BESIDE:
             self._beside[event["mission"], event["trip"]] = event["at"]
@@ -233,11 +229,7 @@ _BAD = (
 )
 
 
-<<<<<<< HEAD
-def _kind(event: Event) -> LineKind:
-=======
-def kind_of(event: Event) -> str:
->>>>>>> e40fad06b39332b548746df89d5a784debea9b34
+def kind_of(event: Event) -> LineKind:
     """Return the style of a line: `good`, `bad`, `hook` (the app's own text), or `info`."""
     kind = event["event"]
     if kind == "log":

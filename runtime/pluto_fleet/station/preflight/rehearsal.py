@@ -20,6 +20,7 @@ from .. import rows
 from ..feed import kind_of
 from ..history.recording import MOVES_EVERY, Recording
 from ..wait_reasons import WaitReasons
+from ..wire import DroneRow, MissionRow
 
 if TYPE_CHECKING:
     from ...shared.brain import Brain
@@ -83,7 +84,7 @@ class Rehearsal:
         looks = max(1, MISSIONS_IN_ALL // max(1, len(question.all)))
         self._missions_every = max(every, every * FRAMES / looks)
         self._looked_at = -self._missions_every
-        self._missions: list[rows.Row] = []
+        self._missions: list[MissionRow] = []
         self._out = [_out_row(one.id, one.out) for one in question.present if one.out is not None]
         self.waits = Waits()
 
@@ -138,13 +139,13 @@ class Rehearsal:
         where: Mapping[str, Any],
         stand: Mapping[str, Any],
         passed: float,
-    ) -> list[rows.Row]:
+    ) -> list[MissionRow]:
         self._reasons.look(brain)
         records = {
             name: {**_ASIDE, "promises": {}, "late": False, **record}
             for name, record in brain.standing()["missions"].items()
         }
-        found, waiting = [], list[tuple[str, Mapping[str, Any]]]()
+        found, waiting = list[MissionRow](), list[tuple[str, Mapping[str, Any]]]()
         for name, record in sorted(records.items(), key=lambda item: int(item[1]["index"])):
             at = where.get(name)
             if at is None or not at["lives"]:
@@ -197,9 +198,9 @@ class Rehearsal:
         where: Mapping[str, Any],
         stand: Mapping[str, Any],
         drones: Mapping[str, Telemetry],
-    ) -> list[rows.Row]:
+    ) -> list[DroneRow]:
         work = {one["drone"]: name for name, one in where.items() if one["drone"] is not None}
-        found = []
+        found = list[DroneRow]()
         for id, told in stand.items():
             real = drones[id]
             drone = {**told, "at": real.location, "battery": real.battery_level}
@@ -209,7 +210,7 @@ class Rehearsal:
         return found
 
 
-def _out_row(id: str, why: Any) -> rows.Row:
+def _out_row(id: str, why: Any) -> DroneRow:
     status = "LOST" if why["key"].endswith(".lost") else "OFFLINE"
     return rows.drone_at(id, status, None, 0, status == "OFFLINE", str(why["text"]))
 
