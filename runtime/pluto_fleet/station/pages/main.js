@@ -7,6 +7,7 @@ import { useErrorBoundary } from "preact/hooks";
 import { alarm } from "./attention/alarm.js";
 import { takeTokenFromAddress } from "./core/api.js";
 import { bestLanguage, speak, t } from "./core/i18n.js";
+import { followMap } from "./core/landmarks.js";
 import { applyLook, prefs } from "./core/prefs.js";
 import { page, PAGES } from "./core/route.js";
 import { app, connect, refusal } from "./core/station.js";
@@ -69,4 +70,5 @@ prefs.language.subscribe((chosen) => { speak(bestLanguage([chosen, ...navigator.
 render(h(Station, null), document.body);
 connect();
 alarm();
+followMap();
 load(page.peek()).then(() => PAGES.forEach((name) => name !== page.peek() && load(name)));

@@ -8,6 +8,7 @@ import { app, selectDrone, selection, world } from "../core/station.js";
 import { Camera } from "../map/camera.js";
 import { Fleet, Homes, Names } from "../map/fleet.js";
 import { Floor } from "../map/floor.js";
+import { landmarkNames, Landmarks, North } from "../map/landmarks.js";
 import { MapSplit } from "../ui/map_split.js";
 import { Tabs } from "../ui/parts.js";
 import { Console } from "./console.js";
@@ -41,8 +42,9 @@ export function Watch({ world: seen, live, foot }) {
     stage: [
       h(Floor, {
         key: "floor", map: shape.map, camera,
-        overlay: h(Names, { world: seen, chosen: drone }),
+        overlay: [h(Names, { key: "names", world: seen, chosen: drone, more: landmarkNames }), h(North, { key: "north" })],
         children: [
+          h(Landmarks, { key: "landmarks" }),
           h(Homes, { key: "homes", app: shape }),
           h(Targets, { key: "targets", world: seen, chosen: mission }),
           h(Fleet, { key: "fleet", world: seen, chosen: drone, onPick: selectDrone }),

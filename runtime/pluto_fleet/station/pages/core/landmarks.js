@@ -1,0 +1,64 @@
+// What people have drawn on the map: named places and zones, and where the floor plan lies. Kept at the
+// station, in the fleet file.
+
+import { effect, signal } from "@preact/signals";
+import { get, send, StationError } from "./api.js";
+import { t } from "./i18n.js";
+import { tell } from "./notices.js";
+import { world } from "./station.js";
+
+/** @import { MapData } from "../wire" */
+
+export const landmarks = signal(/** @type {MapData | null} */ (null));
+
+let isLoading = false;
+async function load() {
+  if (isLoading) return;
+  isLoading = true;
+  try {
+    landmarks.value = await get("/api/map");
+  } catch (error) {
+    if (!(error instanceof StationError)) throw error; // asked again with the next message
+  }
+  isLoading = false;
+}
+
+/** Know the map as it is, and as others change it. */
+export function followMap() {
+  effect(() => {
+    const { known, map } = world.state.value;
+    if (known && (landmarks.peek() === null || landmarks.peek()?.revision !== map)) load();
+  });
+}
+
+/**
+ * Change the map; another page that was quicker is told of, and its map is shown.
+ * @param {(map: MapData) => Partial<MapData>} change
+ */
+export async function changeMap(change) {
+  const before = landmarks.peek();
+  if (!before) return false;
+  const { revision, places, zones, north, image } = { ...before, ...change(before) };
+  const placed = image && { x: image.x, y: image.y, width: image.width, height: image.height, turn: image.turn };
+  return sent(() => send("PUT", "/api/map", { revision, places, zones, north, ...(placed ? { image: placed } : {}) }));
+}
+
+/** Lay a floor plan under the map. @param {File} file */
+export function uploadPlan(file) {
+  const query = new URLSearchParams({ revision: String(landmarks.peek()?.revision ?? 0), name: file.name });
+  return sent(() => send("PUT", `/api/map/image?${query}`, file, { type: file.type, timeout: 60000 }));
+}
+
+/** @param {() => Promise<{ status: number, data: MapData }>} ask */
+async function sent(ask) {
+  try {
+    const { status, data } = await ask();
+    landmarks.value = data;
+    if (status === 409) tell(t("map.changed-meanwhile"), { bad: true });
+    return status === 200;
+  } catch (error) {
+    if (!(error instanceof StationError)) throw error;
+    tell(error.message, { bad: true });
+    return false;
+  }
+}
