@@ -6,10 +6,12 @@ import json
 from collections.abc import Mapping
 from pathlib import Path
 
+import pluto_fleet
 from pluto_fleet.station.web.reads import DESCRIPTION
 from pluto_fleet.station.web.static import FOLDER
 
 from .openapi import description
+from .python_client import calls
 from .typescript import declarations
 
 
@@ -19,4 +21,5 @@ def made() -> Mapping[Path, str]:
     return {
         DESCRIPTION: json.dumps(found, indent=1) + "\n",
         FOLDER / "wire.d.ts": declarations(found),
+        Path(pluto_fleet.__file__).parent / "client" / "calls.py": calls(),
     }

@@ -59,13 +59,14 @@ def _operation(address: Address, known: dict[str, Schema]) -> Schema:
         answers["409"] = {"description": _CONFLICT, "content": _content(stale, known)}
     answers["default"] = {"description": _REFUSED, "content": _content(Said, known)}
     found: Schema = {
-        "operationId": _name(address),
+        "operationId": address.name,
         "summary": address.says,
         "security": [{"fly": []}, *([{"watch": []}] if address.role == "watch" else [])],
         "parameters": [
             {
                 "name": name,
                 "in": "query",
+                "required": one.needed,
                 "description": one.says,
                 "schema": schema_of(one.type, known),
             }
@@ -106,9 +107,3 @@ def _content(answers: Any, known: dict[str, Schema]) -> Schema:
     if isinstance(answers, str):
         return {answers: {"schema": {"type": "string"}}}
     return {JSON: {"schema": schema_of(answers, known, EXTENDED)}}
-
-
-def _name(address: Address) -> str:
-    words = address.path.removeprefix("/api/").replace(".", "/").replace("-", "/").split("/")
-    verb = {"GET": "read", "PUT": "replace"}.get(address.method, "")
-    return "_".join([verb, *words] if verb else words)

@@ -33,6 +33,7 @@ class Parameter:
 
     type: type[int | str]
     says: str
+    needed: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,12 +58,19 @@ class Address:
     """Whether it brings drones down, and so is exempt from all limits."""
 
     @property
+    def name(self) -> str:
+        """The name of what it does, for descriptions and clients."""
+        if self.do is None or self.do is changes.command:
+            return self.path.removeprefix("/api/").replace("-", "_")
+        return self.do.__name__
+
+    @property
     def media(self) -> Sequence[str]:
         """The media types of its body."""
         return self.body if isinstance(self.body, tuple) else (JSON,)
 
 
-_REVISION = Parameter(int, "The revision of the plan that was looked at.")
+_REVISION = Parameter(int, "The revision of the plan that was looked at.", needed=True)
 _ALWAYS = ("stop", "cut-motors")
 
 _READS = (
