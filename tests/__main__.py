@@ -13,6 +13,7 @@ REWRITES = {
     "pytest tests/examples/test_typed_pages.py --update": "what the tutorial, and the page on sizes, show of commands' output",
     "pytest tests/navigation --update": "the code that the page on navigation shows",
     "pytest tests/station/browser/test_every_page.py --update": "the pictures of the ground station",
+    "python -m tests.station.schema": "the description of the station's interface, and what is made of it",
     "pytest tests/editor/browser --update": "the pictures of the graph editor",
     "pytest tests/journal --update": "what kept journals come to, after a change of the records",
     "python docs/tutorial/make_pictures.py": "the pictures and the quoted files in the pages",

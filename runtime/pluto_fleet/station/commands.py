@@ -1,37 +1,23 @@
-"""The commands of a station, and their arguments."""
+"""The commands of a station, and the check of their arguments against their types."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
+from types import NoneType, UnionType
+from typing import (
+    Any,
+    Literal,
+    NotRequired,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
-
-_MISSION, _TRIP = {"mission": (str,)}, {"trip": (str,)}
-_ALL = {"mission": (str, type(None))}
-
-NEEDS: Mapping[str, Mapping[str, tuple[type, ...]]] = {
-    "start": {
-        "revision": (int, type(None)),
-        "missions": (list, type(None)),
-        "only_failed": (bool, type(None)),
-    },
-    "stop": {"how": (str,)},
-    "resume": {},
-    "discard": {},
-    "pause": _ALL,
-    "go-on": _ALL,
-    "skip": {**_MISSION, "trip": (str, type(None))},
-    "cancel": _ALL,
-    "decide": {**_MISSION, "answer": (str,)},
-    "prioritise": {**_MISSION, **_TRIP, "priority": (int,)},
-    "retire": {"drone": (str,)},
-    "bring-back": {"drone": (str,)},
-    "cut-motors": {"drone": (str,)},
-}
-"""The arguments of each command; those that may be null are optional."""
-
-HOWS = ("rtl", "land")
+from .requests import COMMANDS
 
 LARGEST = 1_000_000_000
 """The largest absolute priority, as in a missions file."""
@@ -43,35 +29,56 @@ class Malformed(BadInput):
 
 def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:
     """Return a command's arguments; raise `Malformed` if one is missing or invalid."""
-    needs = NEEDS.get(name)
-    if needs is None:
+    if name not in COMMANDS:
         raise Malformed(f"there is no command {quoted(name)}")
+    needs = _arguments(name)
     for key in given:
         if key not in needs:
             raise Malformed(f"{name} takes no {quoted(key)}")
     arguments: dict[str, object] = {}
-    for key, types in needs.items():
+    for key, kinds in needs.items():
         value = given.get(key)
-        if type(value) not in types:
-            raise Malformed(f"{name} needs {key}: {_said(types)}")
+        if not any(_fits(value, kind) for kind in kinds):
+            raise Malformed(f"{name} needs {key}: {' or '.join(map(_said, kinds))}")
         arguments[key] = value
-    chosen = arguments.get("missions")
-    if isinstance(chosen, list) and not all(isinstance(key, str) for key in chosen):
-        raise Malformed(f"{name} needs missions: the keys of missions of the plan, or null")
-    if name == "stop" and arguments["how"] not in HOWS:
-        raise Malformed('stop needs how: "rtl", all fly home first, or "land", where they are')
     priority = arguments.get("priority")
     if isinstance(priority, int) and abs(priority) > LARGEST:
         raise Malformed(f"a priority is no more than {LARGEST}")
     return arguments
 
 
-def _said(types: tuple[type, ...]) -> str:
-    names = {
-        str: "a text",
-        bool: "true or false",
-        int: "a whole number",
-        list: "a list",
-        type(None): "null",
-    }
-    return " or ".join(names[one] for one in types)
+@cache
+def _arguments(name: str) -> Mapping[str, tuple[Any, ...]]:
+    """Return the types that each argument of a command may have."""
+    hints = get_type_hints(COMMANDS[name], include_extras=True)
+    return {key: _kinds(hint) for key, hint in hints.items() if key != "id"}
+
+
+def _kinds(hint: Any) -> tuple[Any, ...]:
+    if get_origin(hint) is NotRequired:
+        hint = get_args(hint)[0]
+    return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+
+
+def _fits(value: object, kind: Any) -> bool:
+    match get_origin(kind):
+        case None:
+            return type(value) is kind
+        case origin if origin is Literal:
+            return type(value) is str and value in get_args(kind)
+        case _:  # a list
+            [inner] = get_args(kind)
+            return isinstance(value, list) and all(type(one) is inner for one in value)
+
+
+def _said(kind: Any) -> str:
+    match get_origin(kind):
+        case None:
+            return _NAMES[kind]
+        case origin if origin is Literal:
+            return " or ".join(f'"{one}"' for one in get_args(kind))
+        case _:
+            return "a list of texts"
+
+
+_NAMES = {str: "a text", bool: "true or false", int: "a whole number", NoneType: "null"}

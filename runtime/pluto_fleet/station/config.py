@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
     from .graph.picture import Graph
+    from .wire_app import ActionData, AppData, CategoryData, FieldData, ParameterData
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,20 +47,22 @@ class StationConfig:
         return self.folder / "station"
 
 
-Shape = dict[str, object]
+def described(app: App, config: StationConfig, server: str) -> AppData:
+    """Return the constant data of app and fleet, with the fields and actions that this app has.
 
-
-def described(app: App, config: StationConfig) -> Shape:
-    """Return the constant data of app and fleet, with the fields and actions that this app has."""
+    `server` is this run of the station.
+    """
     graph, space = app_graph(app), config.fleet.airspace
     return {
         "name": app.name,
         "title": app.title or app.name,
+        "server": server,
+        "role": "fly",
         "sim": config.sim or config.crtp_sim is not None,
         "speed": config.speed or 1.0,
         "fields": {
-            entity.value: [_field(field) for field in app.fields if field.on is entity]
-            for entity in Entity
+            "mission": [_field(field) for field in app.fields if field.on is Entity.MISSION],
+            "trip": [_field(field) for field in app.fields if field.on is Entity.TRIP],
         },
         "evaluators": list(app.evaluators),
         "actions": [_action(action) for action in app.actions.values() if _can(app, action)],
@@ -81,20 +84,24 @@ def described(app: App, config: StationConfig) -> Shape:
     }
 
 
-def _field(field: Field) -> Shape:
+def _field(field: Field) -> FieldData:
     kind = field.type
-    shape: Shape = {"name": field.name, "type": kind.value, "label": field.label}
-    shape["default"] = field.default
+    data: FieldData = {
+        "name": field.name,
+        "type": kind.value,
+        "label": field.label,
+        "default": field.default,
+    }
     if isinstance(field, OwnField) and isinstance(kind, Type):
-        shape |= {"own": True, "needed": bool(field.hint), "units": _units(kind)}
-    return shape
+        data["own"], data["needed"], data["units"] = True, bool(field.hint), _units(kind)
+    return data
 
 
 def _can(app: App, action: Action) -> bool:
     return any(category.can(action.name) for category in app.categories)
 
 
-def _action(action: Action) -> Shape:
+def _action(action: Action) -> ActionData:
     return {
         "name": action.name,
         "item": action.name in (PICK, RELEASE),
@@ -102,7 +109,7 @@ def _action(action: Action) -> Shape:
     }
 
 
-def _parameter(parameter: Parameter) -> Shape:
+def _parameter(parameter: Parameter) -> ParameterData:
     kind = parameter.type
     return {
         "name": parameter.name,
@@ -116,7 +123,7 @@ def _units(kind: Type) -> list[str]:
     return list(units_of(kind)) if kind in QUANTITIES else []
 
 
-def _category(category: Category) -> Shape:
+def _category(category: Category) -> CategoryData:
     return {
         "name": category.name,
         "payload": category.payload,

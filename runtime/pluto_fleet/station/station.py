@@ -58,7 +58,7 @@ class Station:
 
     def __init__(self, app: App, config: StationConfig, plan: MissionPlan) -> None:
         self._app, self._config, self.plan = app, config, plan
-        self.described = described(app, config) | {"server": secrets.token_hex(8)}
+        self.described = described(app, config, secrets.token_hex(8))
         self.session: FlightSession | None = None
         """The current or last flight."""
         self.leaves = asyncio.Event()

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .plan.plan import MissionPlan
     from .session import FlightSession
     from .wire import Busy, DroneRow, State
+    from .wire_app import AppData
 
 LOOK_EVERY = 0.12
 """The sampling interval in seconds, unless a change is announced."""
@@ -34,7 +35,7 @@ ANSWER_WITHIN = 1.0
 class StationState(Protocol):
     """The data of a station that pages show."""
 
-    described: dict[str, object]
+    described: AppData
     session: FlightSession | None
     plan: MissionPlan
     history: FleetHistory

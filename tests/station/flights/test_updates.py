@@ -35,7 +35,7 @@ class Shown:
     """A station with such a flight."""
 
     def __init__(self) -> None:
-        self.described: dict[str, object] = {"server": "x"}
+        self.described: Any = {"server": "x"}
         self.session: Any = Unseen()
         self.plan = MissionPlan(APP, FLEET, None)
         self.history: Any = Nothing()

@@ -54,7 +54,7 @@ def pictured(plain: Mapping[str, Any]) -> Pictured:
         for one, at in zip(edges, laid.words, strict=True)
         if at is not None
     ]
-    ways = [(number[one["from"]], number[one["to"]]) for one in edges]
+    ways = [(number[one["source"]], number[one["target"]]) for one in edges]
     return Pictured(laid=laid, ways=ways, words=words)
 
 

@@ -55,7 +55,7 @@ def test_words_stand_where_there_is_something_to_choose() -> None:
     assert picture is not None
     edges = picture["edges"]
     assert isinstance(edges, list)
-    said = {(one["from"], one["to"]) for one in edges if one["label"] is not None}
+    said = {(one["source"], one["target"]) for one in edges if one["label"] is not None}
     assert said == {
         ("first", "allocate"),
         ("first", "retry"),

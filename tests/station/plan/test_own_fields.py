@@ -33,7 +33,7 @@ def whole(**given: object) -> dict[str, Any]:
 
 def test_a_page_learns_of_them_with_their_types_and_units(tmp_path: Path) -> None:
     config = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
-    fields: Any = described(OWN, config)["fields"]
+    fields: Any = described(OWN, config, "x")["fields"]
     by_name = {one["name"]: one for on in ("mission", "trip") for one in fields[on]}
     assert by_name["patient"] == {
         "name": "patient",

@@ -7,7 +7,7 @@ import json
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import Stale
@@ -18,6 +18,7 @@ from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
 from pluto_fleet.station.wire import Forecast
+from pluto_fleet.station.wire_app import AppData
 
 HOST = "127.0.0.1:8765"
 OURS = {
@@ -75,8 +76,8 @@ class AStation:
     busy: Callable[[], Awaitable[object]] | None = None
 
     @property
-    def described(self) -> Mapping[str, object]:
-        return {"name": "alfalfa"}
+    def described(self) -> AppData:
+        return cast(AppData, {"name": "alfalfa"})
 
     async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
         if self.wrong is not None:
@@ -145,7 +146,7 @@ def request(
     if not isinstance(body, bytes):
         body = (body if isinstance(body, str) else json.dumps(body)).encode()
 
-    async def read() -> bytes:
+    async def read(most: int) -> bytes:
         assert isinstance(body, bytes)
         return body
 

@@ -17,11 +17,13 @@ from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.preflight.start import PlannedStart
 from pluto_fleet.station.session import Phase
 from pluto_fleet.station.station import Station
-from pluto_fleet.station.web.api import ADDRESSES, Api
+from pluto_fleet.station.web.addresses import ADDRESSES
+from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
 from pluto_fleet.station.wire import Forecast
+from pluto_fleet.station.wire_app import AppData
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, a_plan
 
@@ -29,7 +31,9 @@ from .asking import HOST, OURS, AStation
 from .serving import Served, served, status
 
 METHODS = st.sampled_from(["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH", "\x00", ""])
-ADDRESS = st.sampled_from([*ADDRESSES, "/", "/map", "/pages/main.js", "/pages/index.html"])
+ADDRESS = st.sampled_from(
+    [*(one.path for one in ADDRESSES), "/", "/map", "/pages/main.js", "/pages/index.html"]
+)
 PATHS = st.one_of(
     ADDRESS,
     st.builds(lambda one, other: one + other, ADDRESS, st.text(max_size=8)),
@@ -79,7 +83,7 @@ def requests(draw: st.DrawFn) -> Request:
     """Draw a request, sound or not."""
     body = draw(BODIES)
 
-    async def read() -> bytes:
+    async def read(most: int) -> bytes:
         return body
 
     return Request(
@@ -103,7 +107,7 @@ class WithAPlan:
     image: Path | None = None
 
     @property
-    def described(self) -> Mapping[str, object]:
+    def described(self) -> AppData:
         return self.rest.described
 
     async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:

@@ -9,17 +9,19 @@ from pluto_fleet.station.web.guard import (
     Access,
     Guard,
     is_loopback,
-    knows,
     needs_token,
     proper_name,
     refusal,
+    role_by,
 )
 from pluto_fleet.station.web.http import Request
 
 from .asking import OURS, without
 
 LOOPBACK = Guard(host="127.0.0.1", port=8765)
-EVERYWHERE = Guard(host="0.0.0.0", port=8765, names=("ward.example",), token="sesame")
+EVERYWHERE = Guard(
+    host="0.0.0.0", port=8765, names=("ward.example",), token="sesame", watch_token="poppy"
+)
 
 
 def status(
@@ -149,10 +151,11 @@ def test_the_pages_themselves_need_no_token() -> None:
 
 
 def test_the_token_is_known_to_who_knows_it() -> None:
-    assert knows(EVERYWHERE, "sesame")
-    assert knows(LOOPBACK, "")
+    assert role_by(EVERYWHERE, "sesame") == "fly"
+    assert role_by(EVERYWHERE, "poppy") == "watch"
+    assert role_by(LOOPBACK, "") == "fly"
     for wrong in ("", "sesame ", "\ud800", "s" * 100_000):
-        assert not knows(EVERYWHERE, wrong)
+        assert role_by(EVERYWHERE, wrong) is None
 
 
 def test_what_a_proxy_says_is_not_believed() -> None:

@@ -1,114 +1,14 @@
-// Made from station/wire.py: do not edit.
+// Made from pluto_fleet/station/wire.py by `python -m tests.station.schema`: change that.
 
-export interface Words {
-  key: string;
-  facts: Record<string, string | number | boolean | string[]>;
-  text: string;
-}
-
-export interface State {
-  phase: "idle" | "flying" | "stopping" | "stopped" | "interrupted" | "over";
-  time: number;
-  plan: number;
-  map: number;
-  said: string;
-  how: "rtl" | "land" | null;
-  busy: "" | "connecting" | "asking";
-}
-
-export interface TripRow {
+/** An action that a drone of the fleet can do. */
+export interface ActionData {
   name: string;
-  status: string;
-  x: number;
-  y: number;
-  priority: number | null;
-  action: string;
+  /** Whether it takes an item or puts one down. */
+  item: boolean;
+  parameters: ParameterData[];
 }
 
-export interface Question {
-  text: string;
-  answers: string[];
-}
-
-export interface MissionRow {
-  name: string;
-  index: number;
-  status: string;
-  reason: string;
-  trips: TripRow[];
-  current: number | null;
-  done: number;
-  total: number;
-  drone: string | null;
-  at: string[];
-  wait: string;
-  until: number | null;
-  attempt: number;
-  attempts: number;
-  round: number;
-  question: Question | null;
-  due: number | null;
-  late: boolean;
-  fields: Record<string, string | number | boolean>;
-}
-
-export interface DroneRow {
-  id: string;
-  status: string;
-  x: number | null;
-  y: number | null;
-  z: number | null;
-  seen_at: number | null;
-  battery: number | null;
-  mission: string | null;
-  trips: number;
-  retired: boolean;
-  why: string;
-  ready_in?: number | null;
-}
-
-export interface LogLine {
-  number: number;
-  time: number;
-  mission: string | null;
-  text: string;
-  kind: "good" | "bad" | "info" | "hook";
-}
-
-export interface PhotoValue {
-  position: number[];
-  width: number;
-  height: number;
-  sees: string[];
-  sharpness: number;
-  picture: string | null;
-}
-
-export interface Result {
-  number: number;
-  time: number;
-  mission: string;
-  trip: string | null;
-  round: number | null;
-  attempt: number | null;
-  drone: string | null;
-  kind: "measurement" | "photo" | "result" | "verdict" | "handling";
-  action: string | null;
-  parameters: Record<string, string | number | boolean>;
-  target: number[] | null;
-  at: number[] | null;
-  place: string | null;
-  value: string | number | boolean | PhotoValue | null;
-  values: Quantity[];
-  tags: string[];
-}
-
-export interface Quantity {
-  quantity: string;
-  value: number;
-  unit: string | null;
-}
-
+/** Something that somebody must know of, until it is over. */
 export interface Alert {
   id: string;
   kind: "lost" | "crashed" | "battery" | "uncertain" | "finding" | "late" | "waiting" | "failed";
@@ -120,48 +20,166 @@ export interface Alert {
   since_at: number;
   said: Words;
   over: boolean;
+  /** Who has acknowledged it. */
   by: string | null;
   by_at: number | null;
 }
 
-export interface Person {
-  id: string;
+/** The app and its fleet, which stay the same while the station runs. */
+export interface AppData {
   name: string;
-  role: "watch" | "fly";
-  page: string;
-  touches: string;
-}
-
-export interface LiveMessage {
+  title: string;
+  /** Another after each start of the station. */
   server: string;
-  flight: string;
-  version: number;
-  made_at: number;
-  state: State;
-  missions: MissionRow[];
-  drones: DroneRow[];
-  log: LogLine[];
-  results: Result[];
-  alerts: Alert[];
-  people?: Person[];
+  /** What who asks this may do: `watch` reads, `fly` commands, too. */
+  role: "watch" | "fly";
+  sim: boolean;
+  speed: number;
+  fields: FieldsData;
+  evaluators: string[];
+  actions: ActionData[];
+  categories: CategoryData[];
+  drones: FleetDrone[];
+  map: MapShape;
+  /** Whether the graph flies a failed trip again. */
+  retries: boolean;
+  /** Whether missions may be flown in rounds. */
+  rounds: boolean;
+  graph: GraphDrawing | null;
 }
 
-export interface LiveRequest {
-  token?: string;
-  flight: string;
-  seen: number;
-  log: number;
-  results: number;
-  me?: Me;
-}
-
-export interface Me {
-  id: string;
+/** A block of the app's graph, as it is drawn: its upper left corner and its size. */
+export interface BlockBox {
   name: string;
-  page: string;
-  touches: string;
+  /** Empty for `start` and `end`. */
+  kind: string;
+  doc: string;
+  /** `start`, `end`, `gate` or `block`. */
+  shape: string;
+  x: number;
+  y: number;
+  w: number;
+  h: number;
 }
 
+/** Say that a lost or retired drone can fly again. */
+export interface BringBack {
+  id: string;
+  drone: string;
+}
+
+/** End a mission for good. */
+export interface Cancel {
+  id: string;
+  /** Its name; null: all missions. */
+  mission?: string | null;
+}
+
+/** A category of drones. */
+export interface CategoryData {
+  name: string;
+  /** Kilograms. */
+  payload: number;
+  /** Metres per second. */
+  speed: number;
+  /** Seconds with a full battery. */
+  flight_time: number;
+  /** The actions that it can do; null: all. */
+  actions: string[] | null;
+}
+
+/** Switch a drone's motors off at once: if it flies, it falls. */
+export interface CutMotors {
+  id: string;
+  drone: string;
+}
+
+/** Answer the question of a mission. */
+export interface Decide {
+  id: string;
+  mission: string;
+  answer: string;
+}
+
+/** Put a flight away that was stopped or interrupted; its journal stays. */
+export interface Discard {
+  id: string;
+}
+
+/** What a drone has flown, over all flights kept here. */
+export interface DroneHours {
+  id: string;
+  flights: number;
+  trips: number;
+  hours: number;
+  /** Full charges, by what its battery gave. */
+  cycles: number;
+  lost: number;
+}
+
+/** A drone, as it was heard of last. */
+export interface DroneRow {
+  id: string;
+  status: string;
+  x: number | null;
+  y: number | null;
+  z: number | null;
+  /** When it was heard of; None: just now, or never where x is None. */
+  seen_at: number | null;
+  battery: number | null;
+  mission: string | null;
+  trips: number;
+  retired: boolean;
+  why: string;
+  /** Seconds until its battery is high enough to fly, while it charges. */
+  ready_in?: number | null;
+}
+
+/** An edge of the app's graph, as it is drawn. */
+export interface EdgeLine {
+  source: string;
+  target: string;
+  statuses: string[];
+  fork: boolean;
+  dotted: boolean;
+  points: number[][];
+  /** The middle of its label. */
+  label: number[] | null;
+}
+
+/** Where an example is to be added. */
+export interface ExampleEdit {
+  revision: number;
+}
+
+/** A field of missions or of trips that the user of an app fills in. */
+export interface FieldData {
+  name: string;
+  /** `time`, `int`, `rounds`, `time of day`, `evaluator`, or the type of a field of the app's own. */
+  type: string;
+  label: string;
+  default: string | number | number | boolean | null;
+  /** Whether the app itself has declared it. */
+  own?: boolean;
+  /** Whether it must be filled in. */
+  needed?: boolean;
+  units?: string[];
+}
+
+/** The fields that this app has. */
+export interface FieldsData {
+  mission: FieldData[];
+  trip: FieldData[];
+}
+
+/** A drone of the fleet file. */
+export interface FleetDrone {
+  id: string;
+  category: string;
+  home: number[];
+}
+
+/** A flight of the past, by its journal. */
 export interface FlightSummary {
   id: string;
   begun_at: number;
@@ -178,9 +196,41 @@ export interface FlightSummary {
   results: number;
   drones: string[];
   lost: string[];
+  /** Whether what the pages showed was recorded, so that the replay is what was seen. */
   recorded: boolean;
 }
 
+/** What is expected of a Start, by many runs in virtual time. */
+export interface Forecast {
+  revision: number;
+  runs: number;
+  /** Whether drones were kept apart in them, or each had the air to itself. */
+  world: "traffic" | "alone";
+  median: number | null;
+  /** 95 % of runs end before. */
+  high: number | null;
+  missions: MissionForecast[];
+  drones: Readiness[];
+  lowest_battery: number | null;
+  bottlenecks: Words[];
+  /** What is supposed of the whole. */
+  assumed: Words[];
+  /** Why a Start would be refused, and which promises cannot be kept. */
+  problems: Words[];
+  /** The id of a recording of the median run, to be replayed. */
+  rehearsal: string | null;
+}
+
+/** Of which Start a forecast is asked for. */
+export interface ForecastRequest {
+  revision: number;
+  /** The keys of the missions to be started; null: all that Start would. */
+  missions: string[] | null;
+  only_failed?: boolean;
+  runs?: number | null;
+}
+
+/** What changed on the pages at an instant of a recording; a keyframe has every row. */
 export interface Frame {
   t: number;
   state: State;
@@ -188,89 +238,165 @@ export interface Frame {
   drones: DroneRow[];
 }
 
-export interface Replay {
+/** Let a paused mission go on. */
+export interface GoOn {
+  id: string;
+  mission?: string | null;
+}
+
+/** The app's graph, laid out. */
+export interface GraphDrawing {
+  width: number;
+  height: number;
+  blocks: BlockBox[];
+  edges: EdgeLine[];
+}
+
+/** What a drone carries. */
+export interface ItemData {
+  name?: string;
+  /** With its unit, as in `4 g`. */
+  mass?: string | number | number | boolean;
+}
+
+/** What has changed since a page looked; the rows are whole. */
+export interface LiveMessage {
+  server: string;
   flight: string;
-  begun_at: number;
-  seconds: number;
-  frames: Frame[];
-  next: number | null;
+  version: number;
+  made_at: number;
+  state: State;
+  missions: MissionRow[];
+  drones: DroneRow[];
   log: LogLine[];
   results: Result[];
   alerts: Alert[];
-  batteries: Record<string, number[][]>;
+  /** All others, if that has changed. */
+  people?: Person[];
 }
 
-export interface DroneHours {
+/** What a page has seen, and what it tells of itself. */
+export interface LiveRequest {
+  token?: string;
+  flight: string;
+  seen: number;
+  log: number;
+  results: number;
+  me?: Me;
+}
+
+/** A line of the console. */
+export interface LogLine {
+  number: number;
+  time: number;
+  mission: string | null;
+  text: string;
+  kind: "good" | "bad" | "info" | "hook";
+}
+
+/** What can be drawn on the map by pages, and is kept in the fleet file. */
+export interface MapData {
+  revision: number;
+  places: Place[];
+  zones: Zone[];
+  /** Degrees by which north is turned from up, clockwise. */
+  north: number;
+  image: Picture | null;
+  writable: boolean;
+}
+
+/** What of the map does not change while the station runs. */
+export interface MapShape {
+  size: number[];
+  cruise_height: number;
+  ceiling: number;
+  no_fly: number[][][];
+  /** The address of the floor plan. */
+  image: string | null;
+}
+
+/** Who looks, for the others. */
+export interface Me {
   id: string;
-  flights: number;
-  trips: number;
-  hours: number;
-  cycles: number;
-  lost: number;
+  name: string;
+  page: string;
+  touches: string;
 }
 
-export interface Readiness {
-  id: string;
-  battery: number | null;
-  ready: boolean;
-  why: Words | null;
-  ready_in: number | null;
-  assumed: Words | null;
-}
-
+/** What is expected of a mission. */
 export interface MissionForecast {
   key: string;
   name: string;
   trips: number;
   median: number | null;
   high: number | null;
+  /** The share of runs in which it is late. */
   late: number;
   fails: number;
 }
 
-export interface ForecastRequest {
-  revision: number;
-  missions: string[] | null;
-  only_failed?: boolean;
-  runs?: number | null;
-}
-
-export interface Forecast {
-  revision: number;
-  runs: number;
-  world: "traffic" | "alone";
-  median: number | null;
-  high: number | null;
-  missions: MissionForecast[];
-  drones: Readiness[];
-  lowest_battery: number | null;
-  bottlenecks: Words[];
-  assumed: Words[];
-  problems: Words[];
-  rehearsal: string | null;
-}
-
-export interface Place {
+/** A mission of the flight. */
+export interface MissionRow {
   name: string;
-  x: number;
-  y: number;
-  z?: number;
+  index: number;
+  status: string;
+  reason: string;
+  trips: TripRow[];
+  current: number | null;
+  done: number;
+  total: number;
+  drone: string | null;
+  /** The blocks of the graph at which it is. */
+  at: string[];
+  /** Why it waits; empty: it does not. */
+  wait: string;
+  until: number | null;
+  attempt: number;
+  attempts: number;
+  round: number;
+  question: Question | null;
+  due: number | null;
+  late: boolean;
+  fields: Record<string, string | number | number | boolean>;
 }
 
-export interface Zone {
+/** A parameter of an action. */
+export interface ParameterData {
   name: string;
-  corners: number[][];
+  type: string;
+  units: string[];
+  default: string | number | number | boolean | null;
 }
 
-export interface MapData {
-  revision: number;
-  places: Place[];
-  zones: Zone[];
-  north: number;
-  image: Picture | null;
-  writable: boolean;
+/** Call a mission's drone home until it goes on. */
+export interface Pause {
+  id: string;
+  /** Its name; null: all missions. */
+  mission?: string | null;
 }
 
+/** Another browser that looks at the station. */
+export interface Person {
+  id: string;
+  name: string;
+  role: "watch" | "fly";
+  page: string;
+  /** The key of the mission or trip that it has selected; empty: none. */
+  touches: string;
+}
+
+/** A photo: what it covers and shows, and where its picture is, if the camera took one. */
+export interface PhotoValue {
+  position: number[];
+  width: number;
+  height: number;
+  sees: string[];
+  sharpness: number;
+  /** The address of the picture; `&size=thumb` of a small one. */
+  picture: string | null;
+}
+
+/** The floor plan, and where it lies: its lower left corner, its size, and its turn in degrees. */
 export interface Picture {
   address: string;
   x: number;
@@ -278,4 +404,217 @@ export interface Picture {
   width: number;
   height: number;
   turn: number;
+}
+
+/** A named place of the map. */
+export interface Place {
+  name: string;
+  x: number;
+  y: number;
+  z?: number;
+}
+
+/** The plan that users draw. */
+export interface PlanData {
+  revision: number;
+  missions: PlanMission[];
+  problems: PlanProblemData[];
+  /** Why it could not be stored; empty: it was. */
+  said: string;
+}
+
+/** The plan, as it shall be from now on. */
+export interface PlanEdit {
+  /** The revision that was changed; if there is a newer one, that is answered, with 409. */
+  revision: number;
+  missions: PlanMission[];
+}
+
+/** A mission of the plan, with the fields that the app's missions have beside these. */
+export interface PlanMission {
+  key: string;
+  name: string;
+  /** Whether it flies, and may not be changed; what a page says of that is ignored. */
+  launched?: boolean;
+  /** How its last flight ended, if it has not been changed since. */
+  ended?: string | null;
+  opens?: string | number | number | boolean;
+  deadline?: string | number | number | boolean;
+  after?: string[];
+  trips: PlanTrip[];
+  [field: string]: unknown;
+}
+
+/** What keeps the plan from being flown. */
+export interface PlanProblemData {
+  /** The key of the mission. */
+  mission: string | null;
+  trip: string | null;
+  field: string | null;
+  text: string;
+}
+
+/** A trip of the plan, with the fields that the app's trips have beside these. */
+export interface PlanTrip {
+  key: string;
+  name?: string;
+  action: string;
+  target: number[] | null;
+  source?: number[];
+  parameters: Record<string, string | number | number | boolean>;
+  item: ItemData | null;
+  [field: string]: unknown;
+}
+
+/** Change the priority of a trip. */
+export interface Prioritise {
+  id: string;
+  mission: string;
+  trip: string;
+  priority: number;
+}
+
+/** A number with what it is and its unit. */
+export interface Quantity {
+  quantity: string;
+  value: number;
+  unit: string | null;
+}
+
+/** What only a person can know. */
+export interface Question {
+  text: string;
+  answers: string[];
+}
+
+/** A drone before a Start. */
+export interface Readiness {
+  id: string;
+  battery: number | null;
+  ready: boolean;
+  why: Words | null;
+  /** Seconds until its battery is high enough for one of the missions; None: it never is there. */
+  ready_in: number | null;
+  /** What is supposed of it, as it is not known. */
+  assumed: Words | null;
+}
+
+/** A part of a recording, from a keyframe on. */
+export interface Replay {
+  flight: string;
+  begun_at: number;
+  /** The length of the whole recording. */
+  seconds: number;
+  frames: Frame[];
+  /** Where the next part begins. */
+  next: number | null;
+  /** All lines of the flight; only with the first part. */
+  log: LogLine[];
+  results: Result[];
+  alerts: Alert[];
+  /** Of each drone pairs of time and level; only with the first part. */
+  batteries: Record<string, number[][]>;
+}
+
+/** One value that a flight brought, with what it is, where and when. `values` are its numbers as quantities, `tags` its findings: what a layer of the map shows. */
+export interface Result {
+  number: number;
+  time: number;
+  mission: string;
+  trip: string | null;
+  round: number | null;
+  attempt: number | null;
+  drone: string | null;
+  kind: "measurement" | "photo" | "result" | "verdict" | "handling";
+  action: string | null;
+  parameters: Record<string, string | number | number | boolean>;
+  target: number[] | null;
+  /** Where it was really done; None: at the target. */
+  at: number[] | null;
+  /** The named place or zone that it belongs to. */
+  place: string | null;
+  value: string | number | number | boolean | PhotoValue | null;
+  values: Quantity[];
+  tags: string[];
+}
+
+/** Go on with a flight that was stopped or interrupted. */
+export interface Resume {
+  id: string;
+}
+
+/** Give a drone to no mission any more, once its trip is done. */
+export interface Retire {
+  id: string;
+  drone: string;
+}
+
+/** What was done, or why it was not: a sentence for people. */
+export interface Said {
+  said: string;
+}
+
+/** Leave a trip out. */
+export interface Skip {
+  id: string;
+  mission: string;
+  /** Its name; null: the next one. */
+  trip?: string | null;
+}
+
+/** Fly missions of the plan. */
+export interface Start {
+  id: string;
+  /** The revision that was looked at: another is refused; null: any. */
+  revision?: number | null;
+  /** The keys of missions; null: all that have not been completed, or all again. */
+  missions?: string[] | null;
+  /** Whether trips that were done are left out of missions that failed. */
+  only_failed?: boolean | null;
+}
+
+/** How the station stands. */
+export interface State {
+  phase: "idle" | "flying" | "stopping" | "stopped" | "interrupted" | "over";
+  time: number;
+  /** The revision of the plan. */
+  plan: number;
+  /** The revision of the map's places, zones and picture. */
+  map: number;
+  /** What is wrong; empty: nothing. */
+  said: string;
+  /** How the drones come down. */
+  how: "rtl" | "land" | null;
+  /** What all missions wait for: drones to be found, or asked where they are. */
+  busy: "" | "connecting" | "asking";
+}
+
+/** Bring all drones down at once. */
+export interface Stop {
+  id: string;
+  /** `rtl`: all fly home first; `land`: where they are. */
+  how: "rtl" | "land";
+}
+
+/** A trip as the Monitor shows it. */
+export interface TripRow {
+  name: string;
+  status: string;
+  x: number;
+  y: number;
+  priority: number | number | null;
+  action: string;
+}
+
+/** A sentence that each page says in its own language: a key of its catalogue, and its facts. `text` is the sentence in English, for whatever does not know the key. */
+export interface Words {
+  key: string;
+  facts: Record<string, string | number | number | boolean | string[]>;
+  text: string;
+}
+
+/** A named area of the map. */
+export interface Zone {
+  name: string;
+  corners: number[][];
 }

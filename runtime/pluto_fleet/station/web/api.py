@@ -1,219 +1,30 @@
-"""The HTTP interface of a station: access, rate limits, and the handler of each address."""
+"""The HTTP interface of a station: access, rate limits, and the way to each address's handler."""
 
 from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import replace
-from pathlib import Path
-from typing import Protocol
 
-from ...shared.domain.errors import BadInput
-from ...shared.domain.text import cut_off, printable
-from ..commands import NEEDS, Malformed
-from ..plan.plan import Stale
-from ..preflight.start import PlannedStart
-from ..wire import Forecast
+from ..commands import Malformed
 from . import refusals
+from .addresses import ADDRESSES, JSON, SMALL_BODY, Address
 from .audit import Audit
-from .forecasts import forecast
-from .guard import Access, Guard, Rate, refusal, with_safe_headers
-from .http import MISTAKES, PageSocket, Reply, Request, json_reply, text_reply
-from .http import said as in_words
-from .live import LIVE, LiveUpdates, UpdateSource
+from .guard import Access, Guard, Rate, refusal, role_of, with_safe_headers
+from .http import MISTAKES, PageSocket, Reply, Request
+from .live import LiveUpdates
 from .refusals import Refusal, Refused
+from .served import Asked, ServedStation
 from .static import file_reply, pages, picture
-from .strict_json import asked_number, parsed_object
-
-ADDRESSES: Mapping[str, tuple[str, ...]] = {
-    "/api/app": ("GET",),
-    "/api/live": ("GET",),
-    "/api/plan": ("GET", "PUT"),
-    "/api/plan.toml": ("GET",),
-    "/api/plan/import": ("POST",),
-    "/api/plan/example": ("POST",),
-    "/api/console.txt": ("GET",),
-    "/api/results.json": ("GET",),
-    "/api/preflight": ("POST",),
-    **{f"/api/{command}": ("POST",) for command in NEEDS},
-}
-_LONGEST_ID = 64
-_LONGEST_NAME = 80
-_NAME = "missions.toml"
-_JSON, _TOML = "application/json", "application/toml"
-
-
-class ServedPlan(Protocol):
-    """The plan; each change names the revision that it was made on, and raises `Stale` if that is old."""
-
-    def data(self) -> Mapping[str, object]:
-        """Return the plan with its known problems."""
-
-    async def examined(self) -> None:
-        """Wait until all its problems are known."""
-
-    def replace(self, revision: int, missions: object) -> None:
-        """Replace its missions."""
-
-    async def import_file(self, text: str, revision: int, file: str) -> None:
-        """Replace its missions by those of a file, whose name is used in messages."""
-
-    def example(self, revision: int) -> None:
-        """Add an example."""
-
-    def export_toml(self) -> str:
-        """Return it as a missions file."""
-
-
-class ServedStation(UpdateSource, Protocol):
-    """The station that is served."""
-
-    @property
-    def plan(self) -> ServedPlan:
-        """The plan."""
-
-    @property
-    def image(self) -> Path | None:
-        """The floor plan."""
-
-    @property
-    def described(self) -> Mapping[str, object]:
-        """Return the constant data of app and fleet."""
-
-    async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
-        """Carry out a command, unless it was carried out with this id before; raise `BadInput` if it cannot."""
-
-    async def forecast(self, asked: PlannedStart, /) -> Forecast:
-        """Return what a Start would do; raise `BadInput` if there is no forecast to make."""
-
-    def console(self) -> str:
-        """Return the console."""
-
-    def results(self) -> list[object]:
-        """Return the results."""
-
-
-async def read(station: ServedStation, path: str) -> Reply:
-    """Handle a request that changes nothing."""
-    match path:
-        case "/api/app":
-            return json_reply(200, station.described)
-        case "/api/plan":
-            await station.plan.examined()
-            return json_reply(200, station.plan.data())
-        case "/api/plan.toml":
-            try:
-                return text_reply(station.plan.export_toml(), _NAME, _TOML)
-            except BadInput as error:
-                return in_words(409, str(error))
-        case "/api/console.txt":
-            return text_reply(station.console(), "console.txt")
-        case _:
-            results = json_reply(200, station.results())
-            named = ("Content-Disposition", 'attachment; filename="results.json"')
-            return Reply(status=200, body=results.body, headers=(named,))
-
-
-async def change(station: ServedStation, audit: Audit, request: Request) -> Reply:
-    """Carry out a command, and log it with its outcome."""
-    wanted = _TOML if request.path == "/api/plan/import" else _JSON
-    if request.headers.get("content-type", "").partition(";")[0].strip().lower() != wanted:
-        raise Refused(refusals.wrong_type(wanted))
-    body = await request.read()
-    plan = station.plan
-    match request.path:
-        case "/api/plan":
-            given = parsed_object(body)
-            revision, missions = _whole(given, "revision"), given.pop("missions", None)
-            _nothing_else(given)
-            edit = _at_once(lambda: plan.replace(revision, missions))
-        case "/api/plan/import":
-            revision, text = asked_number(request.query, "revision"), _text(body)
-            edit = plan.import_file(text, revision, _file(request.query))
-        case "/api/plan/example":
-            given = parsed_object(body)
-            revision = _whole(given, "revision")
-            _nothing_else(given)
-            edit = _at_once(lambda: plan.example(revision))
-        case "/api/preflight":
-            return await forecast(station, request, parsed_object(body))
-        case path:
-            given = parsed_object(body)
-            return await _commanded(station, audit, request, path.removeprefix("/api/"), given)
-    return await _edited(plan, audit, request, edit)
-
-
-async def _commanded(
-    station: ServedStation, audit: Audit, request: Request, name: str, given: dict[str, object]
-) -> Reply:
-    id = given.pop("id", None)
-    if not isinstance(id, str) or not 0 < len(id) <= _LONGEST_ID:
-        raise Malformed(f"a command needs an id: a text of at most {_LONGEST_ID} characters")
-    try:
-        status, said = 200, await station.command(name, id, given)
-    except Malformed:
-        raise
-    except BadInput as error:
-        status, said = 409, str(error)
-    audit.done(request, {"id": id, **given}, status, said)
-    return in_words(status, said)
-
-
-async def _at_once(edit: Callable[[], None]) -> None:
-    edit()
-
-
-async def _edited(
-    plan: ServedPlan, audit: Audit, request: Request, edit: Coroutine[None, None, None]
-) -> Reply:
-    """Change the plan; a page with an old revision gets the newest one."""
-    try:
-        await edit
-        status = 200
-    except Stale:
-        status = 409
-    except BadInput as error:
-        status = 409 if request.path == "/api/plan/example" else 400
-        audit.done(request, {}, status, str(error))
-        return in_words(status, str(error))
-    await plan.examined()
-    data = plan.data()
-    audit.done(request, {"revision": data.get("revision")}, status, "")
-    return json_reply(status, data)
-
-
-def _whole(given: dict[str, object], name: str) -> int:
-    value = given.pop(name, None)
-    if not isinstance(value, int) or isinstance(value, bool):
-        raise Malformed(f"{name} must be a whole number")
-    return value
-
-
-def _file(query: Mapping[str, str]) -> str:
-    """Return an untrusted file name, sanitized for messages."""
-    return cut_off(printable(query.get("file", "").strip()), _LONGEST_NAME) or _NAME
-
-
-def _text(body: bytes) -> str:
-    try:
-        return body.decode("utf-8")
-    except UnicodeDecodeError:
-        raise Malformed("the file is not UTF-8") from None
-
-
-def _nothing_else(given: Mapping[str, object]) -> None:
-    if given:
-        raise Malformed("what was sent has more in it than is known here")
-
-
-ALWAYS = ("/api/stop", "/api/cut-motors")
-"""The commands that bring drones down, which are exempt from all limits."""
+from .strict_json import parsed_object
 
 _COMMANDS_A_SECOND, _EDITS_A_SECOND, _READS_A_SECOND = 20.0, 20.0, 100.0
 """Rates per second for each client; edits of the plan do not count as commands."""
 _MOST_UNDER_WAY = 64
 """The most concurrent requests, without Stops."""
+_MOST_LARGE = 2
+"""The most concurrent requests whose bodies may be large."""
 _WRONG_TOKEN_WAITS = 0.5
 """Seconds after which a wrong token is refused."""
 _MOST_WAITING = 32
@@ -233,15 +44,19 @@ class Api:
         *,
         clock: Callable[[], float] = time.monotonic,
         pause: Pause = asyncio.sleep,
+        addresses: Sequence[Address] = ADDRESSES,
     ) -> None:
         self.guard = guard
         self._station, self._audit, self._pause = station, audit, pause
+        self._addresses: dict[str, dict[str, Address]] = {}
+        for address in addresses:
+            self._addresses.setdefault(address.path, {})[address.method] = address
         self._pages = pages()
         self._picture = picture(station.image) if station.image is not None else None
         self._commands, self._edits = Rate(_COMMANDS_A_SECOND, clock), Rate(_EDITS_A_SECOND, clock)
         self._reads = Rate(_READS_A_SECOND, clock)
         self._live = LiveUpdates(station, guard, audit, clock)
-        self._under_way = self._waiting = 0
+        self._under_way = self._large = self._waiting = 0
 
     async def answer(self, request: Request) -> Reply:
         """Handle any request; errors reveal no internals."""
@@ -281,26 +96,62 @@ class Api:
             return file_reply(self._pages[request.path], request)
         if request.path == "/map" and self._picture is not None:
             return file_reply(self._picture, request)
-        _route(request)
-        if request.path == LIVE:
+        address = self._route(request)
+        if address.role == "fly" and role_of(self.guard, request) != "fly":
+            raise Refused(refusals.WATCHES)
+        if address.do is None:
             return await self._live.poll(request)
-        return await self._within_limits(request)
+        if address.always:
+            return await self._done(address, request)
+        return await self._within_limits(address, request)
 
-    async def _within_limits(self, request: Request) -> Reply:
-        """Handle a request within the limits, from which commands that bring drones down are exempt."""
-        if request.path in ALWAYS:
-            return await change(self._station, self._audit, request)
+    def _route(self, request: Request) -> Address:
+        """Return the address that is asked; raise `Refused` if there is none."""
+        methods = self._addresses.get(request.path)
+        if methods is None:
+            raise Refused(refusals.NO_SUCH_PAGE)
+        if request.method not in methods:
+            raise Refused(refusals.wrong_method(", ".join(methods)))
+        return methods[request.method]
+
+    async def _within_limits(self, address: Address, request: Request) -> Reply:
+        """Handle a request within the limits."""
         if not self._rate(request).allows(request.client):
             raise Refused(refusals.TOO_MANY)
-        if self._under_way >= _MOST_UNDER_WAY:
+        is_large = address.most_bytes > SMALL_BODY
+        if self._under_way >= _MOST_UNDER_WAY or (is_large and self._large >= _MOST_LARGE):
             raise Refused(refusals.TOO_BUSY)
         self._under_way += 1
+        self._large += is_large
         try:
-            if request.method == "GET":
-                return await read(self._station, request.path)
-            return await change(self._station, self._audit, request)
+            return await self._done(address, request)
         finally:
             self._under_way -= 1
+            self._large -= is_large
+
+    async def _done(self, address: Address, request: Request) -> Reply:
+        """Read a request's body, and hand it to its handler."""
+        assert address.do is not None
+        body, given = b"", dict[str, object]()
+        if address.body is not None:
+            sent = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+            if sent not in address.media:
+                raise Refused(refusals.wrong_type(" or ".join(address.media)))
+            body = await request.read(address.most_bytes)
+            if sent == JSON:
+                given = parsed_object(body)
+        role = role_of(self.guard, request)
+        assert role is not None  # else it was refused
+        return await address.do(
+            Asked(
+                station=self._station,
+                audit=self._audit,
+                request=request,
+                role=role,
+                given=given,
+                body=body,
+            )
+        )
 
     def _rate(self, request: Request) -> Rate:
         if request.method == "GET":
@@ -323,12 +174,3 @@ def _asking(request: Request) -> Access:
         return Access.COMMAND
     reads = request.path.startswith("/api/") or request.path == "/map"
     return Access.READ if reads else Access.PAGE
-
-
-def _route(request: Request) -> None:
-    """Return the route of a request; raise `Refused` if there is none."""
-    allowed = ADDRESSES.get(request.path)
-    if allowed is None:
-        raise Refused(refusals.NO_SUCH_PAGE)
-    if request.method not in allowed:
-        raise Refused(refusals.wrong_method(", ".join(allowed)))

@@ -4,29 +4,21 @@ from __future__ import annotations
 
 import asyncio
 from contextlib import suppress
-from typing import Protocol
 
 from ...shared.domain.errors import BadInput
 from ..commands import Malformed
 from ..preflight.start import PlannedStart
-from ..wire import Forecast
-from .http import Reply, Request, json_reply, said
+from .http import Reply, json_reply, said
+from .served import Asked
 
 GONE = Reply(status=499)
 """What nobody reads any more."""
 
 
-class Forecasting(Protocol):
-    """What forecasts a Start."""
-
-    async def forecast(self, asked: PlannedStart, /) -> Forecast:
-        """Return what a Start would do; raise `BadInput` if there is no forecast to make."""
-
-
-async def forecast(station: Forecasting, request: Request, given: dict[str, object]) -> Reply:
+async def preflight(asked: Asked) -> Reply:
     """Answer what a Start would do; raise `Malformed` if the question is none."""
-    making = asyncio.ensure_future(station.forecast(_asked(given)))
-    gone = asyncio.ensure_future(request.gone())
+    making = asyncio.ensure_future(asked.station.forecast(_planned(dict(asked.given))))
+    gone = asyncio.ensure_future(asked.request.gone())
     try:
         await asyncio.wait([making, gone], return_when=asyncio.FIRST_COMPLETED)
         if not making.done():
@@ -41,7 +33,7 @@ async def forecast(station: Forecasting, request: Request, given: dict[str, obje
             await making  # what it has begun has ended
 
 
-def _asked(given: dict[str, object]) -> PlannedStart:
+def _planned(given: dict[str, object]) -> PlannedStart:
     revision, missions = given.pop("revision", None), given.pop("missions", None)
     only_failed, runs = given.pop("only_failed", False), given.pop("runs", None)
     if type(revision) is not int:

@@ -14,6 +14,7 @@ from ipaddress import IPv4Address, IPv6Address, ip_address
 
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import quoted
+from ..wire import Role
 from . import refusals
 from .http import Reply, Request
 from .refusals import Refusal
@@ -61,6 +62,9 @@ class Guard:
     names: tuple[str, ...] = ()
     """Its other names: "station.example" or "station.example:8443"."""
     token: str | None = field(default=None, repr=False)
+    """Who has it may command; None: everyone may who reaches the station."""
+    watch_token: str | None = field(default=None, repr=False)
+    """Who has it may read everything, and command nothing."""
 
 
 def proper_name(text: str) -> str:
@@ -114,14 +118,22 @@ def refusal(guard: Guard, request: Request, access: Access) -> Refusal | None:
     if access is Access.LIVE:
         stranger = "origin" not in headers and guard.token is None and not marked
         return refusals.NO_MARK if stranger else None
-    return None if knows(guard, _bearer(headers)) else refusals.NO_TOKEN
+    return refusals.NO_TOKEN if role_of(guard, request) is None else None
 
 
-def knows(guard: Guard, token: str) -> bool:
-    """Whether this is the token, or none is needed; compared in constant time."""
-    if guard.token is None:
-        return True
-    return compare_digest(token.encode("utf-8", "replace"), guard.token.encode())
+def role_of(guard: Guard, request: Request) -> Role | None:
+    """Return what the token of a request allows; None: nothing."""
+    return role_by(guard, _bearer(request.headers))
+
+
+def role_by(guard: Guard, token: str) -> Role | None:
+    """Return what a token allows, which is compared in constant time; None: nothing."""
+    given = token.encode("utf-8", "replace")
+    if guard.token is None or compare_digest(given, guard.token.encode()):
+        return "fly"
+    if guard.watch_token is not None and compare_digest(given, guard.watch_token.encode()):
+        return "watch"
+    return None
 
 
 def _bearer(headers: Mapping[str, str]) -> str:

@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Protocol
 
-Read = Callable[[], Awaitable[bytes]]
-"""Reads a body to its end; raises `Refused` beyond its limit."""
+Read = Callable[[int], Awaitable[bytes]]
+"""Reads a body to its end; raises `Refused` if it has more than so many bytes."""
 
 
-async def nothing() -> bytes:
+async def nothing(most: int) -> bytes:
     """Read an empty body."""
     return b""
 

@@ -13,7 +13,7 @@ from typing import Protocol
 from ..commands import Malformed
 from . import refusals
 from .audit import Audit
-from .guard import Access, Guard, Rate, knows, refusal
+from .guard import Access, Guard, Rate, refusal, role_by
 from .http import MISTAKES, Closed, PageSocket, Reply, Request
 from .refusals import Refused
 from .strict_json import asked_number, parsed_object
@@ -116,7 +116,7 @@ class LiveUpdates:
         finally:
             self._waiting -= 1
         token = first.get("token", "")
-        if not isinstance(token, str) or not knows(self._guard, token):
+        if not isinstance(token, str) or role_by(self._guard, token) is None:
             raise _Improper(NO_TOKEN, refusals.NO_TOKEN.said)
         if self._on >= _MOST_PAGES:
             raise _Improper(TOO_MANY, refusals.TOO_BUSY.said)

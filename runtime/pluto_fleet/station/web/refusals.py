@@ -49,6 +49,12 @@ NO_TOKEN = Refusal(
     " behind #token=",
     (("WWW-Authenticate", "Bearer"),),
 )
+WATCHES = Refusal(
+    403,
+    "this browser may watch and not command: to command, open the address with the other token,"
+    " which the station printed first",
+)
+"""The token is that for watching."""
 NO_SUCH_PAGE = Refusal(404, "there is nothing at this address")
 TOO_SLOW = Refusal(408, "the rest of that took too long to come: nothing was changed", HANG_UP)
 CUT_OFF = Refusal(400, "the connection ended before the request did: nothing was changed", HANG_UP)

@@ -32,11 +32,11 @@ if TYPE_CHECKING:
 
     from .api import Api
 
-_LARGEST_BODY = 1024 * 1024
 _LARGEST_MESSAGE = 64 * 1024
 _LARGEST_HEAD = 16 * 1024
-"""The largest body, WebSocket message and head of a request, in bytes."""
-_BODY_WITHIN = 10.0
+"""The largest WebSocket message and head of a request, in bytes."""
+_BODY_WITHIN, _BYTES_A_SECOND = 10.0, 512 * 1024
+"""The time-out of a body in seconds, and the rate that lengthens it for large ones."""
 _FIELDS = 16
 _LONGEST_REASON = 120
 """The longest reason in a close frame, in bytes."""
@@ -199,7 +199,7 @@ def _request(scope: Scope, receive: Receive) -> Request:
         path=scope["path"],
         query=_query(scope),
         headers=headers,
-        read=lambda: _body(headers, scope, receive),
+        read=lambda most: _body(most, headers, scope, receive),
         gone=lambda: _gone(receive),
         client=_host(scope.get("client")),
         local=_host(scope.get("server")),
@@ -232,21 +232,21 @@ async def _gone(receive: Receive) -> None:
         pass
 
 
-async def _body(headers: Mapping[str, str], scope: Scope, receive: Receive) -> bytes:
+async def _body(most: int, headers: Mapping[str, str], scope: Scope, receive: Receive) -> bytes:
     """Read a body to its end; raise `Refused` if it is too long."""
     length = headers.get("content-length", "0")
-    if not length.isdecimal() or len(length) > 12 or int(length) > _LARGEST_BODY:
-        raise Refused(refusals.too_long(_LARGEST_BODY))
+    if not length.isdecimal() or len(length) > 12 or int(length) > most:
+        raise Refused(refusals.too_long(most))
     body = bytearray()
     try:
         async with (
-            asyncio.timeout(_BODY_WITHIN),
+            asyncio.timeout(max(_BODY_WITHIN, most / _BYTES_A_SECOND)),
             aclosing(StarletteRequest(scope, receive).stream()) as stream,
         ):
             async for chunk in stream:
                 body += chunk
-                if len(body) > _LARGEST_BODY:
-                    raise Refused(refusals.too_long(_LARGEST_BODY))
+                if len(body) > most:
+                    raise Refused(refusals.too_long(most))
     except TimeoutError:
         raise Refused(refusals.TOO_SLOW) from None
     except _GONE:

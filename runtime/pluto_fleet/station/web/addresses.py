@@ -1,0 +1,196 @@
+"""The table of all addresses: from it requests are answered, and the interface is described.
+
+`openapi.json`, the pages' types and the Python client are made of it and of the types that it
+names (`python -m tests.station.schema`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from ..requests import COMMANDS, ExampleEdit, PlanEdit, Said
+from ..wire import Forecast, ForecastRequest, LiveMessage, Role
+from ..wire_app import AppData, PlanData
+from . import changes, forecasts, reads
+from .http import Reply
+from .live import LIVE
+from .reads import TOML
+from .served import Asked
+
+JSON, TEXT = "application/json", "text/plain"
+
+SMALL_BODY = 1024 * 1024
+"""The most bytes of a body, where an address does not say that it takes more."""
+LARGE_BODY = 20 * 1024 * 1024
+"""The most bytes of a picture."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A parameter in an address's query."""
+
+    type: type[int | str]
+    says: str
+    needed: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Address:
+    """One address under one method: who may ask it, what it takes, what it answers."""
+
+    method: Literal["GET", "POST", "PUT", "DELETE"]
+    path: str
+    says: str
+    answers: Any
+    """The type of an answer in JSON, or the media type of another."""
+    do: Callable[[Asked], Awaitable[Reply]] | None
+    """Its handler; None for that of live updates, which the `Api` holds itself."""
+    role: Role = "fly"
+    body: Any = None
+    """The type of a body in JSON, or the media types of others; None: there is no body."""
+    most_bytes: int = SMALL_BODY
+    query: Mapping[str, Parameter] = field(default_factory=dict)
+    stale: Any = None
+    """The type of the answer 409 to an edit of what has changed meanwhile, if not a sentence."""
+    always: bool = False
+    """Whether it brings drones down, and so is exempt from all limits."""
+
+    @property
+    def name(self) -> str:
+        """The name of what it does, for descriptions and clients."""
+        if self.do is None or self.do is changes.command:
+            return self.path.removeprefix("/api/").replace("-", "_")
+        return self.do.__name__
+
+    @property
+    def media(self) -> Sequence[str]:
+        """The media types of its body."""
+        return self.body if isinstance(self.body, tuple) else (JSON,)
+
+
+_REVISION = Parameter(int, "The revision of the plan that was looked at.", needed=True)
+_ALWAYS = ("stop", "cut-motors")
+
+_READS = (
+    Address(
+        method="GET",
+        path="/api/app",
+        says="The app with its fields, actions and graph, and the fleet.",
+        answers=AppData,
+        do=reads.app,
+        role="watch",
+    ),
+    Address(
+        method="GET",
+        path=LIVE,
+        says="What has changed since a version, as soon as anything has, or after a second.",
+        answers=LiveMessage,
+        do=None,
+        role="watch",
+        query={
+            "flight": Parameter(str, "The flight that was seen last; empty: none."),
+            "seen": Parameter(int, "The version that was seen."),
+            "log": Parameter(int, "The number of the newest line that was seen."),
+            "results": Parameter(int, "The number of the newest result that was seen."),
+        },
+    ),
+    Address(
+        method="GET",
+        path="/api/plan",
+        says="The plan, with all its problems.",
+        answers=PlanData,
+        do=reads.plan,
+        role="watch",
+    ),
+    Address(
+        method="GET",
+        path="/api/plan.toml",
+        says="The plan as a missions file.",
+        answers=TOML,
+        do=reads.plan_file,
+        role="watch",
+    ),
+    Address(
+        method="GET",
+        path="/api/console.txt",
+        says="What has happened in the flight, line by line.",
+        answers=TEXT,
+        do=reads.console,
+        role="watch",
+    ),
+    Address(
+        method="GET",
+        path="/api/results.json",
+        says="What the flight has brought, with full values.",
+        answers=list[object],
+        do=reads.results,
+        role="watch",
+    ),
+    Address(
+        method="GET",
+        path="/api/openapi.json",
+        says="This description.",
+        answers=dict[str, object],
+        do=reads.description,
+        role="watch",
+    ),
+)
+
+_EDITS = (
+    Address(
+        method="PUT",
+        path="/api/plan",
+        says="Replace the plan's missions, but for those that fly.",
+        body=PlanEdit,
+        answers=PlanData,
+        stale=PlanData,
+        do=changes.replace_plan,
+    ),
+    Address(
+        method="POST",
+        path="/api/plan/import",
+        says="Replace the plan's missions by those of a missions file.",
+        body=(TOML,),
+        answers=PlanData,
+        stale=PlanData,
+        do=changes.import_plan,
+        query={"revision": _REVISION, "file": Parameter(str, "The file's name, for messages.")},
+    ),
+    Address(
+        method="POST",
+        path="/api/plan/example",
+        says="Add missions that this fleet can fly.",
+        body=ExampleEdit,
+        answers=PlanData,
+        stale=PlanData,
+        do=changes.add_example,
+    ),
+)
+
+_COMMANDS = tuple(
+    Address(
+        method="POST",
+        path=f"/api/{name}",
+        says=(body.__doc__ or "").partition("\n")[0],
+        body=body,
+        answers=Said,
+        do=changes.command,
+        always=name in _ALWAYS,
+    )
+    for name, body in COMMANDS.items()
+)
+
+_FORECASTS = (
+    Address(
+        method="POST",
+        path="/api/preflight",
+        says="What a Start would do, by many runs in virtual time.",
+        body=ForecastRequest,
+        answers=Forecast,
+        do=forecasts.preflight,
+    ),
+)
+
+ADDRESSES: Sequence[Address] = (*_READS, *_EDITS, *_FORECASTS, *_COMMANDS)
