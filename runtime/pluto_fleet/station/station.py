@@ -28,6 +28,7 @@ from ..shared.domain.text import counted
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
+from .history.past import PastFlights
 from .plan.promised import broken, promised
 from .session import FlightSession, Phase, phase_of
 from .updates import Updates
@@ -72,6 +73,8 @@ class Station:
         self._one_at_a_time = asyncio.Lock()
         self.history = FleetHistory(app, config)
         """The drones' states while there is no flight."""
+        self.past = PastFlights(app, config, self._ours)
+        """The flights of the past."""
         self._before: Path | None = None
         """The folder of the last discarded flight's gateway, whose drones may still be landing."""
 
@@ -84,6 +87,10 @@ class Station:
     def phase(self) -> Phase:
         """The present phase."""
         return phase_of(self.session)
+
+    def _ours(self) -> Path | None:
+        """Return the journal that is written here, or may be at any moment."""
+        return self.session.journal if self.session is not None else None
 
     def begin(self, going_on: bool = False) -> None:
         """Show the unfinished flight of an earlier station or of `fly`, if any."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from .recording import changed
@@ -52,3 +52,21 @@ class Shown:
 
     def _frame(self, rows: Mapping[str, list[dict[str, Any]]]) -> Frame:
         return {"t": self.t, "state": {**self.state, "time": self.t}, **rows}
+
+
+def opened_at(frames: Iterator[Frame], start: float) -> Iterator[Frame]:
+    """Yield a keyframe of what was shown at `start`, and then the frames after it.
+
+    The first of `frames` must have every row. Before that nothing was shown: then it is the keyframe.
+    """
+    shown, opened = Shown(), False
+    for frame in frames:
+        if not opened and shown.t is not None and frame["t"] > start:
+            opened = True
+            yield shown.whole()
+        if opened:
+            yield frame
+        else:
+            shown.take_frame(frame)
+    if not opened and shown.t is not None:
+        yield shown.whole()

@@ -134,8 +134,8 @@ class Recorded:
     def _shown(self, line: dict[str, Any], member: Member, contents: Contents) -> None:
         t = contents.seconds = float(line["t"])
         if "key" in line and member.begins not in self._begins[-1:]:
+            self._begins.append(member.begins)  # first: another thread may look one up by its time
             self._keys.append(t)
-            self._begins.append(member.begins)
         rows = line.get("drones", {})
         named = {row["id"]: row for row in rows} if isinstance(rows, list) else rows
         for drone, row in named.items():

@@ -13,7 +13,7 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable
 from ..commands import NEEDS, Malformed
 from ..plan.plan import Stale
-from . import refusals
+from . import flights, refusals
 from .audit import Audit
 from .guard import Access, Guard, Rate, refusal, with_safe_headers
 from .http import MISTAKES, PageSocket, Reply, Request, json_reply, text_reply
@@ -32,6 +32,7 @@ ADDRESSES: Mapping[str, tuple[str, ...]] = {
     "/api/plan/example": ("POST",),
     "/api/console.txt": ("GET",),
     "/api/results.json": ("GET",),
+    **flights.ADDRESSES,
     **{f"/api/{command}": ("POST",) for command in NEEDS},
 }
 _LONGEST_ID = 64
@@ -74,6 +75,10 @@ class ServedStation(UpdateSource, Protocol):
         """The floor plan."""
 
     @property
+    def past(self) -> flights.ServedFlights:
+        """The flights of the past."""
+
+    @property
     def described(self) -> Mapping[str, object]:
         """Return the constant data of app and fleet."""
 
@@ -87,8 +92,10 @@ class ServedStation(UpdateSource, Protocol):
         """Return the results."""
 
 
-async def read(station: ServedStation, path: str) -> Reply:
+async def read(station: ServedStation, path: str, query: Mapping[str, str]) -> Reply:
     """Handle a request that changes nothing."""
+    if flights.is_of_flights(path, query):
+        return await flights.read_flights(station.past, path, query)
     match path:
         case "/api/app":
             return json_reply(200, station.described)
@@ -288,7 +295,7 @@ class Api:
         self._under_way += 1
         try:
             if request.method == "GET":
-                return await read(self._station, request.path)
+                return await read(self._station, request.path, request.query)
             return await change(self._station, self._audit, request)
         finally:
             self._under_way -= 1
