@@ -70,6 +70,8 @@ class Recording:
         self._pending: list[bytes] = []
         self._key_at = self._line_at = 0.0
         self._member: Any = None
+        self._is_whole = True
+        """Whether all could be written until now."""
         self._keyed = False
         """Whether this member has its keyframe."""
         self._raw = 0
@@ -193,11 +195,15 @@ class Recording:
         return packed
 
     def _put(self, packed: bytes) -> None:
+        whole, self._is_whole = self._is_whole, False
+        if not whole:
+            return  # what is missing before it would make it unreadable
         if self._largest is not None and self.size + len(packed) > self._largest:
             raise OSError(0, f"it has {self._largest // 2**20} MiB, which is the most")
         self._file.write(packed)
         self._file.flush()
         self.size += len(packed)
+        self._is_whole = True
 
 
 def change_of(before: Row | None, row: Row) -> dict[str, Any]:
