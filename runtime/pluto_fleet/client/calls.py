@@ -8,7 +8,14 @@ from .connection import Connection
 
 if TYPE_CHECKING:
     from ..station.requests import Start
-    from ..station.wire import Forecast, LiveMessage
+    from ..station.wire import (
+        DroneHours,
+        FlightReport,
+        FlightSummary,
+        Forecast,
+        LiveMessage,
+        Replay,
+    )
     from ..station.wire_app import AppData, PlanData, PlanMission
 
 
@@ -40,18 +47,44 @@ class Calls(Connection):
         """The plan as a missions file."""
         return self._text("GET", "/api/plan.toml")
 
-    def console(self) -> str:
+    def console(self, *, flight: str = "") -> str:
         """What has happened in the flight, line by line."""
         return self._text("GET", "/api/console.txt")
 
-    def results(self) -> list[object]:
+    def results(self, *, flight: str = "") -> list[object]:
         """What the flight has brought, with full values."""
-        answer: list[object] = self._json("GET", "/api/results.json")
+        answer: list[object] = self._json("GET", "/api/results.json", query={"flight": flight})
         return answer
 
     def description(self) -> dict[str, object]:
         """This description."""
         answer: dict[str, object] = self._json("GET", "/api/openapi.json")
+        return answer
+
+    def flights(self) -> list[FlightSummary]:
+        """The flights of the past and that of now, the newest first."""
+        answer: list[FlightSummary] = self._json("GET", "/api/flights")
+        return answer
+
+    def replay(self, *, flight: str, start: float = 0.0) -> Replay:
+        """A part of what pages were shown of a flight."""
+        answer: Replay = self._json(
+            "GET", "/api/flights/replay", query={"flight": flight, "start": start}
+        )
+        return answer
+
+    def report(self, *, flight: str) -> FlightReport:
+        """What is to be said of a flight on paper."""
+        answer: FlightReport = self._json("GET", "/api/flights/report", query={"flight": flight})
+        return answer
+
+    def mcap(self, *, flight: str) -> str:
+        """A flight as an MCAP file."""
+        return self._text("GET", "/api/flights/mcap")
+
+    def hours(self) -> list[DroneHours]:
+        """What each drone has flown, over all flights that are kept."""
+        answer: list[DroneHours] = self._json("GET", "/api/drones/hours")
         return answer
 
     def replace_plan(self, *, revision: int, missions: list[PlanMission]) -> PlanData:
@@ -82,7 +115,7 @@ class Calls(Connection):
         *,
         revision: int,
         missions: list[str] | None,
-        only_failed: bool = None,
+        only_failed: bool | None = None,
         runs: int | None = None,
     ) -> Forecast:
         """What a Start would do, by many runs in virtual time."""

@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Protocol
 
 from .feed import VersionedRows
+from .history.recorder import Sample
 from .session import phase_of
 
 if TYPE_CHECKING:
@@ -32,6 +33,10 @@ ANSWER_WITHIN = 1.0
 """Seconds after which a page is answered even without changes."""
 
 
+RECORD_EVERY = 0.25
+"""The sampling interval in seconds of a flight at which no page looks."""
+
+
 class StationState(Protocol):
     """The data of a station that pages show."""
 
@@ -49,6 +54,8 @@ class Updates:
         self._station = station
         self._version = 0
         self._state: State | None = None
+        self._now = 0.0
+        """The flight's time at the last sample, which is when all of it was so."""
         self.drones: VersionedRows[DroneRow] = VersionedRows()
         """The drones' rows while there is no flight."""
         self._tick: asyncio.Future[None] | None = None
@@ -78,6 +85,20 @@ class Updates:
             self._timer = loop.call_at(self._ticked_at + LOOK_EVERY, self._look)
         await asyncio.shield(self._tick)
 
+    async def watch(self, session: FlightSession) -> None:
+        """Sample a flight until it ends, so that it is recorded, whether or not a page looks."""
+        while session.lives:
+            await self._next_tick()
+            await asyncio.sleep(RECORD_EVERY)
+
+    def close(self, session: FlightSession) -> None:
+        """Sample once more a flight that has ended, and end its recording."""
+        try:
+            self._note_what_is_new()
+        finally:
+            if session.recorder is not None:
+                session.recorder.end()
+
     def hurry(self) -> None:
         """Sample soon: there is new telemetry.
 
@@ -103,6 +124,7 @@ class Updates:
     def _note_what_is_new(self) -> None:
         version = self._version + 1
         session, state = self._station.session, self._state_at(0.0)  # time alone is no change
+        self._now = round(session.now, 3) if session is not None else 0.0
         changed = state != self._state
         self._state = state
         if session is not None:
@@ -112,6 +134,15 @@ class Updates:
                 changed |= self.drones.put(row["id"], row, version)
         if changed:
             self._version = version
+        if changed and session is not None and session.recorder is not None:
+            session.recorder.show(
+                Sample(
+                    t=self._now,
+                    state={**state, "time": self._now},
+                    missions=session.missions.rows(),
+                    drones=session.drones.rows(),
+                )
+            )
 
     def _state_at(self, now: float) -> State:
         session, plan = self._station.session, self._station.plan
@@ -133,7 +164,7 @@ class Updates:
             "flight": json.dumps(session.id if session is not None else ""),
             "version": str(self._version),
             "made_at": str(round(time.time() * 1000)),
-            "state": json.dumps(self._state_at(session.now if session is not None else 0.0)),
+            "state": json.dumps(self._state_at(self._now)),
             "missions": _listed(session.missions.since(seen) if session else ()),
             "drones": _listed((session or self).drones.since(seen)),
             "log": _listed(session.feed.log.since(log) if session else ()),

@@ -17,6 +17,7 @@ from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
+from pluto_fleet.station.web.served import ServedFlights
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.station.wire_app import AppData
 
@@ -64,12 +65,38 @@ class APlan:
         return "[[mission]]\n"
 
 
+class NoFlights:
+    """The past of a station at which nothing has flown."""
+
+    def flights(self) -> object:
+        return []
+
+    def hours(self) -> object:
+        return []
+
+    def replay(self, id: str, start: float, /) -> object:
+        raise BadInput(f"no flight {id!r} is kept here")
+
+    def report(self, id: str, /) -> object:
+        raise BadInput(f"no flight {id!r} is kept here")
+
+    def mcap(self, id: str, /) -> bytes:
+        raise BadInput(f"no flight {id!r} is kept here")
+
+    def console(self, id: str, /) -> str:
+        raise BadInput(f"no flight {id!r} is kept here")
+
+    def results(self, id: str, /) -> object:
+        raise BadInput(f"no flight {id!r} is kept here")
+
+
 @dataclass
 class AStation:
     """A station at which everything can be done, or goes wrong."""
 
     plan: APlan = field(default_factory=APlan)
     image: Path | None = None
+    past: ServedFlights = field(default_factory=NoFlights)
     done: list[tuple[str, Mapping[str, object]]] = field(default_factory=list)
     wrong: Exception | None = None
     told: int = 0

@@ -22,6 +22,7 @@ from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
+from pluto_fleet.station.web.served import ServedFlights
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.station.wire_app import AppData
 from tests.runtime.files.an_app import APP
@@ -118,6 +119,10 @@ class WithAPlan:
 
     async def forecast(self, asked: PlannedStart, /) -> Forecast:
         return await self.rest.forecast(asked)
+
+    @property
+    def past(self) -> ServedFlights:
+        return self.rest.past
 
     def console(self) -> str:
         return self.rest.console()

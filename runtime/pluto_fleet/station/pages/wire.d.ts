@@ -115,6 +115,8 @@ export interface DroneHours {
   /** Full charges, by what its battery gave. */
   cycles: number;
   lost: number;
+  /** Flights, among those, of which its hours and cycles are not known. */
+  unmeasured: number;
 }
 
 /** A drone, as it was heard of last. */
@@ -179,15 +181,27 @@ export interface FleetDrone {
   home: number[];
 }
 
+/** What is to be said of a flight on paper. */
+export interface FlightReport {
+  flight: FlightSummary;
+  missions: ReportMission[];
+  results: ReportResults[];
+  drones: ReportDrone[];
+  incidents: Incident[];
+  commands: ReportCommand[];
+}
+
 /** A flight of the past, by its journal. */
 export interface FlightSummary {
   id: string;
-  begun_at: number;
+  /** None: its journal cannot be read. */
+  begun_at: number | null;
   ended_at: number | null;
   seconds: number;
+  /** Who started it, if that is known. */
   by: string | null;
-  simulated: boolean;
-  end: "idle" | "flying" | "stopping" | "stopped" | "interrupted" | "over";
+  simulated: boolean | null;
+  end: "flying" | "stopped" | "interrupted" | "over" | "unknown";
   missions: number;
   completed: number;
   failed: number;
@@ -198,6 +212,8 @@ export interface FlightSummary {
   lost: string[];
   /** Whether what the pages showed was recorded, so that the replay is what was seen. */
   recorded: boolean;
+  /** What is wrong with its journal; empty: nothing. */
+  said: string;
 }
 
 /** What is expected of a Start, by many runs in virtual time. */
@@ -226,7 +242,7 @@ export interface ForecastRequest {
   revision: number;
   /** The keys of the missions to be started; null: all that Start would. */
   missions: string[] | null;
-  only_failed?: boolean;
+  only_failed?: boolean | null;
   runs?: number | null;
 }
 
@@ -236,6 +252,7 @@ export interface Frame {
   state: State;
   missions: MissionRow[];
   drones: DroneRow[];
+  alerts: Alert[];
 }
 
 /** Let a paused mission go on. */
@@ -250,6 +267,15 @@ export interface GraphDrawing {
   height: number;
   blocks: BlockBox[];
   edges: EdgeLine[];
+}
+
+/** Something that did not go as planned, or that was found. */
+export interface Incident {
+  time: number;
+  kind: "lost" | "failed" | "uncertain" | "held" | "late" | "finding" | "stopped";
+  mission: string | null;
+  drone: string | null;
+  text: string;
 }
 
 /** What a drone carries. */
@@ -502,7 +528,11 @@ export interface Readiness {
 /** A part of a recording, from a keyframe on. */
 export interface Replay {
   flight: string;
-  begun_at: number;
+  begun_at: number | null;
+  /** Whether these frames are what was seen; else they are made of the journal's events. */
+  recorded: boolean;
+  /** What is missing, or not known; empty: nothing. */
+  said: string;
   /** The length of the whole recording. */
   seconds: number;
   frames: Frame[];
@@ -514,6 +544,69 @@ export interface Replay {
   alerts: Alert[];
   /** Of each drone pairs of time and level; only with the first part. */
   batteries: Record<string, number[][]>;
+}
+
+/** What somebody commanded. */
+export interface ReportCommand {
+  /** In the flight; None: only the station's log has it. */
+  time: number | null;
+  at: number | null;
+  command: string;
+  given: Record<string, string | number | number | boolean | null>;
+  by: string | null;
+  /** The address from which it came. */
+  client: string | null;
+  said: string;
+}
+
+/** What a drone did in a flight; None: that was not measured. */
+export interface ReportDrone {
+  id: string;
+  trips: number;
+  launched: number;
+  hours: number | null;
+  first_battery: number | null;
+  lowest_battery: number | null;
+  last_battery: number | null;
+  lost: number;
+}
+
+/** A mission in a report. */
+export interface ReportMission {
+  name: string;
+  status: string;
+  why: string;
+  /** When its first trip was launched. */
+  began: number | null;
+  ended: number | null;
+  due: number | null;
+  late: boolean;
+  rounds: number;
+  trips: ReportTrip[];
+}
+
+/** All results of one kind; the three numbers are there where each value is one. */
+export interface ReportResults {
+  action: string | null;
+  kind: string;
+  quantity: string | null;
+  unit: string | null;
+  count: number;
+  lowest: number | null;
+  mean: number | null;
+  highest: number | null;
+}
+
+/** A trip in a report, as it was flown last. */
+export interface ReportTrip {
+  name: string;
+  action: string;
+  status: string;
+  drone: string | null;
+  attempts: number;
+  began: number | null;
+  ended: number | null;
+  why: string;
 }
 
 /** One value that a flight brought, with what it is, where and when. `values` are its numbers as quantities, `tags` its findings: what a layer of the map shows. */

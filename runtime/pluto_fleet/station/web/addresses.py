@@ -11,9 +11,18 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from ..requests import COMMANDS, ExampleEdit, PlanEdit, Said
-from ..wire import Forecast, ForecastRequest, LiveMessage, Role
+from ..wire import (
+    DroneHours,
+    FlightReport,
+    FlightSummary,
+    Forecast,
+    ForecastRequest,
+    LiveMessage,
+    Replay,
+    Role,
+)
 from ..wire_app import AppData, PlanData
-from . import changes, forecasts, reads
+from . import changes, flights, forecasts, reads
 from .http import Reply
 from .live import LIVE
 from .reads import TOML
@@ -31,7 +40,7 @@ LARGE_BODY = 20 * 1024 * 1024
 class Parameter:
     """A parameter in an address's query."""
 
-    type: type[int | str]
+    type: type[int | float | str]
     says: str
     needed: bool = False
 
@@ -119,6 +128,7 @@ _READS = (
         answers=TEXT,
         do=reads.console,
         role="watch",
+        query={"flight": Parameter(str, "The id of a flight of the past; left out: that of now.")},
     ),
     Address(
         method="GET",
@@ -127,6 +137,7 @@ _READS = (
         answers=list[object],
         do=reads.results,
         role="watch",
+        query={"flight": Parameter(str, "The id of a flight of the past; left out: that of now.")},
     ),
     Address(
         method="GET",
@@ -182,6 +193,55 @@ _COMMANDS = tuple(
     for name, body in COMMANDS.items()
 )
 
+_FLIGHT = Parameter(str, "The id of a flight, as the list of flights has it.", needed=True)
+_FLIGHTS = (
+    Address(
+        method="GET",
+        path="/api/flights",
+        says="The flights of the past and that of now, the newest first.",
+        answers=list[FlightSummary],
+        do=flights.flights,
+        role="watch",
+    ),
+    Address(
+        method="GET",
+        path="/api/flights/replay",
+        says="A part of what pages were shown of a flight.",
+        answers=Replay,
+        do=flights.replay,
+        role="watch",
+        query={
+            "flight": _FLIGHT,
+            "start": Parameter(float, "From which second of the flight on; 0 if it is left out."),
+        },
+    ),
+    Address(
+        method="GET",
+        path="/api/flights/report",
+        says="What is to be said of a flight on paper.",
+        answers=FlightReport,
+        do=flights.report,
+        role="watch",
+        query={"flight": _FLIGHT},
+    ),
+    Address(
+        method="GET",
+        path="/api/flights/mcap",
+        says="A flight as an MCAP file.",
+        answers=flights.MCAP,
+        do=flights.mcap,
+        role="watch",
+        query={"flight": _FLIGHT},
+    ),
+    Address(
+        method="GET",
+        path="/api/drones/hours",
+        says="What each drone has flown, over all flights that are kept.",
+        answers=list[DroneHours],
+        do=flights.hours,
+        role="watch",
+    ),
+)
 _FORECASTS = (
     Address(
         method="POST",
@@ -193,4 +253,4 @@ _FORECASTS = (
     ),
 )
 
-ADDRESSES: Sequence[Address] = (*_READS, *_EDITS, *_FORECASTS, *_COMMANDS)
+ADDRESSES: Sequence[Address] = (*_READS, *_FLIGHTS, *_EDITS, *_FORECASTS, *_COMMANDS)

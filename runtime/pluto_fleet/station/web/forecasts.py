@@ -35,7 +35,7 @@ async def preflight(asked: Asked) -> Reply:
 
 def _planned(given: dict[str, object]) -> PlannedStart:
     revision, missions = given.pop("revision", None), given.pop("missions", None)
-    only_failed, runs = given.pop("only_failed", False), given.pop("runs", None)
+    only_failed, runs = given.pop("only_failed", None) or False, given.pop("runs", None)
     if type(revision) is not int:
         raise Malformed("a forecast needs revision: that of the plan, a whole number")
     if missions is not None and not (

@@ -37,6 +37,31 @@ class ServedPlan(Protocol):
         """Return it as a missions file."""
 
 
+class ServedFlights(Protocol):
+    """The flights of the past; what names one raises `BadInput` if there is none of this id."""
+
+    def flights(self) -> object:
+        """Return a line for each flight."""
+
+    def hours(self) -> object:
+        """Return what each drone has flown."""
+
+    def replay(self, id: str, start: float, /) -> object:
+        """Return a part of a flight's replay."""
+
+    def report(self, id: str, /) -> object:
+        """Return what is to be said of a flight on paper."""
+
+    def mcap(self, id: str, /) -> bytes:
+        """Return a flight as an MCAP file."""
+
+    def console(self, id: str, /) -> str:
+        """Return the console of a flight."""
+
+    def results(self, id: str, /) -> object:
+        """Return the results of a flight."""
+
+
 class ServedStation(UpdateSource, Protocol):
     """The station that is served."""
 
@@ -47,6 +72,10 @@ class ServedStation(UpdateSource, Protocol):
     @property
     def image(self) -> Path | None:
         """The floor plan."""
+
+    @property
+    def past(self) -> ServedFlights:
+        """The flights of the past."""
 
     @property
     def described(self) -> AppData:
