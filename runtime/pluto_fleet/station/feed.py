@@ -5,12 +5,11 @@ from __future__ import annotations
 import json
 from collections import deque
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from ..jobs.flown import ACTS_BESIDE
 from ..report.sentences import line_of, sentence_of
-from ..shared.domain.actions import MEASURE, PICK, RELEASE
-from ..shared.domain.text import bounded
+from .results.meaning import Meanings
+from .results.rows import NameOf, ResultRows, nowhere
 
 if TYPE_CHECKING:
     from ..app import App
@@ -36,21 +35,11 @@ class VersionedRows:
         return (text for changed, _, text in self._rows.values() if changed > number)
 
 
-UNITS: Mapping[str, str] = {"temperature": "°C", "pm10": "µg/m³"}
-"""What the numbers of a simulated world mean; any other quantity has the unit that its author had
-in mind."""
-
 LINES_KEPT = 20_000
 """The number of lines, and of results, that are kept; older ones are only in the journal."""
 
 LINES_A_MESSAGE = 500
 """The most lines in one message: the newest ones."""
-
-LONGEST_VALUE = 1_000
-"""Characters of an action's result on pages; all of it is in the results' file."""
-
-LARGEST_ROUNDED = 1_000_000
-"""Pages show six digits of a number; larger whole numbers are sent as text, in full."""
 
 
 class Tail:
@@ -65,6 +54,11 @@ class Tail:
         self.last += 1
         self._texts.append(json.dumps([self.last, *facts]))
 
+    def put(self, row: Mapping[str, object]) -> None:
+        """Append a row that has its number among its fields."""
+        self.last += 1
+        self._texts.append(json.dumps(row))
+
     def since(self, number: int) -> Iterator[str]:
         """Yield the entries after a number, up to the most in one message."""
         new = min(self.last - number, LINES_A_MESSAGE, len(self._texts))
@@ -77,15 +71,20 @@ class Tail:
 class Feed:
     """The console and the results of one flight."""
 
-    def __init__(self, app: App, units: Mapping[str, str]) -> None:
-        """`units` are those of the quantities that `measure` measures, if known."""
-        self._app, self._units = app, units
+    def __init__(
+        self,
+        app: App,
+        units: Mapping[str, str],
+        flight: str = "",
+        name_of: NameOf = nowhere,
+    ) -> None:
+        """`units` are those of quantities of which the app says none; `flight` is for its pictures."""
+        meanings = Meanings(app.results, app.actions, units)
+        self._rows = ResultRows(flight, app.actions, meanings, name_of)
         self.log, self.results = Tail(), Tail()
         self._lines: deque[str] = deque(maxlen=LINES_KEPT)
         self._whole: deque[object] = deque(maxlen=LINES_KEPT)
         """The full values of results that pages get shortened."""
-        self._beside: dict[tuple[object, object], object] = {}
-        """Where actions are done that are done beside their targets, by mission and trip."""
 
     def take(self, event: Event) -> None:
         """Process a durable event."""
@@ -93,15 +92,11 @@ class Feed:
         if said is not None:
             self._lines.append(line_of(event) or "")
             self.log.add(event["t"], event.get("mission"), said, _kind(event))
-        verdict = _VERDICTS.get(str(event["event"]))
-        if event["event"] == ACTS_BESIDE:
-            self._beside[event["mission"], event["trip"]] = event["at"]
-        elif event["event"] == "trip.failed":
-            self._beside.pop((event["mission"], event["trip"]), None)
-        elif event["event"] == "trip.completed":
-            self._completed(event)
-        elif verdict is not None:
-            self._result(event, "verdict", f"{verdict}: {event.get('reason') or said}")
+        brought = self._rows.take(event)
+        if brought is not None:
+            row, value = brought
+            self.results.put(row)
+            self._whole.append(value)
 
     def say(self, time: float, text: str, kind: str = "info") -> None:
         """Add a line that is not an event of the flight."""
@@ -113,77 +108,12 @@ class Feed:
         return "".join(f"{line}\n" for line in self._lines)
 
     def brought(self) -> list[object]:
-        """Return the kept results, each as a mapping."""
+        """Return the kept results, each as a mapping, with their values in full."""
         return [
-            dict(zip(FACTS, json.loads(text), strict=False)) | {"value": value}
+            json.loads(text) | {"value": value}
             for text, value in zip(self.results, self._whole, strict=True)
         ]
 
-    def _completed(self, event: Event) -> None:
-        """Add the result of a trip's action, with its quantity and place."""
-        trip: Any = event["did"]
-        action = self._app.actions[trip["action"]]
-        usual = {one.name: one.default for one in action.parameters}
-        given = {**usual, **trip.get("parameters", {})}
-        kind, value = _value(event.get("result"))
-        quantity = None
-        if action.name == MEASURE and kind != "photo":
-            kind, quantity = "measurement", given.pop("quantity")
-        unit = self._units.get(str(quantity))
-        at = self._beside.pop((event["mission"], event["trip"]), None)
-        facts = [trip["target"], given, quantity, unit, *([] if at is None else [at])]
-        self._result(event, kind, value, action.name, *facts)
-
-    def _result(
-        self, event: Event, kind: str, value: object, action: str | None = None, *more: object
-    ) -> None:
-        facts = (event.get(fact) for fact in ("t", "mission", "trip", "round", "attempt", "drone"))
-        said = value if kind == "photo" or action in (PICK, RELEASE) else _in_words(value)
-        self.results.add(*facts, kind, said, *([action, *more] if action is not None else []))
-        self._whole.append(value)
-
-
-FACTS = (
-    *("number", "time", "mission", "trip", "round", "attempt", "drone", "kind", "value"),
-    *("action", "target", "parameters", "quantity", "unit", "at"),
-)
-"""The facts of a result, in this order; of a verdict only those in the first line.
-
-The last is there only where the action was not done at its target.
-"""
-
-
-def _value(data: Any) -> tuple[str, object]:
-    """Return the kind of a result for pages, and its value."""
-    return "photo" if isinstance(data, dict) and "$photo" in data else "result", _plain(data)
-
-
-def _plain(data: Any) -> object:
-    """Return a value of the journal without the journal's reserved keys."""
-    match data:
-        case {"$photo": inside} | {"$text": inside} | {"$number": inside}:
-            return inside
-        case {"$tuple": list(parts)} | list(parts):
-            return [_plain(part) for part in parts]
-        case dict():
-            return {name: _plain(part) for name, part in data.items()}
-        case _:
-            return data
-
-
-def _in_words(value: object) -> object:
-    """Return an action's result as text for a page."""
-    match value:
-        case None:
-            return "nothing"
-        case int() if abs(value) >= LARGEST_ROUNDED:
-            return str(value)
-        case list() | dict():
-            value = json.dumps(value, ensure_ascii=False)
-    return bounded(value, LONGEST_VALUE) if isinstance(value, str) else value
-
-
-_VERDICTS = {"mission.judged": "not accepted", "mission.extended": "more to do"}
 
 _BAD = (
     *("trip.failed", "mission.judged", "mission.late", "mission.uncertain", "mission.held"),

@@ -24,8 +24,9 @@ from ..shared import output
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
 from .between_flights import IdleDrones
-from .feed import UNITS, Feed, VersionedRows
+from .feed import Feed, VersionedRows
 from .plan.shape import BROKEN_OFF
+from .results.meaning import SIMULATED_UNITS
 from .wait_reasons import WaitReasons
 
 if TYPE_CHECKING:
@@ -84,7 +85,8 @@ class FlightSession:
         """
         self.flight = flight
         self.id = flight.journal.name
-        self.feed = Feed(flight.app, UNITS if flight.sim else {})
+        units = SIMULATED_UNITS if flight.sim else {}
+        self.feed = Feed(flight.app, units, flight.journal.stem)
         self.missions, self.drones = VersionedRows(), VersionedRows()
         self.stops = Stops()
         self.one: LiveFlight | None = None

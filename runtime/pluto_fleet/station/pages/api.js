@@ -148,6 +148,17 @@ async function keepOn(...how) {
   }
 }
 
+// A result as the tables have it: its facts in order; what was picked or released has no value.
+function entry(row) {
+  const [of] = row.values;
+  const item = row.action === "pick_item" || row.action === "release_item";
+  const value = item ? null : row.value ?? "nothing";
+  const kind = row.kind === "handling" ? "result" : row.kind;
+  const facts = [row.number, row.time, row.mission, row.trip, row.round, row.attempt, row.drone, kind, value];
+  const done = [row.action, row.target, row.parameters, of?.quantity, of?.unit ?? null];
+  return row.action === null ? facts : [...facts, ...done, ...(row.at ? [row.at] : [])];
+}
+
 const fresh = () => ({ missions: new Map(), drones: new Map(), log: [], results: [] });
 const nothing = (anew) => ({
   fresh: anew, missions: new Set(), drones: new Set(), log: [], results: [],
@@ -206,7 +217,7 @@ export function liveFeed() {
       }
     }
     for (const kind of ["log", "results"]) {
-      const lines = message[kind];
+      const lines = kind === "results" ? message.results.map(entry) : message.log;
       for (const list of [live[kind], changes[kind]]) {
         list.push(...lines);
         if (list.length > KEPT * 1.2) list.splice(0, list.length - KEPT);
