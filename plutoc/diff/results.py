@@ -13,7 +13,12 @@ from plutoc.graph.results import key_of
 
 def results(both: Both) -> Iterator[Change]:
     """Compare what is said, by action and, of what is measured, by quantity."""
-    old, new = _said(both.old.graph), _said(both.new.graph)
+    called = {**both.hooks}
+    old = {
+        (called.get(action, action), *rest): one
+        for (action, *rest), one in _said(both.old.graph).items()
+    }
+    new = _said(both.new.graph)
     for key, now in new.items():
         was = old.get(key)
         if was is None:

@@ -57,7 +57,7 @@ RULES = (
     Rule(kind=Kind.WORD, pattern=_one_of(WORDS)),
     Rule(kind=Kind.WORD, pattern=rf'(?<!app ){_one_of(SETTINGS)}(?=[ \t]*")'),
     Rule(kind=Kind.WORD, pattern=rf"{_one_of(OWNERS)}[ \t]+{HAS}\b(?=[ \t]+[A-Za-z])"),
-    Rule(kind=Kind.WORD, pattern=rf"^[ \t]*{RESULT}\b(?=[ \t]+[A-Za-z]\w*[ \t]+as\b)"),
+    Rule(kind=Kind.WORD, pattern=rf"^[ \t]*{_one_of((RESULT,))}(?=[ \t]+[A-Za-z]\w*[ \t]+as\b)"),
     Rule(kind=Kind.CONSTANT, pattern=_one_of(("yes", "no", "safe", "once", "ask"))),
     Rule(kind=Kind.STATUS, pattern=_one_of(tuple(status.value for status in IN_GRAPH))),
     Rule(kind=Kind.TYPE, pattern=_one_of(tuple(kind.value for kind in Type))),

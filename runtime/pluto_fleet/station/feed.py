@@ -107,6 +107,11 @@ class Feed:
         """Return all kept lines as text."""
         return "".join(f"{line}\n" for line in self._lines)
 
+    @property
+    def pictures(self) -> Mapping[int, str]:
+        """The files of photos, by the numbers of their results."""
+        return self._rows.pictures
+
     def brought(self) -> list[object]:
         """Return the kept results, each as a mapping, with their values in full."""
         return [

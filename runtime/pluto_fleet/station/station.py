@@ -29,6 +29,7 @@ from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
 from .plan.promised import broken, promised
+from .results.exports import CurrentFlight, Exports
 from .session import FlightSession, Phase, phase_of
 from .updates import Updates
 
@@ -66,6 +67,7 @@ class Station:
         self._one_at_a_time = asyncio.Lock()
         self.history = FleetHistory(app, config)
         """The drones' states while there is no flight."""
+        self.exports = Exports(app, config, self._flight_now)
         self._before: Path | None = None
         """The folder of the last discarded flight's gateway, whose drones may still be landing."""
 
@@ -372,9 +374,13 @@ class Station:
         """Return the flight's console."""
         return self.session.feed.console() if self.session is not None else ""
 
-    def results(self) -> list[object]:
-        """Return the flight's results."""
-        return self.session.feed.brought() if self.session is not None else []
+    def _flight_now(self) -> CurrentFlight | None:
+        session = self.session
+        if session is None:
+            return None
+        return CurrentFlight(
+            flight=session.journal.stem, journal=session.journal, feed=session.feed
+        )
 
 
 _NOT_YET = "the drones are just being asked where they are: try again in a moment"

@@ -60,6 +60,27 @@ class APlan:
         return "[[mission]]\n"
 
 
+class SomeResults:
+    """Results of which some are no numbers, and one picture."""
+
+    async def results(self, flight: str) -> list[object]:
+        return [{"value": float("nan")}, {"value": (1.5, float("inf"))}]
+
+    async def csv(self, flight: str) -> str:
+        return "number\r\n"
+
+    async def geojson(self, flight: str) -> dict[str, object]:
+        return {"type": "FeatureCollection", "features": []}
+
+    async def archive(self, flight: str) -> Path:
+        raise BadInput(f"there is no flight '{flight}' here")
+
+    async def picture(self, flight: str, number: int, *, small: bool) -> tuple[bytes, str]:
+        if number != 1:
+            raise BadInput(f"result {number} has no picture")
+        return (b"small" if small else b"whole"), "image/png"
+
+
 @dataclass
 class AStation:
     """A station at which everything can be done, or goes wrong."""
@@ -94,8 +115,9 @@ class AStation:
     def console(self) -> str:
         return "<script>alert(1)</script>\ud800"
 
-    def results(self) -> list[object]:
-        return [{"value": float("nan")}, {"value": (1.5, float("inf"))}]
+    @property
+    def exports(self) -> SomeResults:
+        return SomeResults()
 
     @property
     def untouched(self) -> bool:

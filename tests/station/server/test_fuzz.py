@@ -23,7 +23,7 @@ from pluto_fleet.station.web.http import Reply, Request
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, a_plan
 
-from .asking import HOST, OURS, AStation
+from .asking import HOST, OURS, AStation, SomeResults
 from .serving import Served, served, status
 
 METHODS = st.sampled_from(["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH", "\x00", ""])
@@ -113,8 +113,9 @@ class WithAPlan:
     def console(self) -> str:
         return self.rest.console()
 
-    def results(self) -> list[object]:
-        return self.rest.results()
+    @property
+    def exports(self) -> SomeResults:
+        return self.rest.exports
 
     @property
     def changed(self) -> tuple[int, int]:

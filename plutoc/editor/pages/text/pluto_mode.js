@@ -6,7 +6,7 @@ import { tags } from "../codemirror/lezer-highlight.js";
 const WORDS = /^(?:pluto|use|as|app|category|can|action|evaluator|modifier|policy|emits|writes|when|otherwise)\b/;
 const SETTINGS = /^(?:version|requires)\b(?=[ \t]*")/;
 const FIELDS = /^(?:mission|trip)[ \t]+has\b(?=[ \t]+[A-Za-z])/;
-const RESULT = /^result\b(?=[ \t]+[A-Za-z]\w*[ \t]+as\b)/;
+const RESULT = /^(?:result)\b(?=[ \t]+[A-Za-z]\w*[ \t]+as\b)/;
 const CONSTANTS = /^(?:yes|no|safe|once|ask)\b/;
 const STATUS = /^(?:UNEXECUTED|RUNNING|STANDBY|COMPLETED|FAILED)\b/;
 const TYPES = /^(?:int|float|bool|text|mass|length|time|angle|percent|speed|temperature)\b/;

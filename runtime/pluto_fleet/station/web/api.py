@@ -20,6 +20,7 @@ from .http import MISTAKES, PageSocket, Reply, Request, json_reply, text_reply
 from .http import said as in_words
 from .live import LIVE, LiveUpdates, UpdateSource
 from .refusals import Refusal, Refused
+from .results import RESULTS, ServedResults, read_results
 from .static import file_reply, pages, picture
 from .strict_json import asked_number, parsed_object
 
@@ -31,7 +32,7 @@ ADDRESSES: Mapping[str, tuple[str, ...]] = {
     "/api/plan/import": ("POST",),
     "/api/plan/example": ("POST",),
     "/api/console.txt": ("GET",),
-    "/api/results.json": ("GET",),
+    **dict.fromkeys(RESULTS, ("GET",)),
     **{f"/api/{command}": ("POST",) for command in NEEDS},
 }
 _LONGEST_ID = 64
@@ -83,8 +84,9 @@ class ServedStation(UpdateSource, Protocol):
     def console(self) -> str:
         """Return the console."""
 
-    def results(self) -> list[object]:
-        """Return the results."""
+    @property
+    def exports(self) -> ServedResults:
+        """The results of all flights."""
 
 
 async def read(station: ServedStation, path: str) -> Reply:
@@ -100,12 +102,8 @@ async def read(station: ServedStation, path: str) -> Reply:
                 return text_reply(station.plan.export_toml(), _NAME, _TOML)
             except BadInput as error:
                 return in_words(409, str(error))
-        case "/api/console.txt":
-            return text_reply(station.console(), "console.txt")
         case _:
-            results = json_reply(200, station.results())
-            named = ("Content-Disposition", 'attachment; filename="results.json"')
-            return Reply(status=200, body=results.body, headers=(named,))
+            return text_reply(station.console(), "console.txt")
 
 
 async def change(station: ServedStation, audit: Audit, request: Request) -> Reply:
@@ -287,6 +285,8 @@ class Api:
             raise Refused(refusals.TOO_BUSY)
         self._under_way += 1
         try:
+            if request.path in RESULTS:
+                return await read_results(self._station.exports, request)
             if request.method == "GET":
                 return await read(self._station, request.path)
             return await change(self._station, self._audit, request)
