@@ -6,6 +6,7 @@ import csv
 import io
 import json
 from collections.abc import Sequence
+from itertools import pairwise
 from random import Random
 from typing import Any
 
@@ -167,8 +168,7 @@ def _text(value: object) -> str:
 
 def _area(ring: Sequence[Sequence[float]]) -> float:
     """Return the area of a ring: above 0 if it goes counter-clockwise."""
-    pairs = zip(ring, ring[1:], strict=False)
-    return sum(x * v - u * y for (x, y), (u, v) in pairs) / 2
+    return sum(x * v - u * y for (x, y), (u, v) in pairwise(ring)) / 2
 
 
 def test_there_is_nothing_of_flights_that_are_not_there(pm10: Flown) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -68,6 +69,7 @@ class Exports:
         self._app, self._place, self._current = app, place, current
         self._flights = ResultsOfFlights(app, place.folder)
         self._reading, self._packing = asyncio.Lock(), asyncio.Lock()
+        self._cleared = False
         self._pictures = asyncio.Semaphore(AT_ONCE)
 
     async def results(self, flight: str) -> list[object]:
@@ -93,8 +95,11 @@ class Exports:
     async def archive(self, flight: str) -> Path:
         """Write an archive of the pictures into a file, which the caller deletes."""
         found = await self._of(flight)
+        folder = self._place.own_folder / "archives"
         async with self._packing:
-            folder = self._place.own_folder / "archives"
+            if not self._cleared:  # a station that was killed may have left some
+                self._cleared = True
+                await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
             return await asyncio.to_thread(write_archive, found, folder)
 
     async def picture(self, flight: str, number: int, *, small: bool) -> tuple[bytes, str]:

@@ -101,11 +101,12 @@ def _content(flight: Taken, number: int, file: str) -> bytes:
         raise BadInput(
             f"result {number}: its picture {quoted(file)} is not there any more"
         ) from None
+    about = os.fstat(descriptor)
+    if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
+        os.close(descriptor)
+        most = LARGEST // 1024 // 1024
+        raise BadInput(f"result {number}: {quoted(file)} must be a file of at most {most} MB")
     with open(descriptor, "rb") as opened:
-        about = os.fstat(descriptor)
-        if not stat.S_ISREG(about.st_mode) or about.st_size > LARGEST:
-            most = LARGEST // 1024 // 1024
-            raise BadInput(f"result {number}: {quoted(file)} must be a file of at most {most} MB")
         return opened.read(LARGEST)
 
 
