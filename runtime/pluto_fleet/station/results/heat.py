@@ -17,8 +17,12 @@ SAME_PLACE = 0.001
 
 
 def newest(samples: Iterable[Sample]) -> list[Sample]:
-    """Return one sample for each place, the last one given; places are told apart by millimetres."""
-    kept = {(round(x * 1000), round(y * 1000)): (x, y, value) for x, y, value in samples}
+    """Return the last sample of each place, the newest at the end; places are told apart by millimetres."""
+    kept: dict[tuple[int, int], Sample] = {}
+    for x, y, value in samples:
+        place = round(x * 1000), round(y * 1000)
+        kept.pop(place, None)
+        kept[place] = x, y, value
     return list(kept.values())
 
 
