@@ -14,8 +14,6 @@ from contextlib import suppress
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Protocol
 
-from PIL import Image, ImageOps
-
 from ...drones.team import FILES
 from ...journal.place import gateway_folder
 from ...shared.domain.errors import BadInput
@@ -129,6 +127,12 @@ def small(flight: Taken, number: int, cache: Path) -> bytes:
 
 
 def _smaller(content: bytes, number: int) -> bytes:
+    try:  # of an extra, without which a station is imported, too
+        from PIL import Image, ImageOps
+    except ImportError:
+        raise BadInput(
+            "small pictures need Pillow, of the extra `station`: pip install 'pluto-fleet[station]'"
+        ) from None
     try:
         with Image.open(io.BytesIO(content), formats=_FORMATS) as image:
             if image.width * image.height > MOST_PIXELS:  # before a pixel of it is read
