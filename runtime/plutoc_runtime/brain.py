@@ -135,7 +135,8 @@ class Brain:
         """Do what a person wants; raise `BadInput` with the reason why it cannot be done.
 
         `{"command": "pause" or "cancel", "mission": …}`: take it out of its graph, to `go_on` later, or
-        never; `skip` a trip that is not the next one; `prioritise` one; `retire` or `bring-back` a drone;
+        never; `skip` a trip that is not the next one; `prioritise` one; `change-trips`, all but the first,
+        to other `trips`; `retire` or `bring-back` a drone;
         `probe` whether a flight's action was done: the answer is an order to note what was `probed`.
         """
         return self._kernel.call(now, ONLY_WHAT_IS_READY, self._control.perform, request)

@@ -6,7 +6,7 @@ even while the app waits for other things. Only the answer may have to wait.
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 from typing import Protocol
@@ -38,6 +38,12 @@ class Control(Protocol):
 
     def cancel(self, mission: str | None) -> str:
         """End a mission, or all, for good."""
+        ...
+
+    def change_trips(
+        self, mission: str, trips: Sequence[object], replaces: Sequence[object] | None
+    ) -> str:
+        """Replace the trips of a mission that have not flown."""
         ...
 
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
@@ -73,6 +79,11 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.cancel(mission)
         case {"command": "decide", "mission": str(mission), "answer": str(answer)}:
             return control.decide(mission, answer)
+        case {"command": "change-trips", "mission": str(mission), "trips": list(trips), **more}:
+            replaces = more.get("replaces")
+            if not isinstance(replaces, list | None):
+                raise BadInput("change-trips needs replaces: a list of names, or nothing")
+            return control.change_trips(mission, trips, replaces)
         case {
             "command": "prioritise",
             "mission": str(mission),

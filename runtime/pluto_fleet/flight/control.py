@@ -17,6 +17,7 @@ from ..shared.domain.status import Status
 from ..shared.domain.text import counted, quoted
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, Task
+from .changing import TripChange, refuse_if_older, refuse_if_stale
 from .mission_status import aside, in_order
 from .reconcile import ANSWERS as DONE_OR_NOT
 from .reconcile import (
@@ -137,6 +138,47 @@ class Control:
             self._settle(mission, record, DONE_OR_NOT[answer])
             self._go_on(mission, record)
         return f"mission {quoted(mission)}: {answer}"
+
+    def change_trips(
+        self, mission: str, trips: Sequence[object], replaces: Sequence[object] | None
+    ) -> str:
+        """Replace the trips of a mission that have not flown; `replaces`: what those were, by name."""
+        self.changed(mission, trips, replaces)()
+        return f"mission {quoted(mission)}: what has not flown is changed"
+
+    def changed(
+        self, mission: str, trips: Sequence[object], replaces: Sequence[object] | None = None
+    ) -> Callable[[], None]:
+        """Return what makes that change, checked; raise `BadInput` if it cannot be made."""
+        record = self._record(mission)
+        refuse_if_older(self._run.app)
+        if self._status(mission, record) in (Status.UNCERTAIN, Status.HELD):
+            raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
+        self._refuse_while_it_steps_out(mission)
+        if replaces is not None:
+            refuse_if_stale(mission, record, replaces)
+        change = TripChange(self._run.app, self._run.fleet, mission, record, trips)
+        drone = record["carrier"] or (in_flight(record) or {}).get("drone")
+        if drone is not None:
+            change.refuse_too_little_battery(drone, self._link.telemetry(drone))
+        return partial(self._change, mission, record, change)
+
+    def _change(self, mission: str, record: Record, change: TripChange) -> None:
+        if aside(record) is not None:
+            self._replan(change.todo, mission, record)
+        elif change.in_place:
+            self._command("change-trips", mission=mission, trips=change.todo[1:])
+            self._replan(change.todo, mission, record)
+        else:
+            self._step_out(mission, record, partial(self._replan_and_resume, change.todo))
+
+    def _replan(self, todo: Sequence[Record], name: str, record: Record) -> None:
+        facts = {"todo": todo, "done": record["done"], "fields": record["fields"]}
+        self._run.note("mission.replanned", mission=name, **facts)
+
+    def _replan_and_resume(self, todo: Sequence[Record], name: str, record: Record) -> None:
+        self._replan(todo, name, record)
+        self._resume(name, record)
 
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
         """Change the priority of a trip that has not been flown."""

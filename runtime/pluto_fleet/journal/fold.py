@@ -137,6 +137,18 @@ def _changed(_: Records, record: Record, event: Fact) -> None:
     record.update(fields=event["fields"], todo=event["todo"], done=event["done"])
 
 
+def _replanned(_: Records, record: Record, event: Fact) -> None:
+    """Take over what a person has put in place of the trips that had not flown."""
+    flight, last, todo = record["flight"], record["todo"][0], event["todo"]
+    if last["name"] != todo[0]["name"] and flight and flight["outcome"]:
+        _goes_on(record)
+    if any(last.get(fact) != todo[0].get(fact) for fact in ("name", "fields")):
+        record["delay"] = None  # it was the delay of another trip, or another delay
+    names = {trip["name"] for trip in todo}
+    old = (*record["gone"], *record["todo"])
+    record.update(gone=[trip for trip in old if trip["name"] not in names], todo=todo)
+
+
 def _delayed(_: Records, record: Record, event: Fact) -> None:
     _goes_on(record)
     trip = _trip(record, event)
@@ -399,6 +411,7 @@ _MISSION: dict[str, Callable[[Records, Record, Fact], None]] = {
     "mission.created": _created,
     "mission.late": _late,
     "mission.changed": _changed,
+    "mission.replanned": _replanned,
     "trip.delayed": _delayed,
     "trip.allocated": _allocated,
     "trip.launched": _launched,

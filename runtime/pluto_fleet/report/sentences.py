@@ -61,6 +61,12 @@ def _extended(event: Event) -> str:
     return f"goes on with more trips ({'; '.join(told)})"
 
 
+def _replanned(event: Event) -> str:
+    todo: Any = event["todo"]
+    trips = ", ".join(str(trip["name"]) for trip in todo) or "none"
+    return f"was changed by a person; trips to do: {trips}"
+
+
 def _ended(event: Event) -> str:
     reason = event.get("reason")
     return f"{event['status']}: {reason}" if reason else str(event["status"])
@@ -86,6 +92,7 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "mission.late": lambda _: "is late: its deadline has passed",
     "mission.repeated": lambda event: f"round {int(str(event['round'])) + 1} begins",
     "mission.extended": _extended,
+    "mission.replanned": _replanned,
     "mission.ended": _ended,
     "mission.paused": lambda _: "paused",
     "mission.resumed": lambda _: "goes on",

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 A = TypeVar("A", bound="App")
 
-SEAM = (3, 2)
+SEAM = (3, 3)
 """The seam to the library: the first number changes when earlier data would be misread, the second
 when more is said."""
 

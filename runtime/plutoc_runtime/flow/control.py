@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import BadInput
 from ..domain.status import Status
+from ..hooks.plain_data import trip_of
 from ..time.kernel import mission_key
 
 if TYPE_CHECKING:
@@ -58,6 +59,17 @@ class Control:
             raise BadInput(f"trip {trip.name} may be flying: pause its mission first")
         state.mission.trips.remove(trip)
         return f"trip {trip.name} is skipped"
+
+    def _change_trips(self, request: Request) -> str:
+        """Replace all that a mission has to do behind its first trip, which may be flying."""
+        state = self._state(request)
+        core, trips = self._core, state.mission.trips
+        if state.task is None or not trips:
+            raise BadInput(f"mission {request['mission']} has no trip before these in its graph")
+        trips[1:] = [trip_of(core.app, one, place) for place, one in enumerate(request["trips"], 1)]
+        for trip in trips[1:]:
+            trip.now = core.kernel.time
+        return f"mission {request['mission']} has {len(trips)} trips to do"
 
     def _prioritise(self, request: Request) -> str:
         _, trip = self._trip(request)
@@ -120,6 +132,7 @@ _COMMANDS: Mapping[str, Callable[[Control, Request], str]] = {
     "pause": Control._pause,
     "cancel": Control._cancel,
     "skip": Control._skip,
+    "change-trips": Control._change_trips,
     "prioritise": Control._prioritise,
     "retire": Control._retire,
     "bring-back": Control._bring_back,
