@@ -26,19 +26,18 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Trip
 
 FROM = (3, 3)
-"""The first seam whose brains can do that."""
+"""The first seam whose brains can change trips, and take drones in, while they fly."""
 
 Given = Sequence[object]
 """Trips as a missions file has them, in their order; one without a name is a new one."""
 
 
-def refuse_if_older(app: App) -> None:
-    """Raise `BadInput` if the app's brain cannot change trips in flight."""
+def refuse_if_older(app: App, what: str) -> None:
+    """Raise `BadInput` if the app's brain cannot do what only those since then can."""
     seam = app.brain.SEAM
     if seam < FROM:
         raise BadInput(
-            f"{app.name} speaks seam {written(seam)}, and trips can be changed in flight from"
-            f" {written(FROM)} on: compile it anew"
+            f"{app.name} speaks seam {written(seam)}, and {what} from {written(FROM)} on: compile it anew"
         )
 
 
@@ -170,7 +169,8 @@ class TripChange:
     def _data(self, trip: Trip, index: int, known: Mapping[str, Record]) -> Record:
         """Return a trip's record: one that had it before keeps what came of it so far."""
         trip.index = index
-        data, before = trip_data(self._app, trip), known.get(trip.name, {})
+        data: Record = trip_data(self._app, trip)
+        before: Record = known.get(trip.name, {})
         kept = {key: before[key] for key in ("attempt", "added") if key in before}
         if before.get("status") == "FAILED":
             kept["attempt"] = before.get("attempt", 1) + 1

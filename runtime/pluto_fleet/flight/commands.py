@@ -54,6 +54,10 @@ class Control(Protocol):
         """Allocate a drone to no further trip, until it is brought back."""
         ...
 
+    def join(self, entry: Mapping[str, object]) -> str:
+        """Have a drone join the fleet, given as in a fleet file."""
+        ...
+
     def bring_back(self, drone: str) -> str:
         """Make a drone available again that was retired, or lost and repaired since."""
         ...
@@ -95,8 +99,21 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.retire(drone)
         case {"command": "bring-back", "drone": str(drone)}:
             return control.bring_back(drone)
+        case {"command": "join"} if (entry := joining_in(request)) is not None:
+            return control.join(entry)
         case _:
             raise BadInput("this app does not know that command")
+
+
+def joining_in(request: Mapping[str, object]) -> Mapping[str, object] | None:
+    """Return the drone that is to join, as in a fleet file; None: it is another request."""
+    if request.get("command") != "join":
+        return None
+    given = {key: one for key, one in request.items() if key not in ("command", "drone")}
+    return {
+        "id": request.get("drone"),
+        **{key: one for key, one in given.items() if one is not None},
+    }
 
 
 def stop_in(request: Mapping[str, object]) -> Down | None:

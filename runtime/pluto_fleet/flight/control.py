@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..files.fleet import with_joined
 from ..jobs.reports import Down, reported_result
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
@@ -24,6 +25,7 @@ from .reconcile import (
     CANCELLED,
     PROBED,
     Outcome,
+    drone_told,
     ended,
     for_brain,
     id_of,
@@ -35,6 +37,7 @@ from .reconcile import (
 )
 
 if TYPE_CHECKING:
+    from ..files.fleet import FleetFile
     from ..journal.fold import Record
     from .recorded_brain import RecordedBrain
 
@@ -58,6 +61,8 @@ class Control:
         """Whether a command is half done: missions may be in no graph that are about to go on."""
         self._steps_out: dict[str, Task[None]] = {}
         """The tasks of missions whose flights are being aborted."""
+        self._joining: dict[str, Task[None]] = {}
+        """The tasks that ask drones how they are that are joining."""
         self._probes: dict[str, Future[bool | None]] = {}
         """The flights whose outcomes the app is asked for, by their ids."""
         self._untold: list[tuple[int, list[Any]]] = []
@@ -69,7 +74,7 @@ class Control:
             return "all missions have ended, and all drones are down"
         if self._stops is None:
             self._run.halt()
-            for work in self._steps_out.values():
+            for work in (*self._steps_out.values(), *self._joining.values()):
                 work.cancel()
             if self.whole is not None:
                 self.whole.cancel()  # it may still be querying drones: nothing may begin after that
@@ -151,7 +156,7 @@ class Control:
     ) -> Callable[[], None]:
         """Return what makes that change, checked; raise `BadInput` if it cannot be made."""
         record = self._record(mission)
-        refuse_if_older(self._run.app)
+        refuse_if_older(self._run.app, "trips can be changed in flight")
         if self._status(mission, record) in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
         self._refuse_while_it_steps_out(mission)
@@ -201,6 +206,29 @@ class Control:
             ", once its trip is over" if known["status"] == "BUSY" else ""
         )
 
+    def fleet_with(self, entry: Mapping[str, object]) -> FleetFile:
+        """Return the fleet with a drone that joins; raise `BadInput` if it cannot."""
+        self._refuse_after_stop()
+        refuse_if_older(self._run.app, "drones can join")
+        if not self._run.is_set_out:
+            raise BadInput("the drones are just being asked where they are: try again in a moment")
+        return with_joined(self._run.app, self._run.fleet, [entry])
+
+    def join(self, entry: Mapping[str, object]) -> str:
+        """Have a drone join the fleet, which the gateway has taken in already."""
+        fleet = self.fleet_with(entry)
+        drone = fleet.drones[-1].id
+        self._run.join(fleet, entry)
+        self._joining[drone] = self._run.kernel.spawn(self._ask(drone), FLEET, f"{drone} joins")
+        return f"{drone} joins the fleet"
+
+    async def _ask(self, drone: str) -> None:
+        """Ask a drone that joins how it is; before that it gets no trip."""
+        report = await self._link.drone_report(drone)
+        del self._joining[drone]
+        told = {drone: drone_told(report)}
+        self._run.driver.call(partial(self._run.brain.go_on, {}, told))
+
     def bring_back(self, drone: str) -> str:
         """Make a drone available again that was retired, or lost and repaired since."""
         known = self._drone(drone)
@@ -225,7 +253,7 @@ class Control:
     @property
     def waits(self) -> bool:
         """Whether missions that are in no graph keep the app running."""
-        if self._busy or self._steps_out:
+        if self._busy or self._steps_out or self._joining:
             return True
         waiting = [aside(record) for record in self._run.records.missions.values()]
         paused = any(one is not None and one[0] is Status.PAUSED for one in waiting)

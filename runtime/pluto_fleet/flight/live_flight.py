@@ -13,6 +13,7 @@ from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..files.fleet import with_joined
 from ..jobs.reports import Down
 from ..journal.errors import JournalError
 from ..journal.writer import Writer
@@ -21,7 +22,7 @@ from ..process.realtime import RealTime
 from ..shared.domain.errors import BadInput, Cancelled
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET
-from .commands import hear_commands, perform, stop_in
+from .commands import hear_commands, joining_in, perform, stop_in
 from .config import End, FlightResult
 from .recorded_flight import RecordedFlight
 
@@ -69,12 +70,13 @@ class LiveFlight:
         """Run until all missions have ended, it is stopped, or the gateway dies."""
         setting, kernel, self._stops = self._setting, self._kernel, stops
         lost = partial(self._end.set, End.LOST)
-        self._link = link = await setting.connect(kernel, self._store.epoch, lost)
+        fleet = with_joined(setting.app, setting.fleet, self._records.joined)
+        self._link = link = await setting.connect(kernel, fleet, self._store.epoch, lost)
         link.on_telemetry(self._seen)
         hooks = RealHooks(kernel)
         self.life = life = RecordedFlight(
             setting.app,
-            setting.fleet,
+            fleet,
             kernel,
             link,
             self._writer,
@@ -213,7 +215,21 @@ class LiveFlight:
 
         Raises `BadInput` if it cannot be done.
         """
+        await self.prepare(request)
         return await self.carry_out(lambda life: perform(life.control, request), stop_in(request))
+
+    async def prepare(self, request: Mapping[str, object]) -> None:
+        """Have the gateway take in a drone that is about to join: a brain knows none that is not there."""
+        entry = joining_in(request)
+        if entry is None or self.life is None or self._link is None or self._end.is_set:
+            return
+        if self._setting.joining is None:
+            raise BadInput("no drone can join this flight")
+        joining = await self._setting.joining(self.life.control.fleet_with(entry))
+        task = self._kernel.spawn(self._link.join(joining), FLEET, "a drone joins")
+        why = await self._kernel.offer(task)
+        if why:
+            raise BadInput(why)
 
     async def carry_out(
         self, what: Callable[[RecordedFlight], str], how: Down | None = None

@@ -53,6 +53,8 @@ class Records:
         """The retired drones."""
         self.mended: list[str] = self.data.setdefault("mended", [])
         """The drones that were lost and repaired, and are not back yet."""
+        self.joined: list[Record] = self.data.setdefault("joined", [])
+        """The drones that have joined the fleet, in their order, each as in a fleet file."""
         self.lost: dict[str, Record] = self.data.setdefault("lost", {})
         """The drones that no trip may have before a person has looked after them: why, and where
         each was when it was lost."""
@@ -322,6 +324,7 @@ def _inherited(records: Records, event: Fact) -> None:
     records.lost.update(event.get("lost") or {})
     records.mended += event.get("mended") or []
     records.retired += event.get("retired") or []
+    records.joined += event.get("joined") or []
 
 
 def _began(records: Records, event: Fact) -> None:
@@ -340,6 +343,10 @@ def _commanded(records: Records, event: Fact) -> None:
     """Remember a command's id: a sender that has missed the answer may repeat it."""
     records.commands.append(str(event["id"]))
     del records.commands[:-REMEMBERED]
+
+
+def _joined(records: Records, event: Fact) -> None:
+    records.joined.append(dict(event["entry"]))
 
 
 def _retired(records: Records, event: Fact) -> None:
@@ -440,6 +447,7 @@ _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
     "brain.began": _began,
     "stopped": _stopped,
     "commanded": _commanded,
+    "drone.joined": _joined,
     "drone.retired": _retired,
     "drone.brought_back": _brought_back,
     "drone.free": _came_back,

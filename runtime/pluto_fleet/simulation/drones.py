@@ -74,6 +74,10 @@ class SimulatedNavigation:
         self.telemetry: Mapping[str, Telemetry] = self.bodies
         """The drones' telemetry, always current."""
 
+    def join(self, drone: SimulatedDrone, _: object = None) -> None:
+        """Have one more drone, in its dock."""
+        self.bodies[drone.id] = Body(drone, self._kernel.time, self._seed)
+
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands; None: it takes them."""
         body = self.bodies[drone]

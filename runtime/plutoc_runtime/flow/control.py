@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import BadInput
-from ..domain.status import Status
+from ..domain.status import DroneStatus, Status
 from ..hooks.plain_data import trip_of
 from ..time.kernel import mission_key
 
@@ -89,6 +89,14 @@ class Control:
         self._core.fleet.bring_back(drone)
         return f"{drone.id} is back"
 
+    def _join(self, request: Request) -> str:
+        core, data = self._core, {"id": request["drone"], **request}
+        offline = DroneStatus.OFFLINE  # until it is said how it is
+        drone = core.orders.drone_of(core.app, data, offline, len(core.fleet.drones))
+        core.fleet.drones.append(drone)
+        self._restorer.drones[drone.id] = drone
+        return f"{drone.id} has joined"
+
     # Whether an action was done
 
     def _probe(self, request: Request) -> str:
@@ -136,5 +144,6 @@ _COMMANDS: Mapping[str, Callable[[Control, Request], str]] = {
     "prioritise": Control._prioritise,
     "retire": Control._retire,
     "bring-back": Control._bring_back,
+    "join": Control._join,
     "probe": Control._probe,
 }
