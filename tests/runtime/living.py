@@ -88,6 +88,7 @@ class Living:
             self.kernel, self.navigation, drones, space, ledger=Ledger(), measures=True
         )
         self.gateway.take_in = self.navigation.join
+        self.gateway.rehearse = self.navigation.mishap
         self.events: list[Event] = []
         self.done: Future[float] = Future()
         self._epoch = 0

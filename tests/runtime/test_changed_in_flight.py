@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
 
 import pytest
 
@@ -12,7 +12,7 @@ from pluto_fleet.trials.invariants import violations
 from . import apps
 from .living import Living, enterable, names
 
-Trip = dict[str, object]
+Trip = Mapping[str, object]
 
 
 def trip(name: str, x: float, **more: object) -> Trip:
@@ -42,9 +42,8 @@ def test_what_has_not_flown_is_flown_as_it_was_changed() -> None:
 
 def test_a_change_goes_on_after_the_app_dies() -> None:
     """Whether it was made in flight, or before the first drone was there."""
-    alone = replace(apps.fleet(), drones=apps.fleet().drones[:1])
     waits = apps.mission("b", apps.trip("1", 3), apps.trip("2", 4))
-    living = Living(enterable(), three_trips(), waits, on=alone)
+    living = Living(enterable(), three_trips(), waits)
     living.at(3.0, lambda: change(living, trip("3", 4)))
     living.at(
         3.0, lambda: living.life.control.change_trips("b", [trip("2", 8), trip("1", 3)], None)
@@ -59,9 +58,8 @@ def test_a_change_goes_on_after_the_app_dies() -> None:
 
 
 def test_a_mission_that_waits_keeps_its_turn_if_its_next_trip_stays() -> None:
-    alone = replace(apps.fleet(), drones=apps.fleet().drones[:1])
     missions = [apps.mission(name, apps.trip("1", 3), apps.trip("2", 4)) for name in "xab"]
-    living = Living(enterable(), *missions, on=alone)
+    living = Living(enterable(), *missions)
     living.at(2.0, lambda: change(living, {**trip("1", 3), "target": [3, 0.5, 1.2]}, trip("9", 5)))
     assert living.run() == ["COMPLETED"] * 3
     assert names(living.named("trip.launched"), "mission")[:3] == ["x", "a", "b"]
@@ -99,8 +97,7 @@ def test_a_trip_without_a_name_is_a_new_one() -> None:
 
 
 def test_a_trip_that_has_failed_waits_behind_others_and_keeps_its_attempts() -> None:
-    alone = replace(apps.fleet(), drones=apps.fleet().drones[:1])
-    living = Living(enterable(attempts=3), three_trips(), on=alone)
+    living = Living(enterable(attempts=3), three_trips())
     living.at(3.0, lambda: living.navigation.strike("cf1", Failure.LINK))
     living.at(9.0, lambda: change(living, trip("3", 7), trip("1", 3), replaces=["1", "2", "3"]))
     assert living.run() == ["COMPLETED"]
@@ -145,8 +142,7 @@ def test_what_cannot_be_flown_is_refused_in_words_and_changes_nothing() -> None:
 
 def test_a_mission_without_a_trip_left_and_one_that_has_ended_cannot_be_changed() -> None:
     waits = apps.mission("b", apps.trip("1", 3))
-    alone = replace(apps.fleet(), drones=apps.fleet().drones[:1])
-    living = Living(enterable(), apps.mission("a", apps.trip("1", 3)), waits, on=alone)
+    living = Living(enterable(), apps.mission("a", apps.trip("1", 3)), waits)
     living.run(3.0)
     with pytest.raises(BadInput, match=r'mission "b" would have no trip left: cancel it instead'):
         living.life.control.change_trips("b", [], None)

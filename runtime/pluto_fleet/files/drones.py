@@ -66,6 +66,8 @@ def joining_drone(
     _answers_alone(table, uris)
     if document.problems or drone is None:
         raise BadInput(shortened([one.sentence for one in document.problems]))
+    if drone.home[2] != 0.0:  # what is known of ways from the docks on the ground would not hold
+        raise BadInput(f"{table.who}: a drone that joins has its dock on the ground: home = [x, y]")
     return drone
 
 

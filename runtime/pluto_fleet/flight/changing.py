@@ -171,7 +171,7 @@ class TripChange:
         trip.index = index
         data: Record = trip_data(self._app, trip)
         before: Record = known.get(trip.name, {})
-        kept = {key: before[key] for key in ("attempt", "added") if key in before}
+        kept: Record = {key: before[key] for key in ("attempt", "added") if key in before}
         if before.get("status") == "FAILED":
             kept["attempt"] = before.get("attempt", 1) + 1
         return {**data, **kept}

@@ -15,6 +15,7 @@ from ..jobs.reports import Down
 from ..journal.errors import why
 from ..process.ipc import Answer, answering, listening
 from ..shared.domain.errors import BadInput
+from .mishaps import KINDS
 
 
 class Control(Protocol):
@@ -58,6 +59,10 @@ class Control(Protocol):
         """Have a drone join the fleet, given as in a fleet file."""
         ...
 
+    def mishap(self, drone: str, kind: str) -> str:
+        """Have a mishap happen to a simulated drone, to rehearse it."""
+        ...
+
     def bring_back(self, drone: str) -> str:
         """Make a drone available again that was retired, or lost and repaired since."""
         ...
@@ -99,6 +104,8 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.retire(drone)
         case {"command": "bring-back", "drone": str(drone)}:
             return control.bring_back(drone)
+        case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind in KINDS:
+            return control.mishap(drone, kind)
         case {"command": "join"} if (entry := joining_in(request)) is not None:
             return control.join(entry)
         case _:

@@ -19,6 +19,7 @@ from ..shared.domain.text import counted, quoted
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, Task
 from .changing import TripChange, refuse_if_older, refuse_if_stale
+from .mishaps import UNCERTAIN, Mishaps
 from .mission_status import aside, in_order
 from .reconcile import ANSWERS as DONE_OR_NOT
 from .reconcile import (
@@ -57,6 +58,8 @@ class Control:
         self.whole: Task[float] | None = None
         """The task that starts or resumes all missions, and waits for their end."""
         self._stops: Task[None] | None = None
+        self.mishaps = Mishaps(run, self._look_into)
+        """What happens to simulated drones to rehearse it."""
         self._busy = False
         """Whether a command is half done: missions may be in no graph that are about to go on."""
         self._steps_out: dict[str, Task[None]] = {}
@@ -197,7 +200,7 @@ class Control:
 
     def retire(self, drone: str) -> str:
         """Allocate a drone to no further trip, until it is brought back."""
-        known = self._drone(drone)
+        known = self.check_drone(drone)
         if drone in self._run.records.retired:
             return f"{drone} is retired already"
         self._run.note("drone.retired", drone=drone)
@@ -229,9 +232,18 @@ class Control:
         told = {drone: drone_told(report)}
         self._run.driver.call(partial(self._run.brain.go_on, {}, told))
 
+    def mishap(self, drone: str, kind: str) -> str:
+        """Have a mishap happen to a simulated drone in flight, to rehearse it."""
+        self.check_drone(drone)
+        said = f"{drone}: {kind}"
+        if kind == UNCERTAIN:
+            said = self.mishaps.arm(drone)
+        self._run.note("drone.mishap", drone=drone, kind=kind)
+        return said
+
     def bring_back(self, drone: str) -> str:
         """Make a drone available again that was retired, or lost and repaired since."""
-        known = self._drone(drone)
+        known = self.check_drone(drone)
         lost = known["status"] == "LOST"
         asked = lost or bool(known.get("unready"))
         if not asked and drone not in self._run.records.retired:
@@ -278,6 +290,10 @@ class Control:
                 self._steps_out[name] = self._run.kernel.spawn(
                     self._broken_off(name, record, then), FLEET, f"{name} is interrupted"
                 )
+
+    def _look_into(self, name: str, record: Record) -> None:
+        """Find out what came of a flight of which no report comes; its mission goes on if that is known."""
+        self._step_out(name, record, self._resume)
 
     @contextmanager
     def _half_done(self) -> Iterator[None]:
@@ -415,7 +431,8 @@ class Control:
 
     # Which missions and drones
 
-    def _drone(self, id: str) -> Mapping[str, Any]:
+    def check_drone(self, id: str) -> Mapping[str, Any]:
+        """Return where a drone stands; raise `BadInput` if it is not in the fleet."""
         self._refuse_after_stop()
         drones = self._run.brain.drones()
         if id in drones:

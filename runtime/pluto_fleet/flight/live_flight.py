@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -24,6 +24,7 @@ from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET
 from .commands import hear_commands, joining_in, perform, stop_in
 from .config import End, FlightResult
+from .mishaps import UNCERTAIN
 from .recorded_flight import RecordedFlight
 
 if TYPE_CHECKING:
@@ -219,15 +220,30 @@ class LiveFlight:
         return await self.carry_out(lambda life: perform(life.control, request), stop_in(request))
 
     async def prepare(self, request: Mapping[str, object]) -> None:
-        """Have the gateway take in a drone that is about to join: a brain knows none that is not there."""
-        entry = joining_in(request)
-        if entry is None or self.life is None or self._link is None or self._end.is_set:
+        """Have the gateway do its part of a command first; raise `BadInput` if it cannot.
+
+        It takes in a drone that is to join, as a brain knows none that is not there; and a mishap
+        happens to simulated drones.
+        """
+        life, link = self.life, self._link
+        if life is None or link is None or self._end.is_set:
             return
-        if self._setting.joining is None:
-            raise BadInput("no drone can join this flight")
-        joining = await self._setting.joining(self.life.control.fleet_with(entry))
-        task = self._kernel.spawn(self._link.join(joining), FLEET, "a drone joins")
-        why = await self._kernel.offer(task)
+        entry = joining_in(request)
+        if entry is not None:
+            if self._setting.joining is None:
+                raise BadInput("no drone can join this flight")
+            joining = await self._setting.joining(life.control.fleet_with(entry))
+            await self._asked(link.join(joining), "a drone joins")
+        match request:
+            case {"command": "mishap"} if not self._setting.sim:
+                raise BadInput("mishaps happen to simulated drones only: fly, or serve, with --sim")
+            case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind != UNCERTAIN:
+                life.control.check_drone(drone)
+                await self._asked(life.control.mishaps.happen(drone, kind), "a mishap")
+
+    async def _asked(self, question: Coroutine[Any, Any, str], what: str) -> None:
+        """Ask the gateway; raise `BadInput` with its reason why that cannot be."""
+        why = await self._kernel.offer(self._kernel.spawn(question, FLEET, what))
         if why:
             raise BadInput(why)
 

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+Rehearse = Callable[[str, str, "str | None"], Coroutine[Any, Any, str]]
 TakeIn = Callable[[SimulatedDrone, RealDrone | None], object]
 
 
@@ -123,6 +124,15 @@ class Link:
         if not self._gateway.is_commanded_by(self):
             await _for_ever()
         return self._gateway.join(joining)
+
+    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
+        """Have a mishap happen to a simulated drone; return why it cannot, or nothing."""
+        if not self._gateway.is_commanded_by(self):
+            await _for_ever()
+        why = await self._gateway.mishap(drone, kind, job)
+        if not self._is_heard:
+            await _for_ever()
+        return why
 
     async def home(self, drone: str) -> None:
         """Fly to its dock, and land there."""
@@ -266,6 +276,8 @@ class Gateway:
         self.kernel = kernel
         self.take_in: TakeIn = _take_in_none
         """Gives a drone that joins to the controls; raises `BadInput` if they cannot have it."""
+        self.rehearse: Rehearse | None = None
+        """Has mishaps happen to simulated drones; None: they are real."""
         self._measuring: MeasuringControls | None = None
         if measures:
             self._measuring = MeasuringControls(kernel, controls, drones, self.flown)
@@ -356,6 +368,15 @@ class Gateway:
             if part is not None:
                 part.join(drone)
         return ""
+
+    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
+        """Have a mishap happen to a simulated drone; return why it cannot, or nothing."""
+        if self.rehearse is None:
+            return "mishaps happen to simulated drones only"
+        why = await self.rehearse(drone, kind, job)
+        if not why and job is not None:
+            self.break_off(drone)  # what has been done is not reported
+        return why
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover."""

@@ -30,7 +30,7 @@ from ..shared.time.kernel import FLEET, EventKind
 from ..simulation.drones import SimulatedDrone, SimulatedNavigation
 from ..simulation.world_store import WorldStore, this_moment
 from .drone_lock import LEAVING, lock_drones
-from .gateway import Gateway, TakeIn
+from .gateway import Gateway, Rehearse, TakeIn
 from .ledger import FileLedger
 from .server import Server
 from .settings import settings_of
@@ -173,7 +173,7 @@ async def run(folder: Path, settings: Settings) -> None:
             simulated.join(drone)
             keeper.watch(drone.id)
 
-        await _command(folder, settings, kernel, simulated, seen, take_in)
+        await _command(folder, settings, kernel, simulated, seen, take_in, simulated.mishap)
         return
     from ..drones.team import make_team  # not needed in a simulation
 
@@ -227,8 +227,9 @@ async def _command(
     controls: Controls,
     seen: Sightings,
     take_in: TakeIn,
+    rehearse: Rehearse | None = None,
 ) -> None:
-    """Serve brains; `take_in` gives drones that join to the controls."""
+    """Serve brains; `take_in` gives drones that join to the controls, `rehearse` has mishaps happen."""
     gateway = Gateway(
         kernel,
         controls,
@@ -242,7 +243,7 @@ async def _command(
         leaving=seen.leaving,
         measures=True,
     )
-    gateway.take_in = take_in
+    gateway.take_in, gateway.rehearse = take_in, rehearse
     over: Future[None] = Future()
     ending = Ending(gateway, over, settings)
     publisher = Publisher(controls.telemetry)

@@ -231,6 +231,10 @@ class RemoteLink:
         """Take a drone into the fleet; return why that cannot be, or nothing."""
         return str(await self._ask(do="join", joining=joining))
 
+    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
+        """Have a mishap happen to a simulated drone; return why it cannot, or nothing."""
+        return str(await self._ask(do="mishap", drone=drone, kind=kind, job=job))
+
     async def home(self, drone: str) -> None:
         """Fly to its dock, and land there."""
         await self._ask(do="home", drone=drone)

@@ -294,6 +294,9 @@ def _asked(
         return link.bring_down(Down(message["how"]))
     drone = known(message["drone"])
     match what:
+        case "mishap":
+            job = message["job"]
+            return link.mishap(drone, str(message["kind"]), None if job is None else str(job))
         case "hold":
             return link.hold(drone)
         case "read":

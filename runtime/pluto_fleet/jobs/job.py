@@ -114,6 +114,13 @@ class CommandLink(Protocol):
         """Take a drone into the fleet, given as plain data; return why that cannot be, or nothing."""
         ...
 
+    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
+        """Have a mishap happen to a simulated drone; return why it cannot, or nothing.
+
+        `uncertain` returns when the action of that job was done, and no report comes of it.
+        """
+        ...
+
     async def home(self, drone: str) -> None:
         """Fly to its dock, and land there."""
         ...

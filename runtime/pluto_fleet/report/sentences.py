@@ -103,6 +103,7 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "trip.skipped": lambda event: f"trip {event['trip']} skipped",
     "trip.prioritised": lambda event: f"trip {event['trip']} has priority {event['priority']}",
     "drone.joined": lambda event: f"{event['drone']} joins the fleet",
+    "drone.mishap": lambda event: f"{event['drone']}: a mishap is rehearsed: {event['kind']}",
     "drone.retired": lambda event: f"{event['drone']} is retired",
     "drone.brought_back": _brought_back,
     "drone.not_ready": lambda event: f"{event['drone']} is not ready: {event['reason']}",
