@@ -109,7 +109,7 @@ class Control:
 
     def skip(self, mission: str, trip: str | None = None) -> str:
         """Skip a trip, the next one or the one named; if it flies, its drone comes home."""
-        record = self._record(mission)
+        record = self.record(mission)
         if self._status(mission, record) in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
         unwanted = _trip_to_skip(mission, record, trip)
@@ -129,7 +129,7 @@ class Control:
 
     def decide(self, mission: str, answer: str) -> str:
         """Answer an open question: `done`, `not-done`, `go-on` or `cancel`."""
-        record = self._record(mission)
+        record = self.record(mission)
         status = self._status(mission, record)
         fitting = ANSWERS.get(status, ())
         if answer not in fitting:
@@ -158,7 +158,7 @@ class Control:
         self, mission: str, trips: Sequence[object], replaces: Sequence[object] | None = None
     ) -> Callable[[], None]:
         """Return what makes that change, checked; raise `BadInput` if it cannot be made."""
-        record = self._record(mission)
+        record = self.record(mission)
         refuse_if_older(self._run.app, "trips can be changed in flight")
         if self._status(mission, record) in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
@@ -190,7 +190,7 @@ class Control:
 
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
         """Change the priority of a trip that has not been flown."""
-        record = self._record(mission)
+        record = self.record(mission)
         if not any(field.name == PRIORITY for field in self._run.app.fields):
             raise BadInput("the trips of this app have no priority")
         _trip_to_do(mission, record, trip)
@@ -445,7 +445,8 @@ class Control:
         known = in_order(self._run.records) if self._run.is_set_out else []
         return [(name, record) for name, record in known if not record["ended"]]
 
-    def _record(self, mission: str) -> Record:
+    def record(self, mission: str) -> Record:
+        """Return the record of a mission that is under way; raise `BadInput` if it is not."""
         self._refuse_after_stop()
         living = self._under_way()
         for name, record in living:
@@ -469,7 +470,7 @@ class Control:
     ) -> Sequence[tuple[str, Record]]:
         self._refuse_after_stop()
         if mission is not None:
-            record = self._record(mission)
+            record = self.record(mission)
             status = self._status(mission, record)
             if not fits(status):
                 raise BadInput(f"mission {quoted(mission)} is {status.value}")

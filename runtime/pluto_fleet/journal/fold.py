@@ -118,6 +118,7 @@ def _new() -> Record:
         "accepted": None,
         "promises": {},
         "late": False,
+        "replanned": False,
     }
 
 
@@ -148,7 +149,8 @@ def _replanned(_: Records, record: Record, event: Fact) -> None:
         record["delay"] = None  # it was the delay of another trip, or another delay
     names = {trip["name"] for trip in todo}
     old = (*record["gone"], *record["todo"])
-    record.update(gone=[trip for trip in old if trip["name"] not in names], todo=todo)
+    gone = [trip for trip in old if trip["name"] not in names]
+    record.update(gone=gone, todo=todo, replanned=True)
 
 
 def _delayed(_: Records, record: Record, event: Fact) -> None:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ..flight.mishaps import KINDS
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 
 _MISSION, _TRIP = {"mission": (str,)}, {"trip": (str,)}
 _ALL = {"mission": (str, type(None))}
+_JOINING = ("category", "home", "uri", "navigation", "options")
+"""The keys of a drone in a fleet file, which says all that is wrong with them."""
+_ANY = (str, list, dict, int, float, bool, type(None))
 
 NEEDS: Mapping[str, Mapping[str, tuple[type, ...]]] = {
     "start": {"revision": (int, type(None)), "missions": (list, type(None))},
@@ -20,9 +24,12 @@ NEEDS: Mapping[str, Mapping[str, tuple[type, ...]]] = {
     "skip": {**_MISSION, "trip": (str, type(None))},
     "cancel": _ALL,
     "decide": {**_MISSION, "answer": (str,)},
+    "change-trips": {**_MISSION, "trips": (list,), "replaces": (list, type(None))},
     "prioritise": {**_MISSION, **_TRIP, "priority": (int,)},
     "retire": {"drone": (str,)},
     "bring-back": {"drone": (str,)},
+    "join": {"drone": (str,), **dict.fromkeys(_JOINING, _ANY)},
+    "mishap": {"drone": (str,), "kind": (str,)},
     "cut-motors": {"drone": (str,)},
 }
 """The arguments of each command; those that may be null are optional."""
@@ -56,6 +63,8 @@ def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:
         raise Malformed(f"{name} needs missions: the keys of missions of the plan, or null")
     if name == "stop" and arguments["how"] not in HOWS:
         raise Malformed('stop needs how: "rtl", all fly home first, or "land", where they are')
+    if name == "mishap" and arguments["kind"] not in KINDS:
+        raise Malformed(f"mishap needs kind: one of {', '.join(KINDS)}")
     priority = arguments.get("priority")
     if isinstance(priority, int) and abs(priority) > LARGEST:
         raise Malformed(f"a priority is no more than {LARGEST}")
@@ -64,4 +73,5 @@ def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:
 
 def _said(types: tuple[type, ...]) -> str:
     names = {str: "a text", int: "a whole number", list: "a list", type(None): "null"}
+    names |= {dict: "an object", float: "a number", bool: "true or false"}
     return " or ".join(names[one] for one in types)

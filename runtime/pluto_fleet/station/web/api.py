@@ -77,6 +77,9 @@ class ServedStation(UpdateSource, Protocol):
     def described(self) -> Mapping[str, object]:
         """Return the constant data of app and fleet."""
 
+    async def edit(self, revision: int, missions: object, /) -> None:
+        """Replace the plan by a page's; raise `Stale` or `BadInput` if that cannot be."""
+
     async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
         """Carry out a command, unless it was carried out with this id before; raise `BadInput` if it cannot."""
 
@@ -120,7 +123,7 @@ async def change(station: ServedStation, audit: Audit, request: Request) -> Repl
             given = parsed_object(body)
             revision, missions = _whole(given, "revision"), given.pop("missions", None)
             _nothing_else(given)
-            edit = _at_once(lambda: plan.replace(revision, missions))
+            edit = station.edit(revision, missions)
         case "/api/plan/import":
             revision, text = asked_number(request.query, "revision"), _text(body)
             edit = plan.import_file(text, revision, _file(request.query))
