@@ -41,7 +41,7 @@ def header(
 ) -> dict[str, object]:
     """Return the header of a new journal, with the texts of the two files for later runs.
 
-    `inherited` has the drones that are lost, repaired or retired since earlier flights.
+    `inherited` has the drones that are lost, repaired or retired since earlier flights, or have joined.
     """
     return {
         "t": 0.0,

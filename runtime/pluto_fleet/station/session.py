@@ -103,6 +103,8 @@ class FlightSession:
         self.trouble = ""
         """Why it could not be resumed."""
         self.task: asyncio.Task[None] | None = None
+        self.heard: Callable[[Event], object] = _ignore
+        """Called with each event, once it is durable."""
         self._ended, self._seen = ended, seen
         self._idle = IdleDrones(flight.fleet.drones, flight.journal)
         self._waiting = WaitReasons(flight.app, flight.fleet, time.monotonic)
@@ -225,7 +227,9 @@ class FlightSession:
 
     def _hear(self, event: Event) -> None:
         """Update the pages outside of the current instant, so that errors there cannot affect the flight."""
-        asyncio.get_running_loop().call_soon(self.feed.take, event)
+        loop = asyncio.get_running_loop()
+        loop.call_soon(self.feed.take, event)
+        loop.call_soon(self.heard, event)
 
     def say(self, text: str) -> None:
         """Tell users on the console what they should know of it."""
@@ -274,7 +278,7 @@ class FlightSession:
         if life is not None and life.is_set_out:
             now, app, brain = self.now, self.flight.app, life.brain
             priority = next((one.default for one in app.fields if one.name == PRIORITY), None)
-            self._waiting.look(brain)
+            self._waiting.look(brain, life.fleet)
             why, where = self._waiting.why, brain.whereabouts()
             for name, record in in_order(life.records):
                 found = where.get(name)
@@ -310,3 +314,7 @@ class FlightSession:
             why, status = low or drone["unready"], "LOW" if low else ""
             silence = life.link.telemetry(id).silence
             yield rows.drone_row(id, drone, silence, work.get(id), why, status)
+
+
+def _ignore(_: object) -> None:
+    """Do nothing: no callback is set."""

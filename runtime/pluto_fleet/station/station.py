@@ -8,8 +8,10 @@ import time
 from collections import OrderedDict
 from collections.abc import Mapping
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from ..files.fleet import with_joined
 from ..flight.commands import perform
 from ..flight.config import End
 from ..flight.lives import FlightSetup, reopen
@@ -28,6 +30,7 @@ from ..shared.domain.text import counted
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
+from .flight_changes import FlightChanges
 from .history.past import PastFlights
 from .plan.promised import broken, promised
 from .preflight.start import StartForecasts
@@ -40,7 +43,9 @@ if TYPE_CHECKING:
 
     from ..app import App
     from ..flight.fly import Recovered
+    from ..flight.live_flight import LiveFlight
     from ..shared.domain.model import Mission
+    from ..shared.domain.trace import Event
     from .config import StationConfig
     from .plan.plan import MissionPlan
     from .preflight.start import PlannedStart
@@ -64,6 +69,9 @@ class Station:
 
     def __init__(self, app: App, config: StationConfig, plan: MissionPlan) -> None:
         self._app, self._config, self.plan = app, config, plan
+        self._changes = FlightChanges(app, plan, self._commandable)
+        self.fleet = config.fleet
+        """The fleet, with the drones that have joined it."""
         self.described = described(app, config, secrets.token_hex(8))
         self.session: FlightSession | None = None
         """The current or last flight."""
@@ -111,11 +119,19 @@ class Station:
         self.session = FlightSession(
             taken.flight(self._config.speed), self._over, self._updates.hurry
         )
+        self.session.heard = self._follow
         self.session.read(taken.known)
         if taken.is_over:
             self.session.end = End.OVER
         taken.store.close()
         self._lock_what_flies()
+
+    async def edit(self, revision: int, missions: object) -> None:
+        """Replace the plan by a page's; of missions that fly, what has not flown is changed in flight.
+
+        Raises `Stale` if it was drawn on an old revision, and `BadInput` if that cannot be flown so.
+        """
+        await self._changes.edit(revision, missions)
 
     # Commands
 
@@ -155,6 +171,8 @@ class Station:
             case "discard":
                 async with self._one_at_a_time:
                     return await self._discard()
+            case "change-trips":
+                return await self._changes.change_trips(id, given)
             case _:
                 return await self._of_the_flight(name, id, given)
 
@@ -189,7 +207,7 @@ class Station:
         except BaseException:
             self._lock_what_flies()
             raise
-        impossible = await broken(held_to, self._app, self._config.fleet)
+        impossible = await broken(held_to, self._app, self.fleet)
         if self.session is not None:
             for said in impossible:
                 self.session.say(said)
@@ -215,7 +233,7 @@ class Station:
         self.history.read()
         self.history.check_free()
         lost = self.history.lost
-        if lost and len(lost) == len(self._config.fleet.drones):
+        if lost and len(lost) == len(self.history.fleet.drones):
             raise BadInput(
                 "every drone is lost: look after one, put it into its dock, and bring it back first"
             )
@@ -248,6 +266,34 @@ class Station:
             self.plan.settle(self.session.ends, self.session.done)
         else:
             self.plan.adopt(self.session.names)
+            known = self.session.known
+            for name, record in known.missions.items() if known is not None else ():
+                if record["replanned"]:
+                    self.plan.follow(name, record)
+        self._know_the_fleet()
+
+    def _know_the_fleet(self) -> None:
+        """Draw for, and show, the drones that have joined, too."""
+        known = self.session.known if self.session is not None else None
+        fleet = self.history.fleet
+        if known is not None:
+            own = {one.id for one in self._config.fleet.drones}  # it may be in the file by now
+            joined = [one for one in known.joined if one["id"] not in own]
+            fleet = with_joined(self._app, self._config.fleet, joined)
+        if fleet.drones != self.fleet.drones:
+            self.fleet = fleet
+            self.plan.fly_with(fleet)
+            config = replace(self._config, fleet=fleet)
+            self.described = described(self._app, config, self.described["server"])
+
+    def _follow(self, event: Event) -> None:
+        """Let the plan agree with the flight, whoever has commanded what has happened."""
+        known = self.session.known if self.session is not None else None
+        if event["event"] == "drone.joined":
+            self._know_the_fleet()
+        elif event["event"] == "mission.replanned" and known is not None:
+            name = str(event["mission"])
+            self.plan.follow(name, known.missions[name])
 
     async def _set_out(self, missions: list[Mission[Any]], text: str) -> None:
         config = self._config
@@ -280,6 +326,7 @@ class Station:
         known = Records()
         known.take(begun)
         self.session = FlightSession(flight, self._over, self._updates.hurry, known)
+        self.session.heard = self._follow
         self._begin(self.session, store, None)
 
     def resume(self) -> str:
@@ -370,19 +417,25 @@ class Station:
         return said
 
     async def _of_the_flight(self, name: str, id: str, given: Mapping[str, object]) -> str:
+        one, request = self._commandable(), {"command": name, **given}
+        await one.prepare(request)
+
+        def do(life: RecordedFlight) -> str:
+            said = perform(life.control, request)
+            life.control.remember(id, name)
+            return said
+
+        return await one.carry_out(do)
+
+    def _commandable(self) -> LiveFlight:
+        """Return the run that can be commanded; raise `BadInput` if there is none."""
         session = self.session
         if session is None or not session.lives:
             held = self.phase in (Phase.STOPPED, Phase.INTERRUPTED)
             raise BadInput("nothing flies now" + (": resume the flight first" if held else ""))
         if session.one is None or session.life is None:
             raise BadInput(_NOT_YET)
-
-        def do(life: RecordedFlight) -> str:
-            said = perform(life.control, {"command": name, **given})
-            life.control.remember(id, name)
-            return said
-
-        return await session.one.carry_out(do)
+        return session.one
 
     def leave(self) -> None:
         """End the station as soon as all drones have landed."""

@@ -49,8 +49,9 @@ class WaitReasons:
         """By mission and trip: when it was asked, and the reason."""
         self._left = MISSIONS_A_LOOK
 
-    def look(self, brain: Brain) -> None:
-        """Begin a sample of all missions and drones."""
+    def look(self, brain: Brain, fleet: FleetData) -> None:
+        """Begin a sample of all missions and drones; drones may have joined the fleet."""
+        self._fleet = fleet
         now, self._left, self._drones = self._clock(), MISSIONS_A_LOOK, brain.drones()
         self._known = {
             which: (asked, said)

@@ -124,6 +124,9 @@ class AStation:
     def described(self) -> AppData:
         return cast(AppData, {"name": "alfalfa"})
 
+    async def edit(self, revision: int, missions: object, /) -> None:
+        self.plan.replace(revision, missions)
+
     async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
         if self.wrong is not None:
             raise self.wrong

@@ -124,6 +124,9 @@ class WithAPlan:
     def past(self) -> ServedFlights:
         return self.rest.past
 
+    async def edit(self, revision: int, missions: object, /) -> None:
+        self.plan.replace(revision, missions)
+
     def console(self) -> str:
         return self.rest.console()
 

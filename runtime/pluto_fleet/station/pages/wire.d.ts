@@ -90,6 +90,16 @@ export interface CategoryData {
   actions: string[] | null;
 }
 
+/** Change what has not flown of a mission that is under way. */
+export interface ChangeTrips {
+  id: string;
+  mission: string;
+  /** All that is to be flown from now on, but for the trip that flies now. */
+  trips: PlanTrip[];
+  /** The names of the trips that were seen to wait: others are refused; null: any. */
+  replaces?: string[] | null;
+}
+
 /** Switch a drone's motors off at once: if it flies, it falls. */
 export interface CutMotors {
   id: string;
@@ -287,6 +297,18 @@ export interface ItemData {
   mass?: string | number | number | boolean;
 }
 
+/** Let a drone join the flight that is under way, as an entry of a fleet file says it. */
+export interface Join {
+  id: string;
+  /** Its id. */
+  drone: string;
+  category?: string | null;
+  home?: number[] | null;
+  uri?: string | null;
+  navigation?: string | null;
+  options?: Record<string, string | number | number | boolean> | null;
+}
+
 /** A layer of the map: what of the results it shows, and how. The id of a layer of `measure` without a quantity stands for a layer for each quantity that is measured and has none of its own. */
 export interface Layer {
   id: string;
@@ -365,6 +387,13 @@ export interface Me {
   name: string;
   page: string;
   touches: string;
+}
+
+/** Let something go wrong with a simulated drone, to rehearse it. */
+export interface Mishap {
+  id: string;
+  drone: string;
+  kind: "lost" | "crash" | "battery" | "uncertain";
 }
 
 /** What is expected of a mission. */

@@ -39,7 +39,7 @@ async def replace_plan(asked: Asked) -> Reply:
     given = dict(asked.given)
     revision, missions = _whole(given, "revision"), given.pop("missions", None)
     _nothing_else(given)
-    return await _edited(asked, _at_once(lambda: asked.station.plan.replace(revision, missions)))
+    return await _edited(asked, asked.station.edit(revision, missions))
 
 
 async def import_plan(asked: Asked) -> Reply:

@@ -97,6 +97,9 @@ class ServedStation(UpdateSource, Protocol):
     def described(self) -> AppData:
         """Return the constant data of app and fleet."""
 
+    async def edit(self, revision: int, missions: object, /) -> None:
+        """Replace the plan by a page's; raise `Stale` or `BadInput` if that cannot be."""
+
     async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
         """Carry out a command, unless it was carried out with this id before; raise `BadInput` if it cannot."""
 
