@@ -100,10 +100,11 @@ class Station:
 
     # Commands
 
-    async def command(self, name: str, id: str, given: Mapping[str, object]) -> str:
+    async def command(self, name: str, id: str, given: Mapping[str, object], by: str = "") -> str:
         """Carry out a command, once; return what was done, or raise `BadInput`.
 
-        It is idempotent: a command that is repeated with the same id gets the same answer.
+        It is idempotent: a command that is repeated with the same id gets the same answer. `by` is
+        the name of the person who gives it, if that is known.
         """
         arguments = checked(name, given)
         if id in self._answers:
@@ -111,14 +112,14 @@ class Station:
         known = self.session.known if self.session is not None else None
         if known is not None and id in known.commands:
             return "done already"
-        answer = asyncio.ensure_future(self._do(name, id, arguments))
+        answer = asyncio.ensure_future(self._do(name, id, arguments, by))
         self._answers[id] = answer
         answer.add_done_callback(_heard)
         while len(self._answers) > ANSWERS_KEPT and next(iter(self._answers.values())).done():
             self._answers.popitem(last=False)
         return await asyncio.shield(answer)  # it is completed even if the page disconnects
 
-    async def _do(self, name: str, id: str, given: Mapping[str, object]) -> str:
+    async def _do(self, name: str, id: str, given: Mapping[str, object], by: str) -> str:
         match name:
             case "stop":
                 return await self._stop(Down(str(given["how"])))
@@ -126,7 +127,7 @@ class Station:
                 return await self._cut_motors(str(given["drone"]))
             case "start":
                 async with self._one_at_a_time:
-                    return await self._start(id, given)
+                    return await self._start(id, given, by)
             case "resume":
                 async with self._one_at_a_time:
                     return self.resume()
@@ -139,7 +140,7 @@ class Station:
             case _:
                 return await self._of_the_flight(name, id, given)
 
-    async def _start(self, id: str, given: Mapping[str, object]) -> str:
+    async def _start(self, id: str, given: Mapping[str, object], by: str) -> str:
         await self.plan.examined()
         if self.session is None:
             self.begin()  # another process may have flown meanwhile
@@ -166,7 +167,7 @@ class Station:
             if phase is Phase.FLYING:
                 await self._add(id, missions)
             else:
-                await self._set_out(missions, text)
+                await self._set_out(missions, text, by)
         except BaseException:
             self._lock_what_flies()
             raise
@@ -218,7 +219,7 @@ class Station:
         else:
             self.plan.adopt(self.session.names)
 
-    async def _set_out(self, missions: list[Mission[Any]], text: str) -> None:
+    async def _set_out(self, missions: list[Mission[Any]], text: str, by: str) -> None:
         config = self._config
         for index, mission in enumerate(missions):
             mission.index = index
@@ -232,6 +233,7 @@ class Station:
             seed=config.seed,
             faults=config.faults,
             inherited=self.history.facts,
+            by=by,
         )
         await asyncio.to_thread(self.history.hand_on_the_world, journal)
         store = Store.create(journal, begun)

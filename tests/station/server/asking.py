@@ -76,7 +76,7 @@ class AStation:
     def described(self) -> AppData:
         return cast(AppData, {"name": "alfalfa"})
 
-    async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
+    async def command(self, name: str, id: str, given: Mapping[str, object], by: str, /) -> str:
         if self.wrong is not None:
             raise self.wrong
         if self.busy is not None and name not in ("stop", "cut-motors"):

@@ -10,6 +10,9 @@ from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from math import isfinite
 from typing import Protocol
+from urllib.parse import unquote
+
+from ...shared.domain.text import cut_off, printable
 
 Read = Callable[[int], Awaitable[bytes]]
 """Reads a body to its end; raises `Refused` if it has more than so many bytes."""
@@ -32,6 +35,12 @@ class Request:
     client: str = ""  # the address of the connection; headers of proxies are ignored
     local: str = ""  # the address that it connected to
 
+    @property
+    def who(self) -> str:
+        """The name that a person has given themselves, sanitized; it is never trusted."""
+        name = unquote(self.headers.get(WHO, "")[:_LONGEST_HEADER], errors="replace")
+        return cut_off(printable(name.strip()), LONGEST_WHO)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reply:
@@ -42,6 +51,11 @@ class Reply:
     type: str = "application/json"
     headers: tuple[tuple[str, str], ...] = ()
 
+
+WHO = "x-pluto-who"
+"""The header with the name of a person, percent-encoded."""
+LONGEST_WHO = 40
+_LONGEST_HEADER = 1_000
 
 MISTAKES: tuple[type[Exception], ...] = (Exception,)
 """The exceptions that are caught for bugs of the station: only one request fails."""

@@ -51,8 +51,11 @@ class ServedStation(UpdateSource, Protocol):
     def described(self) -> AppData:
         """Return the constant data of app and fleet."""
 
-    async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
-        """Carry out a command, unless it was carried out with this id before; raise `BadInput` if it cannot."""
+    async def command(self, name: str, id: str, given: Mapping[str, object], by: str, /) -> str:
+        """Carry out a command of a person, unless it was carried out with this id before.
+
+        `by` is the person's name, or empty. Raise `BadInput` if it cannot be done.
+        """
 
     def console(self) -> str:
         """Return the console."""
