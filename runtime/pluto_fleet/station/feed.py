@@ -35,6 +35,13 @@ class VersionedRows(Generic[Row]):
         self._rows[name] = number, row, json.dumps(row)
         return True
 
+    def drop(self, name: str) -> None:
+        """Forget a row; pages that have it keep it."""
+        self._rows.pop(name, None)
+
+    def __iter__(self) -> Iterator[Row]:
+        return (row for _, row, _ in self._rows.values())
+
     def since(self, number: int) -> Iterator[str]:
         """Yield the rows that have changed after a version."""
         return (text for changed, _, text in self._rows.values() if changed > number)
@@ -46,6 +53,9 @@ in mind."""
 
 LINES_KEPT = 20_000
 """The number of lines, and of results, that are kept; older ones are only in the journal."""
+
+FINDINGS_KEPT = 100
+"""The number of results with findings of which pages are alerted."""
 
 LINES_A_MESSAGE = 500
 """The most lines in one message: the newest ones."""
@@ -88,6 +98,8 @@ class Feed:
         self._app, self._units = app, units
         self.log: Tail[LogLine] = Tail()
         self.results: Tail[Result] = Tail()
+        self.findings: deque[Result] = deque(maxlen=FINDINGS_KEPT)
+        """The newest results in which something was found."""
         self._lines: deque[str] = deque(maxlen=LINES_KEPT)
         self._brought: deque[object] = deque(maxlen=LINES_KEPT)
         """The results as they are downloaded, with the full values that pages get shortened."""
@@ -180,6 +192,8 @@ class Feed:
         if quantity is not None and isinstance(value, (int, float)):
             result["values"] = [{"quantity": quantity, "value": value, "unit": unit}]
         self.results.add(result)
+        if result["tags"]:
+            self.findings.append(result)
         facts = {key: fact for key, fact in result.items() if key in _FILED}
         asked = {"quantity": quantity, "unit": unit} if done else {}
         self._brought.append({**facts, "value": value, **done, **asked})

@@ -108,6 +108,13 @@ class CutMotors(Command):
     drone: str
 
 
+class Acknowledge(Command):
+    """Say that a person knows of an alert."""
+
+    alert: str
+    """Its id."""
+
+
 COMMANDS: Mapping[str, type[Command]] = {
     "start": Start,
     "stop": Stop,
@@ -122,6 +129,7 @@ COMMANDS: Mapping[str, type[Command]] = {
     "retire": Retire,
     "bring-back": BringBack,
     "cut-motors": CutMotors,
+    "acknowledge": Acknowledge,
 }
 """The body of each command, at `/api/` and its name."""
 

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 END = "end"
 """The pseudo-block of missions that have ended."""
 
+WAITS_FOR_A_DRONE = "waits for a drone"
+"""With why none flies, if that is known already."""
+
 ENDED = (Status.COMPLETED, Status.FAILED, Status.CANCELLED)
 
 _BRANCHES = re.compile(r"\[(.*)\]")
@@ -107,15 +110,21 @@ def recorded_row(name: str, record: Record, *, lives: bool = False) -> MissionRo
 
 
 def drone_row(
-    id: str, drone: Mapping[str, Any], silence: float, mission: str | None, why: str, status: str
+    id: str,
+    drone: Mapping[str, Any],
+    silence: float,
+    mission: str | None,
+    why: str,
+    status: str,
+    ready_in: float | None = None,
 ) -> DroneRow:
     """Return the row of a drone as it stands, rounded to centimetres and thousandths.
 
     `silence`: the seconds since it was heard last; `why`: why it may not fly; `status` replaces its
-    own status if that would mislead.
+    own status if that would mislead; `ready_in`: the seconds until it is charged, if it is not.
     """
     heard = isfinite(silence)
-    return _drone_row(
+    row = _drone_row(
         id,
         status or drone["status"],
         drone["at"] if heard else None,
@@ -126,6 +135,9 @@ def drone_row(
         why,
         time.time() - silence if heard and silence > STALE_AFTER else None,
     )
+    if ready_in is not None:
+        row["ready_in"] = round(ready_in)
+    return row
 
 
 def drone_at(
@@ -203,7 +215,7 @@ def _why_it_waits(
         return "waits until its time has come"
     if not where["allocated"] and at and at[0] in resumes:
         why = fleet()
-        return f"waits for a drone ({why})" if why else "waits for a drone"
+        return f"{WAITS_FOR_A_DRONE} ({why})" if why else WAITS_FOR_A_DRONE
     if at and status in ENDED:
         return f"waits for what {at[0]} says"
     return ""

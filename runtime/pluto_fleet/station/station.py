@@ -25,6 +25,8 @@ from ..process.ipc import NoAnswer, NotRunning
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted
+from .attention.attention import FILE as ALERTS
+from .attention.attention import Attention
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
@@ -62,6 +64,8 @@ class Station:
         """Set when the station is to end and nothing flies any more."""
         self.map_revision = 0
         """The revision of what is drawn on the map, which nothing changes while a station runs."""
+        self.attention = Attention(config.own_folder / ALERTS, time.time)
+        """What people must know of."""
         self._leaving = False
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._updates = Updates(self)
@@ -134,6 +138,8 @@ class Station:
             case "bring-back" if self.session is None or not self.session.lives:
                 async with self._one_at_a_time:
                     return self._bring_back(id, str(given["drone"]))
+            case "acknowledge":
+                return self.attention.acknowledge(str(given["alert"]), by)
             case "discard":
                 async with self._one_at_a_time:
                     return await self._discard()
