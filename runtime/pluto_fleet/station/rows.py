@@ -66,43 +66,57 @@ def living_row(
     until = where["until"] or opens
     until = until if (until or 0.0) > now else None
     why = partial(fleet, name, todo)
-    row = recorded_row(name, record, lives=True)
+    wait = "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
+    trips = [_trip(trip, "COMPLETED", priority) for trip in record["done"]]
+    trips += [_trip(trip, "WAITING", priority) for trip in todo]
     # once its trips are done, a block has yet to decide
-    row["status"] = (Status.STANDBY if status in ENDED else status).value
-    row["trips"] = [_trip(trip, "COMPLETED", priority) for trip in record["done"]]
-    row["trips"] += [_trip(trip, "WAITING", priority) for trip in todo]
-    row["drone"], row["at"], row["until"] = where["drone"], list(at), until
-    row["wait"] = (
-        "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
-    )
+    stands = Status.STANDBY if status in ENDED else status
+    row = _row(name, record, stands, str(record["reason"]), trips, [*at], wait)
+    row["drone"], row["until"] = where["drone"], until
     return row
 
 
 def recorded_row(name: str, record: Record, *, lives: bool = False) -> MissionRow:
     """Return the row of a mission from its journal's record; `lives`: its app is running."""
-    done, todo = record["done"], record["todo"]
     status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
     if status is Status.RUNNING or (status in ENDED and not record["ended"]):
         status = Status.STANDBY  # it flew, and does so no longer; or its outcome is open
     at = [END] if record["ended"] else [record["at"]] if record["at"] else []
+    trips = [_recorded_trip(trip, "COMPLETED") for trip in record["done"]]
+    trips += [_recorded_trip(trip, "WAITING") for trip in record["todo"]]
+    row = _row(name, record, status, reason, trips, at, _WAITS.get(status, "") if lives else "")
+    if lives:
+        row["drone"], row["question"] = record["carrier"], _question(status, reason)
+    return row
+
+
+def _row(
+    name: str,
+    record: Record,
+    status: Status,
+    reason: str,
+    trips: list[TripRow],
+    at: list[str],
+    wait: str,
+) -> MissionRow:
+    done, todo = len(record["done"]), record["todo"]
     return {
         "name": name,
         "index": record["index"],
         "status": status.value,
         "reason": reason,
-        "trips": [_recorded_trip(trip, "COMPLETED") for trip in done]
-        + [_recorded_trip(trip, "WAITING") for trip in todo],
-        "current": len(done) if todo else None,
-        "done": len(done),
-        "total": len(done) + len(todo),
-        "drone": record["carrier"] if lives else None,
+        "trips": trips,
+        "current": done if todo else None,
+        "done": done,
+        "total": len(trips),
+        "drone": None,
         "at": at,
-        "wait": _WAITS.get(status, "") if lives else "",
+        "wait": wait,
         "until": None,
         "attempt": todo[0].get("attempt", 1) if todo else 1,
         "attempts": record["attempts"],
         "round": record["round"],
-        "question": _question(status, reason) if lives else None,
+        "question": None,
         "due": record["promises"].get("deadline"),
         "late": record["late"],
         "fields": {key: one for key, one in record["fields"].items() if one is not None},
