@@ -259,3 +259,7 @@ class Calls(Connection):
     def cut_motors(self, *, drone: str, id: str | None = None) -> str:
         """Switch a drone's motors off at once: if it flies, it falls."""
         return self._command("/api/cut-motors", id, {"drone": drone})
+
+    def acknowledge(self, *, alert: str, id: str | None = None) -> str:
+        """Say that a person knows of an alert."""
+        return self._command("/api/acknowledge", id, {"alert": alert})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,6 +26,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 from ..simulation.world_store import DRONES
 from . import rows
+from .attention.causes import Cause, of_drones
 
 if TYPE_CHECKING:
     from ..app import App
@@ -65,6 +66,10 @@ class IdleDrones:
             ids |= dict.fromkeys(str(one["id"]) for one in known.joined)
         for id in ids:
             yield _row(id, sightings.get(id), known, now)
+
+    def crashed(self) -> Collection[str]:
+        """Return the drones that fell, as the gateway has seen."""
+        return [id for id, seen in self._newest().items() if seen.crashed]
 
     def write_down(self, app: App, known: Records | None) -> bool:
         """Record the drones that crashed while no app was running; return whether there are any.
@@ -326,3 +331,7 @@ class FleetHistory:
         known = self.records
         if self._journal is not None or known.lost or known.mended or known.retired:
             yield from self._idle.rows(known)
+
+    def causes(self, drones: Sequence[DroneRow]) -> Iterator[Cause]:
+        """Yield what a person must know of while there is no flight."""
+        return of_drones(drones, self._idle.crashed())

@@ -140,6 +140,13 @@ class CutMotors(Command):
     drone: str
 
 
+class Acknowledge(Command):
+    """Say that a person knows of an alert."""
+
+    alert: str
+    """Its id."""
+
+
 COMMANDS: Mapping[str, type[Command]] = {
     "start": Start,
     "stop": Stop,
@@ -157,6 +164,7 @@ COMMANDS: Mapping[str, type[Command]] = {
     "join": Join,
     "mishap": Mishap,
     "cut-motors": CutMotors,
+    "acknowledge": Acknowledge,
 }
 """The body of each command, at `/api/` and its name."""
 

@@ -6,7 +6,7 @@ import asyncio
 import json
 import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import closing, suppress
 from enum import Enum
 from pathlib import Path
@@ -23,6 +23,15 @@ from ..journal.reader import Reader
 from ..shared import output
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
+from .attention.causes import (
+    Cause,
+    of_batteries,
+    of_drones,
+    of_missions,
+    of_results,
+    of_waiting,
+)
+from .attention.waits import Waits
 from .between_flights import IdleDrones
 from .feed import Feed, VersionedRows
 from .history.folder import recording_of
@@ -108,6 +117,7 @@ class FlightSession:
         self._ended, self._seen = ended, seen
         self._idle = IdleDrones(flight.fleet.drones, flight.journal)
         self._waiting = WaitReasons(flight.app, flight.fleet, time.monotonic)
+        self._waits = Waits()
         self._left_at = 0.0
         self.recorder: Recorder | None = None
         """Records what pages are shown, from its begin on until its end."""
@@ -313,7 +323,26 @@ class FlightSession:
             low = self._waiting.why_low(drone)
             why, status = low or drone["unready"], "LOW" if low else ""
             silence = life.link.telemetry(id).silence
-            yield rows.drone_row(id, drone, silence, work.get(id), why, status)
+            ready = self._waiting.ready_in(id, drone, bool(low))
+            yield rows.drone_row(id, drone, silence, work.get(id), why, status, ready)
+
+    def causes(self) -> Iterator[Cause]:
+        """Yield what a person must know of, as the rows are now."""
+        drones = list(self.drones)
+        long = self._waits.look(self.missions, self.now) if self.lives else 0
+        yield from of_drones(drones, self.crashed(drones))
+        yield from of_missions(self.missions)
+        yield from of_results(self.feed.findings)
+        if self.lives:
+            yield from of_batteries(drones, self._waits.any)
+            cause = of_waiting(long, drones, self._waiting.takes) if long else None
+            if cause is not None:
+                yield cause
+
+    def crashed(self, drones: Sequence[DroneRow]) -> Collection[str]:
+        """Return the lost drones of which the gateway knows that they fell."""
+        lost = [row["id"] for row in drones if row["status"] == "LOST"]
+        return self._idle.crashed() if lost else ()
 
 
 def _ignore(_: object) -> None:

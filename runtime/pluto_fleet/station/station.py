@@ -27,6 +27,8 @@ from ..process.ipc import NoAnswer, NotRunning
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted
+from .attention.attention import FILE as ALERTS
+from .attention.attention import Attention
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
@@ -79,6 +81,8 @@ class Station:
         """Set when the station is to end and nothing flies any more."""
         self.map_revision = 0
         """The revision of what is drawn on the map, which nothing changes while a station runs."""
+        self.attention = Attention(config.own_folder / ALERTS, time.time)
+        """What people must know of."""
         self._leaving = False
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._updates = Updates(self)
@@ -135,10 +139,11 @@ class Station:
 
     # Commands
 
-    async def command(self, name: str, id: str, given: Mapping[str, object]) -> str:
+    async def command(self, name: str, id: str, given: Mapping[str, object], by: str = "") -> str:
         """Carry out a command, once; return what was done, or raise `BadInput`.
 
-        It is idempotent: a command that is repeated with the same id gets the same answer.
+        It is idempotent: a command that is repeated with the same id gets the same answer. `by` is
+        the name of the person who gives it, if that is known.
         """
         arguments = checked(name, given)
         if id in self._answers:
@@ -146,14 +151,14 @@ class Station:
         known = self.session.known if self.session is not None else None
         if known is not None and id in known.commands:
             return "done already"
-        answer = asyncio.ensure_future(self._do(name, id, arguments))
+        answer = asyncio.ensure_future(self._do(name, id, arguments, by))
         self._answers[id] = answer
         answer.add_done_callback(_heard)
         while len(self._answers) > ANSWERS_KEPT and next(iter(self._answers.values())).done():
             self._answers.popitem(last=False)
         return await asyncio.shield(answer)  # it is completed even if the page disconnects
 
-    async def _do(self, name: str, id: str, given: Mapping[str, object]) -> str:
+    async def _do(self, name: str, id: str, given: Mapping[str, object], by: str) -> str:
         match name:
             case "stop":
                 return await self._stop(Down(str(given["how"])))
@@ -161,13 +166,15 @@ class Station:
                 return await self._cut_motors(str(given["drone"]))
             case "start":
                 async with self._one_at_a_time:
-                    return await self._start(id, given)
+                    return await self._start(id, given, by)
             case "resume":
                 async with self._one_at_a_time:
                     return self.resume()
             case "bring-back" if self.session is None or not self.session.lives:
                 async with self._one_at_a_time:
                     return self._bring_back(id, str(given["drone"]))
+            case "acknowledge":
+                return self.attention.acknowledge(str(given["alert"]), by)
             case "discard":
                 async with self._one_at_a_time:
                     return await self._discard()
@@ -176,7 +183,7 @@ class Station:
             case _:
                 return await self._of_the_flight(name, id, given)
 
-    async def _start(self, id: str, given: Mapping[str, object]) -> str:
+    async def _start(self, id: str, given: Mapping[str, object], by: str) -> str:
         await self.plan.examined()
         if self.session is None:
             self.begin()  # another process may have flown meanwhile
@@ -203,7 +210,7 @@ class Station:
             if phase is Phase.FLYING:
                 await self._add(id, missions)
             else:
-                await self._set_out(missions, text)
+                await self._set_out(missions, text, by)
         except BaseException:
             self._lock_what_flies()
             raise
@@ -295,7 +302,7 @@ class Station:
             name = str(event["mission"])
             self.plan.follow(name, known.missions[name])
 
-    async def _set_out(self, missions: list[Mission[Any]], text: str) -> None:
+    async def _set_out(self, missions: list[Mission[Any]], text: str, by: str) -> None:
         config = self._config
         for index, mission in enumerate(missions):
             mission.index = index
@@ -309,6 +316,7 @@ class Station:
             seed=config.seed,
             faults=config.faults,
             inherited=self.history.facts,
+            by=by,
         )
         await asyncio.to_thread(self.history.hand_on_the_world, journal)
         store = Store.create(journal, begun)

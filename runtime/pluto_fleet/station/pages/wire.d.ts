@@ -1,5 +1,12 @@
 // Made from pluto_fleet/station/wire.py by `python -m tests.station.schema`: change that.
 
+/** Say that a person knows of an alert. */
+export interface Acknowledge {
+  id: string;
+  /** Its id. */
+  alert: string;
+}
+
 /** An action that a drone of the fleet can do. */
 export interface ActionData {
   name: string;
@@ -8,7 +15,7 @@ export interface ActionData {
   parameters: ParameterData[];
 }
 
-/** Something that somebody must know of, until it is over. */
+/** Something that a person must know of, until it is over. */
 export interface Alert {
   id: string;
   kind: "lost" | "crashed" | "battery" | "uncertain" | "finding" | "late" | "waiting" | "failed";
@@ -20,7 +27,7 @@ export interface Alert {
   since_at: number;
   said: Words;
   over: boolean;
-  /** Who has acknowledged it. */
+  /** Who has acknowledged it: a name, or an empty text if none was said; null: it was not. */
   by: string | null;
   by_at: number | null;
 }

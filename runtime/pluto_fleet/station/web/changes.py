@@ -25,7 +25,7 @@ async def command(asked: Asked) -> Reply:
         raise Malformed(f"a command needs an id: a text of at most {_LONGEST_ID} characters")
     name = asked.request.path.removeprefix("/api/")
     try:
-        status, told = 200, await asked.station.command(name, id, given)
+        status, told = 200, await asked.station.command(name, id, given, asked.request.who)
     except Malformed:
         raise
     except BadInput as error:
