@@ -8,6 +8,7 @@ import { useCamera } from "../map/camera.js";
 import { LINE, placed } from "../map/labels.js";
 import { toPixels, whyNot } from "../map/view.js";
 import { where } from "./commands.js";
+import { BESIDE } from "./pins.js";
 import { abouts, hovered, marked, places } from "./state.js";
 
 /** @import { Label } from "../map/labels.js" */
@@ -24,14 +25,14 @@ function words({ trip, target, isHeld, place, problems }) {
   return problems.find(({ field }) => field === "target")?.text || place || t("trips.metres", { place: where(target ?? []) });
 }
 
-/** Where the action in hand would go now. @returns {(Omit<Label, "x" | "y"> & { target: readonly number[] })[]} */
+/** Where the action in hand would go now. @returns {(Omit<Label, "x" | "y"> & { target: readonly number[], aside: number })[]} */
 function inTheAir() {
   const target = hovered.value;
   if (!target || !app.value) return [];
   const wrong = whyNot(app.value.map, target);
   const name = places.value.find(({ x, y }) => x === target[0] && y === target[1])?.name;
   const text = wrong ? t(wrong) : name ?? t("trips.metres", { place: where(target) });
-  return [{ key: "new", text: short(text), target, importance: 5, always: true, gap: 18, kind: wrong ? "bad" : "" }];
+  return [{ key: "new", text: short(text), target, importance: 5, always: true, gap: 18, aside: 0, kind: wrong ? "bad" : "" }];
 }
 
 export function TripLabels() {
@@ -39,19 +40,21 @@ export function TripLabels() {
   const [view, box] = [camera.view.value, camera.box.value];
   const chosen = new Set(marked.value);
   const pins = abouts.value.flatMap((about) => {
-    const { key, target, isHeld, problems } = about;
+    const { key, target, isHeld, problems, beside } = about;
     if (!target) return [];
     const isOne = isHeld || (chosen.has(key) && chosen.size === 1);
     return [{
-      key, target, text: short(words(about)), gap: 18, always: isOne, kind: isHeld && problems.length ? "bad" : "",
+      key, target, text: short(words(about)), gap: 18, aside: beside * BESIDE, always: isOne, kind: isHeld && problems.length ? "bad" : "",
       importance: isOne ? 4 : problems.length ? 3 : 2,
     }];
   });
   const named = places.value.map(({ name, x, y }) =>
-    ({ key: `place ${name}`, target: [x, y], text: short(name), importance: 1, gap: 8, kind: "of-place" }));
-  const at = (/** @type {readonly number[]} */ [x, y]) => toPixels(view, x, y);
-  const labels = [...inTheAir(), ...pins, ...named].map(({ target, ...label }) => ({ ...label, ...at(target) }));
-  const marks = pins.map(({ target }) => ({ ...at(target), r: 13 }));
+    ({ key: `place ${name}`, target: [x, y], text: short(name), importance: 1, gap: 8, aside: 0, kind: "of-place" }));
+  const labels = [...inTheAir(), ...pins, ...named].map(({ target, aside, ...label }) => {
+    const { x, y } = toPixels(view, target[0], target[1]);
+    return { ...label, x: x + aside, y };
+  });
+  const marks = labels.filter(({ key }) => abouts.value.some((about) => about.key === key)).map(({ x, y }) => ({ x, y, r: 13 }));
   return h("div", { class: "names", "aria-hidden": true }, placed(labels, box, marks).map(({ key, text, left, top, width, kind }) =>
     h("span", {
       key, class: `name ${kind ?? ""}`,

@@ -12,24 +12,15 @@ import { abouts, held, isLocked, markAll, marked, markOne, places, toggle } from
 /** @import { Point } from "../app" */
 /** @import { About } from "./state.js" */
 
-const BESIDE = 25; // pixels between pins at one place
+export const BESIDE = 25; // pixels between pins at one place
 const SLIP = 4; // pixels that a press may slip and still be a press
 /** @type {Record<string, [number, number]>} */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /** @param {{ onOpen: (key: string) => void, onRemoved: (next: string | null) => void }} props */
-export function Pins({ onOpen, onRemoved }) {
-  /** @type {Map<string, number>} */
-  const taken = new Map();
-  return h("g", { class: "layer pins" }, abouts.value.map((about) => {
-    if (!about.target) return null;
-    const [x, y] = about.target;
-    const at = `${x.toFixed(1)} ${y.toFixed(1)}`;
-    const before = taken.get(at) ?? 0;
-    taken.set(at, before + 1);
-    return h(Mark, { key: about.key, x, y }, h(Pin, { about, beside: before * BESIDE, onOpen, onRemoved }));
-  }));
-}
+export const Pins = ({ onOpen, onRemoved }) => h("g", { class: "layer pins" }, abouts.value.map((about) =>
+  about.target && h(Mark, { key: about.key, x: about.target[0], y: about.target[1] },
+    h(Pin, { about, onOpen, onRemoved }))));
 
 /** What is read out of a pin. @param {About} about */
 function described({ number, trip, target, place: name, problems }) {
@@ -42,9 +33,10 @@ function described({ number, trip, target, place: name, problems }) {
   ].filter(Boolean).join(" ");
 }
 
-/** @param {{ about: About, beside: number, onOpen: (key: string) => void, onRemoved: (next: string | null) => void }} props */
-function Pin({ about, beside, onOpen, onRemoved }) {
+/** @param {{ about: About, onOpen: (key: string) => void, onRemoved: (next: string | null) => void }} props */
+function Pin({ about, onOpen, onRemoved }) {
   const { key, number, problems } = about;
+  const beside = about.beside * BESIDE;
   const camera = useCamera();
   /** Where it was taken, and how far from its middle. */
   const taken = useRef(/** @type {{ x: number, y: number, dx: number, dy: number, keys: readonly string[], from: Map<string, Point> } | null} */ (null));

@@ -47,6 +47,7 @@ export const places = computed(() => landmarks.value?.places ?? []);
  * @property {number} number from 1
  * @property {Point | null} target where it is now, also while it is dragged
  * @property {boolean} isHeld
+ * @property {number} beside so many trips before it are at the same place
  * @property {string} place the name of the place where it is
  * @property {ShownProblem[]} problems
  * @property {number | null} pickedIn the number of the trip that picks what this one puts down
@@ -62,10 +63,18 @@ export const abouts = computed(() => {
   for (const one of plan.problems.value) {
     if (one.mission === mission.key) wrong.set(one.trip, [...(wrong.get(one.trip) ?? []), one]);
   }
-  return mission.trips.map((trip, at) => about(trip, at, wrong.get(trip.key) ?? [], from.get(trip.key)));
+  /** @type {Map<string, number>} */
+  const taken = new Map();
+  return mission.trips.map((trip, at) => {
+    const one = about(trip, at, wrong.get(trip.key) ?? [], from.get(trip.key));
+    const where = one.target?.slice(0, 2).map((value) => value.toFixed(1)).join(" ") ?? "";
+    const beside = taken.get(where) ?? 0;
+    taken.set(where, beside + 1);
+    return { ...one, beside };
+  });
 });
 
-/** @param {PlanTrip} trip @param {number} at @param {ShownProblem[]} wrong @param {number | undefined} pick @returns {About} */
+/** @param {PlanTrip} trip @param {number} at @param {ShownProblem[]} wrong @param {number | undefined} pick @returns {Omit<About, "beside">} */
 function about(trip, at, wrong, pick) {
   const drag = held.value.get(trip.key);
   const target = drag && trip.target ? [...drag, ...trip.target.slice(2)] : trip.target;

@@ -55,13 +55,14 @@ export function ToolPanel({ onAdded }) {
   const isSound = isRow ? isCount(trips) : isCount(columns) && isCount(rows);
   const total = isSound ? (isRow ? Number(trips) : Number(columns) * Number(rows)) : 0;
   const can = total > 0 && total <= MOST;
-  const key = JSON.stringify([now, shape, can, trips, columns, rows]);
+  const isAtWork = now === "row" || now === "grid";
+  const key = JSON.stringify([now, shape, can && isAtWork, trips, columns, rows]);
   useEffect(() => {
-    pattern.value = !can || !shape ? [] : isRow
+    pattern.value = !can || !shape || !isAtWork ? [] : isRow
       ? row(shape.from, shape.to, Number(trips)) : grid(shape.from, shape.to, Number(columns), Number(rows));
     return () => { pattern.value = []; };
   }, [key]);
-  if ((now !== "row" && now !== "grid") || !shape) return null;
+  if (!isAtWork || !shape) return null;
 
   /** @param {SubmitEvent} event */
   function submit(event) {
