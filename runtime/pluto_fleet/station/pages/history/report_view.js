@@ -3,7 +3,7 @@
 
 import { h } from "preact";
 import { useMemo } from "preact/hooks";
-import { capital, clock, duration, inWords, moment, number, percent, plain } from "../core/format.js";
+import { capital, clock, dated, duration, inWords, moment, number, percent, plain } from "../core/format.js";
 import { t, tOr } from "../core/i18n.js";
 import { app } from "../core/station.js";
 import { World } from "../core/world.js";
@@ -14,7 +14,7 @@ import { useAsked } from "./asked.js";
 import { BatteryChart, Times } from "./battery_chart.js";
 import { ReportMap } from "./report_map.js";
 import { Waiting } from "./waiting.js";
-import { beginWords, outcomeWords, tookWords } from "./words.js";
+import { outcomeWords, tookWords } from "./words.js";
 
 /** @import { ComponentChildren } from "preact" */
 /** @import { AppShape } from "../app" */
@@ -44,7 +44,7 @@ function Report({ report, replay, model }) {
   const marks = incidents.map(({ time, text }) => ({ time, text }));
   return h("article", { class: "report" },
     h("div", { class: "row report-head" }, h("div", null, h("p", { class: "muted" }, shape.title),
-      h("h2", null, t("report.title", { when: beginWords(flight) }))),
+      h("h2", null, t("report.title", { when: flight.begun_at === null ? flight.id : dated(flight.begun_at) }))),
     h("div", { class: "spread no-print" }, h(Button, { kind: "primary", icon: "save", onClick: () => window.print() }, t("report.print")))),
     flight.said && h("p", { class: "problem" }, flight.said),
     h("dl", { class: "report-facts" },
@@ -116,7 +116,7 @@ const Commands = ({ commands }) => h(Table, {
   heads: [t("results.column.time"), t("report.command"), t("history.column.by"), t("report.said")],
   rows: commands.map(({ time, at, command, given, by, client, said }) => [
     time !== null ? clock(time) : at !== null ? moment(at) : "",
-    [capital(command), ...Object.entries(given).filter(([, value]) => value !== null)
+    [capital(command), ...Object.entries(given).filter(([name, value]) => value !== null && name !== "revision")
       .map(([name, value]) => `${plain(name)} ${inWords(/** @type {import("../app").Scalar} */ (value))}`)].join(", "),
     by ?? client ?? "", said,
   ]),

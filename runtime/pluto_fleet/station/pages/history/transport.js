@@ -4,6 +4,7 @@
 import { h } from "preact";
 import { clock, number } from "../core/format.js";
 import { t } from "../core/i18n.js";
+import { tell } from "../core/notices.js";
 import { IconButton } from "../ui/button.js";
 import { BatteryChart } from "./battery_chart.js";
 import { nextMark } from "./incidents.js";
@@ -30,7 +31,7 @@ export function Transport({ playback, replay, marks, chosen }) {
         },
       }, SPEEDS.map((speed) => h("option", { key: speed, value: speed }, `${number(speed)} ×`))),
       h(Clock, { playback, seconds }),
-      h(Jump, { playback, marks, way: -1 }), h(Jump, { playback, marks, way: 1 })),
+      marks.length > 0 && h(Jump, { playback, marks, way: -1 }), marks.length > 0 && h(Jump, { playback, marks, way: 1 })),
     h("div", { class: "transport-time" },
       h(Slider, { playback, seconds }),
       h(Marks, { playback, marks, seconds }),
@@ -59,10 +60,11 @@ const Marks = ({ playback, marks, seconds }) => h("div", { class: "marks" }, mar
 })));
 
 /** To the next thing that went wrong, or the one before. @param {{ playback: Playback, marks: readonly Mark[], way: 1 | -1 }} props */
-function Jump({ playback, marks, way }) {
-  const mark = nextMark(marks, playback.time.value, way);
-  return h(IconButton, {
-    icon: way === 1 ? "next" : "previous", disabled: !mark, label: t(way === 1 ? "history.next-incident" : "history.previous-incident"),
-    onClick: () => { if (mark) playback.set(mark.time); },
-  });
-}
+const Jump = ({ playback, marks, way }) => h(IconButton, {
+  icon: way === 1 ? "next" : "previous", label: t(way === 1 ? "history.next-incident" : "history.previous-incident"),
+  onClick: () => {
+    const mark = nextMark(marks, playback.time.peek(), way);
+    if (mark) playback.set(mark.time);
+    tell(mark?.text ?? t("history.no-more-incidents"));
+  },
+});

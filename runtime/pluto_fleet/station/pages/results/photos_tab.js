@@ -77,8 +77,8 @@ export function Viewer({ model }) {
       h("div", { class: "viewer-stage" },
         picture === null ? h("p", { class: "no-picture muted" }, h(Icon, { name: "photo", size: 40 }), t("results.no-picture"))
           : address ? h("img", { src: address, alt: t("results.photo-alt", { place: where }) }) : h("p", { class: "muted" }, t("results.loading")),
-        h(IconButton, { icon: "back", class: "before", label: t("results.photo-before"), disabled: at === 0, onClick: () => open(at - 1) }),
-        h(IconButton, { icon: "fold", class: "after", label: t("results.photo-after"), disabled: at === album.length - 1, onClick: () => open(at + 1) })),
+        h(IconButton, { icon: "back", class: "before", label: t("results.photo-before"), onClick: () => open(at - 1) }),
+        h(IconButton, { icon: "fold", class: "after", label: t("results.photo-after"), onClick: () => open(at + 1) })),
       h("p", { class: "muted" }, sharpnessWords(sharpness)),
       h(Facts, { result }),
       address && h("p", null, h("a", { href: address, target: "_blank", rel: "noopener" }, t("results.full-size")))));

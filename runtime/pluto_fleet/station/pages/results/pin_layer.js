@@ -4,6 +4,7 @@
 import { h } from "preact";
 import { useCamera, Mark } from "../map/camera.js";
 import { LINE, placed } from "../map/labels.js";
+import { landmarkNames } from "../map/landmarks.js";
 import { toPixels } from "../map/view.js";
 import { useCalm } from "../ui/calm.js";
 import { colourAt, css, KINDS, shareOf } from "./colours.js";
@@ -58,20 +59,20 @@ const Dots = ({ layer }) => h("g", null, spotsOf(layer.results, placeOf).map(({ 
     h("circle", { r: 5, fill: css(colourAt(shareOf(number.value, layer.range))), "data-value": number.value }));
 }));
 
-/** The values themselves, as far as there is room. @param {{ model: ResultsModel }} props */
-export function ValueLabels({ model }) {
+/** The values themselves and the names of places, as far as there is room. @param {{ model: ResultsModel }} props */
+export function MapLabels({ model }) {
   const camera = useCamera();
   const view = useCalm(camera.view, 150).value;
-  const box = camera.box.value;
-  const labels = model.numbers().flatMap((layer) => spotsOf(layer.results, placeOf).map(({ x, y, results: [result] }) => {
+  const values = model.numbers().flatMap((layer) => spotsOf(layer.results, placeOf).map(({ x, y, results: [result] }) => {
     const number = numberOf(result, layer.quantity);
     return {
-      key: `${layer.id} ${result.number}`, text: number ? shortNumber(number.value) : "", gap: 8,
+      key: `${layer.id} ${result.number}`, text: number ? shortNumber(number.value) : "", gap: 8, kind: "",
       importance: number?.value ?? 0, ...toPixels(view, x, y),
     };
   }));
-  return h("div", { class: "names", "aria-hidden": true }, placed(labels, box).map(({ key, text, left, top, width }) =>
+  const names = landmarkNames.value.map((label) => ({ ...label, ...toPixels(view, label.x, label.y), importance: Infinity }));
+  return h("div", { class: "names", "aria-hidden": true }, placed([...names, ...values], camera.box.value).map(({ key, text, left, top, width, kind }) =>
     h("span", {
-      key, class: "name", style: { transform: `translate(${left}px, ${top}px)`, width: `${width}px`, height: `${LINE}px` },
+      key, class: `name ${kind ?? ""}`, style: { transform: `translate(${left}px, ${top}px)`, width: `${width}px`, height: `${LINE}px` },
     }, text)));
 }

@@ -9,6 +9,7 @@ import { app } from "../core/station.js";
 import { isFlying } from "../core/world.js";
 import { Camera } from "../map/camera.js";
 import { Floor } from "../map/floor.js";
+import { Landmarks, North } from "../map/landmarks.js";
 import { MapSplit } from "../ui/map_split.js";
 import { Empty, Tabs } from "../ui/parts.js";
 import { ResultCard } from "./card.js";
@@ -20,7 +21,7 @@ import { Legend } from "./legend.js";
 import { ResultsModel } from "./model.js";
 import { PhotoLayer } from "./photo_layer.js";
 import { PhotosTab, Viewer } from "./photos_tab.js";
-import { PinLayer, ValueLabels } from "./pin_layer.js";
+import { MapLabels, PinLayer } from "./pin_layer.js";
 import { TableTab } from "./table_tab.js";
 import { VerdictsTab } from "./verdicts_tab.js";
 import { layerWords, placeWords, valueWords, whatWords, withUnit } from "./words.js";
@@ -108,10 +109,11 @@ function Stage({ model, camera, choose }) {
       map: shape.map, camera,
       children: [
         h(HeatLayers, { key: "heat", model, size: shape.map.size }),
+        h(Landmarks, { key: "landmarks" }),
         h(PhotoLayer, { key: "photos", model }),
         h(PinLayer, { key: "pins", model }),
       ],
-      overlay: h(ValueLabels, { model }),
+      overlay: [h(MapLabels, { key: "labels", model }), h(North, { key: "north" })],
       onPlace: (at) => {
         const [newest] = model.under(at, camera.view.peek().scale);
         if (newest) choose(newest.number);

@@ -172,6 +172,7 @@ export default {
   "history.no-hours": "Here is what each drone has flown, in hours and charges, once one has flown.",
   "history.no-levels": "No level of a battery is known of this flight.",
   "history.no-missions": "no missions",
+  "history.no-more-incidents": "There is no incident further on.",
   "history.none": "Every flight is kept here, to be watched again, with its results and a report. Nothing has been flown yet.",
   "history.of-flight": "Of this flight",
   "history.open": "{n} not ended",
