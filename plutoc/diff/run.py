@@ -12,6 +12,7 @@ from plutoc.diff.journeys import gained, journeys, reroutes, stops, without_swap
 from plutoc.diff.messages.blocks import arranged_otherwise
 from plutoc.diff.model import Change, Difference, Importance, Version
 from plutoc.diff.own_fields import own_fields
+from plutoc.diff.results import results
 from plutoc.diff.warned import warned
 
 
@@ -33,6 +34,7 @@ def compare(old: Version, new: Version) -> Difference:
         *categories(both),
         *fields(both),
         *own_fields(both),
+        *results(both),
         *order(both),
     ]
     told += warned(both, told)

@@ -15,10 +15,11 @@ from plutoc.emit.python import Import, call, import_lines, items, literal, names
 from plutoc.emit.render import render
 from plutoc.emit.statements import Scope, asked_for, body_lines, bound
 from plutoc.graph.hooks import PHOTO
-from plutoc.graph.model import Action, Graph, Hook, Node, Parameter
+from plutoc.graph.model import Action, Graph, Hook, Node, Parameter, Shown
 from plutoc.plan.bodies import branches, nodes, steps
 from plutoc.plan.model import Arrived, Body, Plan
 from plutoc_runtime.domain.fields import Entity, Field
+from plutoc_runtime.domain.quantities import QUANTITIES
 from plutoc_runtime.domain.status import Status
 
 
@@ -137,10 +138,21 @@ def _app(plan: Plan) -> list[str]:
     if evaluators:
         functions = "".join(f"{literal(hook.name)}: {_evaluator(hook)}," for hook in evaluators)
         arguments.append(f"evaluators={{{functions}}}")  # a line each
+    if graph.results:
+        arguments.append(f"results=(\n{''.join(map(_shown, graph.results))}    )")
     if entries:
         names = "".join(f"{literal(name)}," for name in entries)
         arguments.append(f"resumes=({names})")
     return arguments
+
+
+def _shown(one: Shown) -> str:
+    """Return what is said of an action's results below the declaration that it comes from."""
+    kind = {"type": one.type.value} if one.type in QUANTITIES else {}
+    facts = {"action": one.action, "as": one.way, **kind, **dict(one.given)}
+    said = ", ".join(f"{literal(name)}: {literal(value)}" for name, value in facts.items())
+    comment = f"        # {one.declaration}\n" if one.declaration else ""
+    return f"{comment}        {{{said}}},\n"
 
 
 def _evaluator(hook: Hook) -> str:

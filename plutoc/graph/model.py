@@ -72,6 +72,23 @@ class Action:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Shown:
+    """What the results of an action are, and how they are shown."""
+
+    action: str
+    way: str
+    """One of `WAYS` of graph/results.py."""
+    type: Type | None
+    """The type of the number that an action of the app's own gives, or None."""
+    given: tuple[tuple[str, Plain], ...]
+    """What is said of them, by name: `quantity`, `unit`, `label`, `low`, `high`, `reach` in metres."""
+    declaration: str
+    """`result listen as values(low: 5)`: canonical, texts left out; empty: the app does not say."""
+    span: Span
+    """The whole statement, or the action's name."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Hook:
     """An evaluator, a modifier or a policy of the app."""
 
@@ -175,6 +192,8 @@ class Graph:
     fields: tuple[AppField, ...] = ()
     """Of the app's own: missions' before trips', in the order of the source."""
     actions: tuple[Action, ...]
+    results: tuple[Shown, ...] = ()
+    """What the app says of results, in the order of the source; then what its own actions say."""
     hooks: tuple[Hook, ...]
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]

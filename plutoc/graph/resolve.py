@@ -15,6 +15,7 @@ from plutoc.graph.fields import fields
 from plutoc.graph.model import FIRST_VERSION, Action, Graph, Hook, Node
 from plutoc.graph.nodes import Place, node
 from plutoc.graph.packages import packages_of, unused_packages
+from plutoc.graph.results import results
 from plutoc.graph.scope import check_app_name, scope_of, spoilt_names
 from plutoc.graph.settings import libraries, version
 from plutoc.graph.stops import meant_to_declare
@@ -97,6 +98,7 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
         or (categories.implicit(),),
         fields=fields(source, statements, nodes, found),
         actions=tuple(actions),
+        results=results(source, statements, actions, partial, unsure, found),
         hooks=tuple(app_hooks),
         nodes=tuple(nodes),
         edges=edges(source, flows, scope, by_name, unsure, found),

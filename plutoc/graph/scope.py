@@ -22,6 +22,7 @@ from plutoc.syntax.tree import (
     HookDecl,
     Name,
     RequiresDecl,
+    ResultDecl,
     VersionDecl,
 )
 from plutoc_runtime.domain.actions import BUILT_IN
@@ -86,7 +87,9 @@ def _declarations(file: File) -> list[Declared]:
                 declared.append(Declared(name=statement.name, role=HOOK_ROLES[statement.kind]))
             case BlockDecl():
                 declared.append(Declared(name=statement.name, role=BLOCK))
-            case VersionDecl() | RequiresDecl() | FieldsDecl() | FlowDecl() | BadStatement():
+            case VersionDecl() | RequiresDecl() | FieldsDecl() | ResultDecl():
+                pass
+            case FlowDecl() | BadStatement():
                 pass
     return declared
 

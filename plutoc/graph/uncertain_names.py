@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from itertools import chain
 
 from plutoc.graph.names import Style, has_style, reserved
-from plutoc.syntax.tokens import OWNERS, SETTINGS
+from plutoc.syntax.tokens import OWNERS, RESULT, SETTINGS
 from plutoc.syntax.tree import BadStatement, BlockDecl, File
 
-_DECLARE_NOTHING = frozenset({"flow", *SETTINGS, *OWNERS})
+_DECLARE_NOTHING = frozenset({"flow", *SETTINGS, *OWNERS, RESULT})
 """They declare no name, even where something is wrong with them."""
 _WORD = re.compile(r"\w+")
 _ALIKE = 0.6

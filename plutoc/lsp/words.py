@@ -61,6 +61,7 @@ _COLOURS = {
     Role.STATUS: "enumMember",
     Role.TERMINAL: "keyword",
     Role.OPTION: "property",
+    Role.WAY: "property",
 }
 LEGEND = types.SemanticTokensLegend(
     token_types=list(dict.fromkeys(_COLOURS.values())), token_modifiers=["declaration"]

@@ -20,6 +20,7 @@ from plutoc.syntax.tree import (
     List,
     Name,
     Parameter,
+    ResultDecl,
     Value,
 )
 
@@ -42,6 +43,7 @@ class Role(Enum):
     STATUS = "status"
     TERMINAL = "start or end"
     OPTION = "value"
+    WAY = "way to show results"
 
 
 HOOKS = frozenset({Role.ACTION, Role.EVALUATOR, Role.MODIFIER, Role.POLICY})
@@ -115,6 +117,11 @@ def _all(file: File, roles: dict[str, Role]) -> Iterator[Occurrence]:
                 for field in statement.fields:
                     yield _named(field.name, Role.FIELD, declares=True, owner=statement.on)
                     yield _named(field.type, Role.TYPE)
+            case ResultDecl():
+                yield _named(statement.action, Role.ACTION)
+                yield _named(statement.way, Role.WAY)
+                for argument in statement.arguments:
+                    yield _named(argument.name, Role.PARAMETER, owner=statement.way.text)
             case CategoryDecl():
                 yield _named(statement.name, Role.CATEGORY, declares=True)
                 for argument in statement.arguments:

@@ -55,6 +55,8 @@ def _statement(node: Node) -> tree.Statement:
             return _requires(node)
         case "mission" | "trip":
             return _fields(node)
+        case "result":
+            return _result(node)
         case "category":
             return _category(node)
         case "action" | "action_behind":
@@ -75,6 +77,16 @@ def _requires(node: Node) -> tree.RequiresDecl:
 def _fields(node: Node) -> tree.FieldsDecl:
     # Its span ends with its last field: a comma behind that is nothing of its own.
     return tree.FieldsDecl(on=str(node.data), fields=_parameters(node), span=_span(node))
+
+
+def _result(node: Node) -> tree.ResultDecl:
+    action, way, arguments = node.children
+    return tree.ResultDecl(
+        action=_name(action),
+        way=_name(way),
+        arguments=_arguments(arguments),
+        span=_span(node),
+    )
 
 
 def _category(node: Node) -> tree.CategoryDecl:

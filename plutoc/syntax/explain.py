@@ -25,6 +25,7 @@ from plutoc.syntax.tokens import (
     OPENING,
     OWNER_KINDS,
     OWNERS,
+    RESULT,
     SETTINGS,
     WORDS,
     expected,
@@ -166,7 +167,7 @@ def _help(
         elif token.type == "TEXT":
             word = _word(first, SETTINGS, _OTHER_SETTINGS)
         else:
-            word = _word(first, [*_STATEMENT_WORDS, *_LINE_WORDS])
+            word = _word(first, [*_STATEMENT_WORDS, *_LINE_WORDS, RESULT])
         if word and (token.type in (NAME, "TEXT") or word.upper() == token.type):
             return _meant(base, first, word, tokens[1:])
     if i == 1 and token.type == "COLON" and follows_a_comma(source, first):

@@ -1,9 +1,9 @@
 """From the lexer's tokens to the parser's: which newlines end a statement, which words are names.
 
 A newline ends a statement, except inside brackets and before a line that begins with `->`. Inside
-brackets the language's words are ordinary names; so are `version`, `requires`, `mission` and `trip`
-wherever they do not begin a statement of theirs, and `has` but behind one of these two, for apps have
-blocks of such names. A bracket that was forgotten must
+brackets the language's words are ordinary names; so are `version`, `requires`, `mission`, `trip` and
+`result` wherever they do not begin a statement of theirs, and `has` but behind `mission` or `trip`, for
+apps have blocks of such names. A bracket that was forgotten must
 not swallow the rest of the file: a line that can only be the beginning of a statement closes what
 was left open.
 """
@@ -132,7 +132,9 @@ def _ends_line(tokens: Sequence[Token], i: int) -> bool:
 
 def _begins_a_statement(tokens: Sequence[Token], i: int) -> bool:
     """Return whether the line whose first token is the i-th cannot go on with what is in brackets."""
-    first, second = (*(t.type for t in tokens[i : i + 2]), END, END)[:2]
+    first, second, third = (*(t.type for t in tokens[i : i + 3]), END, END, END)[:3]
+    if first == "RESULT" and second in _NAMES and third == "AS":
+        return True
     if first in SETTING_KINDS and second == "TEXT":
         return True
     if first in _NAMES:

@@ -22,13 +22,15 @@ WORDS = (
 SETTINGS = ("version", "requires")
 OWNERS = ("mission", "trip")
 HAS = "has"
-SOFT_WORDS = (*SETTINGS, *OWNERS, HAS)
+RESULT = "result"
+SOFT_WORDS = (*SETTINGS, *OWNERS, HAS, RESULT)
 """Words too, but only where they begin a statement: elsewhere they are names like any other."""
 
 SETTING_KINDS = frozenset(word.upper() for word in SETTINGS)
 OWNER_KINDS = frozenset(word.upper() for word in OWNERS)
 SOFT_KINDS = frozenset(word.upper() for word in SOFT_WORDS)
-BEGINNERS = SETTING_KINDS | OWNER_KINDS | {"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"}
+BEGINNERS = SETTING_KINDS | OWNER_KINDS | {"RESULT"}
+BEGINNERS |= {"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"}
 
 _NAMED = {
     "NAME": "a name",
@@ -57,7 +59,7 @@ _GROUPS = (
 )
 """What is too long to tell one by one."""
 
-_IN_A_STATEMENT = SETTING_KINDS | OWNER_KINDS | {"ACTION", "EVALUATOR", "POLICY"}
+_IN_A_STATEMENT = SETTING_KINDS | OWNER_KINDS | {"RESULT", "ACTION", "EVALUATOR", "POLICY"}
 
 
 def made_up(kind: str, text: str) -> Token:

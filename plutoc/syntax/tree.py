@@ -114,6 +114,16 @@ class FieldsDecl:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ResultDecl:
+    """`result measure as heat(quantity: "pm10", …)`."""
+
+    action: Name
+    way: Name
+    arguments: tuple[Argument, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class CategoryDecl:
     """`category scout(payload: 5 g) can take_photo`."""
 
@@ -203,6 +213,7 @@ Setting = VersionDecl | RequiresDecl
 Statement = (
     Setting
     | FieldsDecl
+    | ResultDecl
     | CategoryDecl
     | ActionDecl
     | HookDecl

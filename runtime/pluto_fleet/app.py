@@ -89,6 +89,7 @@ def described(given: Any) -> App:
         },
         evaluators={name: given.evaluators[name] for name in about["evaluators"]},
         resumes=tuple(about["resumes"]),
+        results=tuple(about.get("results", ())),  # from seam 3.3 on
         package=runtime.rpartition(".")[0] or runtime,
         seam=seam,
         given=given,

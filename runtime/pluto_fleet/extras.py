@@ -10,14 +10,16 @@ EXTRAS = {
     "areas": ("shapely",),
     "crazyflie": ("cflib",),
     "plot": ("matplotlib",),
-    "station": ("starlette", "uvicorn", "websockets"),
+    "station": ("pillow", "starlette", "uvicorn", "websockets"),
 }
-"""The packages that each extra brings; a module of the same name is in each."""
+"""The packages that each extra brings; a module of the same name is in each, but for these:"""
+
+_MODULES = {"pillow": "PIL"}
 
 
 def has(extra: str) -> bool:
     """Return whether all that an extra brings can be imported; imports nothing."""
-    return all(find_spec(name) is not None for name in EXTRAS[extra])
+    return all(find_spec(_MODULES.get(name, name)) is not None for name in EXTRAS[extra])
 
 
 def installed() -> str:

@@ -11,7 +11,7 @@ from .shared.domain.errors import BadInput
 
 Seam = tuple[int, int]
 
-OLDEST, NEWEST = (2, 0), (3, 2)
+OLDEST, NEWEST = (2, 0), (3, 3)
 """The range of seams that this library supports."""
 
 

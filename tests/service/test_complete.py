@@ -142,3 +142,23 @@ def test_any_place_of_any_text_has_an_answer() -> None:
         start = chance.randrange(len(ALFALFA))
         text = ALFALFA[:start] + chance.choice('([{}])"#\n,->') + ALFALFA[start + 3 :]
         complete(Document(path="a.pluto", text=text), chance.randrange(len(text)))
+
+
+def test_how_results_can_be_shown_is_offered_by_what_the_action_gives() -> None:
+    """And what can be said of them, of which a measurement needs its quantity."""
+    assert labels(BARE.replace("@", "result @"))[0] in ("measure", "take_photo")
+    assert labels(BARE.replace("@", "result take_photo @")) == ["as"]
+    assert labels(BARE.replace("@", "result take_photo as @")) == [
+        "photos",
+        "findings",
+        "handling",
+    ]
+    [heat, *_] = at(text := BARE.replace("@", "result measure as @"))
+    assert 'as heat(quantity: "temperature")' in inserted(text, heat)
+    said = BARE.replace("@", 'result measure as heat(quantity: "pm10", @)')
+    assert {*labels(said)} == {"unit", "label", "low", "high", "reach"}
+
+
+def test_a_statement_may_say_what_results_are() -> None:
+    [result] = [item for item in at(BARE) if item.label == "result"]
+    assert result.insert.startswith("result ")

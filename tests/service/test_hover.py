@@ -37,6 +37,8 @@ def said(text: str, place: str, within: str = "") -> str:
             "action pollinate",
             ["dose: mass = 50 mg", "async def pollinate(drone: Drone"],
         ),
+        ("handling", "as handling", ["Something that was done, and not a result"]),
+        ("pollinate", "result pollinate", ["dose: mass = 50 mg"]),
         ("mass", "dose: mass", ["`mg`, `g`, `kg`", "kilograms"]),
         ("once", "50 mg) once", ["not repeated after a crash"]),
         ("find_blooms", "hook: find_blooms", ["-> Verdict"]),

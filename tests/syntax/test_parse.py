@@ -23,6 +23,7 @@ from plutoc.syntax.tree import (
     Number,
     Quantity,
     RequiresDecl,
+    ResultDecl,
     Statement,
     Text,
     Value,
@@ -237,3 +238,14 @@ def test_spans_are_places_in_the_source() -> None:
     assert isinstance(block, BlockDecl)
     assert source.quote(block.arguments[0].value.span) == "5 min"
     assert source.quote(parse(source).app.span).endswith("}")
+
+
+def test_result_is_a_word_only_where_it_begins_its_statement() -> None:
+    """A block, or anything else, may be called so, as before there was that word."""
+    text = "result = K\nresult -> result\nresult x as heat(result: 1)"
+    block, flow, said = statements(text)
+    assert isinstance(block, BlockDecl)
+    assert isinstance(flow, FlowDecl)
+    assert isinstance(said, ResultDecl)
+    assert (said.action.text, said.way.text) == ("x", "heat")
+    assert [one.name.text for one in said.arguments] == ["result"]

@@ -9,6 +9,7 @@ from lark import Token
 
 from plutoc.block import AnyParam, Choice, HookParam, Param
 from plutoc.graph.categories import PARAMS
+from plutoc.graph.results import WAYS
 from plutoc.graph.values import EXAMPLES
 from plutoc.service.answers import Sort
 from plutoc.service.completion.candidate import Candidate
@@ -33,7 +34,7 @@ class _Offer:
 
 
 def arguments(hole: Hole, known: Known) -> Iterator[Candidate]:
-    """Give what may stand between the parentheses behind a kind, or behind a category's name."""
+    """Give what may stand between the parentheses behind a kind, a category's name, or a way to show results."""
     offers = list(_offers(hole, known))
     last = hole.types[-1]
     if last in ("LPAR", "COMMA"):
@@ -111,6 +112,9 @@ def required(known: Known, kind: str) -> Iterator[str]:
 def _offers(hole: Hole, known: Known) -> Iterator[_Offer]:
     if hole.types[0] == "CATEGORY":
         yield from (_of_param(known, param) for param in PARAMS)
+        return
+    if hole.types[0] == "RESULT":
+        yield from (_of_param(known, param) for param in WAYS.get(str(hole.before[3]), ()))
         return
     block = known.kinds.get(written_kind(hole.before))
     if block is None:

@@ -8,7 +8,7 @@ from plutoc.diagnostic import Diagnostic, Severity
 from plutoc.service.answers import Item
 from plutoc.service.completion.arguments import arguments
 from plutoc.service.completion.candidate import Candidate
-from plutoc.service.completion.declarations import category, fields, hook, kinds
+from plutoc.service.completion.declarations import category, fields, hook, kinds, result
 from plutoc.service.completion.flows import flow
 from plutoc.service.completion.hole import Hole, hole
 from plutoc.service.completion.outside import outside
@@ -51,6 +51,8 @@ def _inside(place: Hole, known: Known) -> Iterator[Candidate]:
             return
         case ("MISSION" | "TRIP", *_):
             yield from fields(place, known)
+        case ("RESULT", *_):
+            yield from (arguments if place.opened else result)(place, known)
         case ("CATEGORY", *_):
             yield from (arguments if place.opened else category)(place, known)
         case ("ACTION" | "EVALUATOR" | "MODIFIER" | "POLICY", *_):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from plutoc.block import IN_GRAPH, HookParam
 from plutoc.graph.hooks import PHOTO, REPEATS
+from plutoc.graph.model import Action
+from plutoc.graph.results import HANDLING, HEAT, SAID, VALUES, ways_of
 from plutoc.report.block_page import first_line
 from plutoc.service.answers import Sort
 from plutoc.service.completion.arguments import required, units, values_of
@@ -16,6 +18,7 @@ from plutoc.service.reading import describe
 from plutoc.service.symbols import Role
 from plutoc.syntax.tokens import ARROW, EQUAL, NAME
 from plutoc.syntax.tree import BlockDecl
+from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import Type
 
@@ -188,6 +191,30 @@ def fields(hole: Hole, known: Known) -> Iterator[Candidate]:
                 yield Candidate(label=word, kind=Sort.PARAMETER, forms=forms, detail=kind.value)
     else:
         yield from _typed(hole)
+
+
+def result(hole: Hole, known: Known) -> Iterator[Candidate]:
+    """Give what may stand in a statement that says what the results of an action are."""
+    last, own = hole.types[-1], {action.name: action for action in known.graph.actions}
+    if last == "RESULT":
+        for name in known.actions:
+            forms = (name, f"{name} as {next(iter(_ways(name, own)))}")
+            yield Candidate(label=name, kind=Sort.HOOK, forms=forms, detail="action")
+    elif last == NAME and len(hole.types) == 2:
+        yield keyword("as", *(f"as {way}" for way in _ways(str(hole.before[1]), own)))
+    elif last == "AS":
+        for way in _ways(str(hole.before[1]), own):
+            yield Candidate(label=way, kind=Sort.VALUE, forms=_forms(way), doc=SAID[way])
+
+
+def _ways(name: str, own: Mapping[str, Action]) -> tuple[str, ...]:
+    """Return the ways in which an action's results can be shown, the likeliest first."""
+    known = name in own or name in BUILT_IN
+    return (*(ways_of(name, own.get(name)) if known else ()), HANDLING)
+
+
+def _forms(way: str) -> tuple[str, ...]:
+    return (way, f'{way}(quantity: "temperature")') if way in (HEAT, VALUES) else (way,)
 
 
 _GIVES = "What the action gives to the result store: its type stands behind the arrow."

@@ -37,7 +37,7 @@ def statement(hole: Hole, known: Known) -> Iterator[Candidate]:
         yield from _keywords(known)
 
 
-_FORMS = ("category", "action", "evaluator", "modifier", "policy", "version", "requires")
+_FORMS = ("category", "action", "evaluator", "modifier", "policy", "version", "requires", "result")
 _FIELDS = {"mission": "mission has patient: text", "trip": 'trip has note: text = ""'}
 
 
@@ -47,6 +47,7 @@ def _keywords(known: Known) -> Iterator[Candidate]:
     forms["category"] += f" can {', '.join(known.actions)}"
     forms["requires"] = 'requires "numpy>=2"'
     forms |= _FIELDS
+    forms["result"] = f"result {known.actions[0]} as handling"
     if not any(isinstance(one, VersionDecl) for one in known.file.app.statements):
         forms["version"] = 'version "0.1.0"'
     has_category = any(isinstance(one, CategoryDecl) for one in known.file.app.statements)

@@ -19,7 +19,16 @@ from plutoc.service.editing.fields import taken_in
 from plutoc.service.editing.flows import CannotEdit, among
 from plutoc.service.editing.flows import added as with_flow
 from plutoc.source import Source, Span
-from plutoc.syntax.tree import BlockDecl, FieldsDecl, FlowDecl, RequiresDecl, Statement, VersionDecl
+from plutoc.syntax.tree import (
+    BlockDecl,
+    FieldsDecl,
+    File,
+    FlowDecl,
+    RequiresDecl,
+    ResultDecl,
+    Statement,
+    VersionDecl,
+)
 
 
 def copied(draft: Draft, names: Sequence[str]) -> str:
@@ -52,6 +61,8 @@ def pasted(draft: Draft, text: str) -> tuple[Draft, tuple[str, ...]]:
             continue
         if isinstance(one, FieldsDecl) and taken_in(draft, one) is not None:
             continue
+        if isinstance(one, ResultDecl) and _is_said(one, draft.file):
+            continue
         written = _renamed(source, one, called)
         if isinstance(one, FlowDecl):
             name = one.stops[0].names[0].text
@@ -72,6 +83,12 @@ def _is_known(one: Statement, known: set[str]) -> bool:
     return (
         isinstance(one, Declaration) and not isinstance(one, BlockDecl) and one.name.text in known
     )
+
+
+def _is_said(one: ResultDecl, file: File) -> bool:
+    """Whether an app says already how results of this action are shown so."""
+    said = [each for each in file.app.statements if isinstance(each, ResultDecl)]
+    return (one.action.text, one.way.text) in [(s.action.text, s.way.text) for s in said]
 
 
 def _renamed(source: Source, one: Statement, called: dict[str, str]) -> str:

@@ -24,6 +24,7 @@ from plutoc.syntax.tree import (
     FlowDecl,
     HookDecl,
     RequiresDecl,
+    ResultDecl,
     Statement,
     VersionDecl,
 )
@@ -31,7 +32,7 @@ from plutoc.syntax.tree import (
 Declaration = CategoryDecl | ActionDecl | HookDecl | BlockDecl
 _ORDER = (
     *(VersionDecl, RequiresDecl, FieldsDecl),
-    *(CategoryDecl, ActionDecl, HookDecl, BlockDecl, FlowDecl),
+    *(CategoryDecl, ActionDecl, ResultDecl, HookDecl, BlockDecl, FlowDecl),
 )
 """Which statements stand before which, where an app is written as ours are."""
 _BESIDE = ({VersionDecl, RequiresDecl}, {ActionDecl, HookDecl})

@@ -34,7 +34,7 @@ from plutoc.service.editing.operations import (
     SetTitle,
 )
 from plutoc.service.editing.rename import renamed
-from plutoc.syntax.tree import ActionDecl, BlockDecl, CategoryDecl, FieldsDecl, HookDecl
+from plutoc.syntax.tree import ActionDecl, BlockDecl, CategoryDecl, FieldsDecl, HookDecl, ResultDecl
 
 __all__ = ["CannotEdit", "Edited", "edit"]
 
@@ -156,6 +156,8 @@ def _declare(draft: Draft, text: str) -> Draft:
         if twice is not None:
             raise CannotEdit(f"`{twice}` is declared already")
         return declared.added(draft, declared.one_ending(text).strip(), FieldsDecl)
+    if isinstance(one, ResultDecl):
+        return declared.added(draft, declared.one_ending(text).strip(), ResultDecl)
     if not isinstance(one, CategoryDecl | ActionDecl | HookDecl | BlockDecl):
         raise CannotEdit("this is not one declaration")
     if one.name.text.lower() in declared.taken(draft.file):
@@ -164,7 +166,7 @@ def _declare(draft: Draft, text: str) -> Draft:
 
 
 def _remove(draft: Draft, name: str) -> Draft:
-    """Take a declaration out that nothing needs; an action goes from the categories' lists, too."""
+    """Take a declaration out that nothing needs; an action with all that is said of it elsewhere."""
     one = declared.declared(draft.file, name)
     if isinstance(one, BlockDecl):
         raise CannotEdit(f"`{name}` is a block: it is removed with its edges")
@@ -172,9 +174,11 @@ def _remove(draft: Draft, name: str) -> Draft:
         given = each.arguments if isinstance(each, BlockDecl) else ()
         if any(draft.source.quote(argument.value.span) == name for argument in given):
             raise CannotEdit(f"`{each.name.text}` uses `{name}`: change or remove that first")
-    for each in reversed(declared.declarations(draft.file)):
-        if isinstance(each, CategoryDecl) and any(can.text == name for can in each.can):
-            draft = _cannot_any_more(draft, each, name)
+    for statement in reversed(draft.file.app.statements):
+        if isinstance(statement, CategoryDecl) and name in [can.text for can in statement.can]:
+            draft = _cannot_any_more(draft, statement, name)
+        elif isinstance(statement, ResultDecl) and statement.action.text == name:
+            draft = draft.changed(draft.without(statement))
     return declared.without(draft, name)
 
 

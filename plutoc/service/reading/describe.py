@@ -37,6 +37,7 @@ KEYWORDS: Mapping[str, str] = MappingProxyType(
         "mission": "`mission has …` declares fields that the users of the app fill in for missions.",
         "trip": "`trip has …` declares fields that the users of the app fill in for trips.",
         "has": "Behind `mission` or `trip`: fields, each with its type, and with a default or none.",
+        "result": "Says what the results of an action are, and how they are shown.",
         "safe": "The action may be repeated after a crash of the system.",
         "once": "The action is not repeated after a crash of the system.",
         "ask": "After a crash a person decides whether the action is repeated.",
@@ -162,10 +163,10 @@ def _default(value: Plain | None) -> str:
 
 
 def of_param(param: Param) -> str:
-    """Describe a parameter of a category."""
+    """Describe a parameter of a category, or of how results are shown."""
     default = "" if param.default is None else f"; default {in_units(param.default, param.type)}"
-    units = ", ".join(units_of(param.type))
-    return f"`{param.name}`: a {param.type.value} ({units}){default}. {param.doc}"
+    units = f" ({', '.join(units_of(param.type))})" if units_of(param.type) else ""
+    return f"`{param.name}`: a {param.type.value}{units}{default}. {param.doc}"
 
 
 def of_parameter(parameter: Parameter, owner: str) -> str:

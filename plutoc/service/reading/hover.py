@@ -7,6 +7,7 @@ from plutoc.emit.stubs import stubs
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.hooks import REPEATS
 from plutoc.graph.model import END, START, Edge
+from plutoc.graph.results import SAID, WAYS
 from plutoc.service.answers import Hover
 from plutoc.service.document import Document
 from plutoc.service.known import Known
@@ -65,6 +66,9 @@ def _of_name(document: Document, one: Occurrence) -> str:
             return _of_status(document, one)
         case Role.TERMINAL:
             return _of_terminal(document, one.name)
+        case Role.WAY:
+            said = SAID.get(one.name)
+            return f"`{one.name}`: {said}" if said else ""
         case Role.OPTION:
             return _of_option(document, known, one)
         case _ if one.role in HOOKS:
@@ -115,6 +119,9 @@ def _of_parameter(document: Document, known: Known, one: Occurrence) -> str:
     if one.owner == Role.CATEGORY.value:
         of_category = next((param for param in PARAMS if param.name == one.name), None)
         return describe.of_param(of_category) if of_category else ""
+    of_way = next((param for param in WAYS.get(one.owner, ()) if param.name == one.name), None)
+    if of_way is not None:
+        return describe.of_param(of_way)
     hook = known.hook.get(one.owner)
     if hook is not None:
         own = next((each for each in hook.parameters if each.name == one.name), None)

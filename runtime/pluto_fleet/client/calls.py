@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Literal
 from .connection import Connection
 
 if TYPE_CHECKING:
-    from ..station.requests import Start
     from ..station.wire import (
         DroneHours,
         FlightReport,
@@ -51,11 +50,6 @@ class Calls(Connection):
         """What has happened in the flight, line by line."""
         return self._text("GET", "/api/console.txt")
 
-    def results(self, *, flight: str = "") -> list[object]:
-        """What the flight has brought, with full values."""
-        answer: list[object] = self._json("GET", "/api/results.json", query={"flight": flight})
-        return answer
-
     def description(self) -> dict[str, object]:
         """This description."""
         answer: dict[str, object] = self._json("GET", "/api/openapi.json")
@@ -86,6 +80,27 @@ class Calls(Connection):
         """What each drone has flown, over all flights that are kept."""
         answer: list[DroneHours] = self._json("GET", "/api/drones/hours")
         return answer
+
+    def results(self, *, flight: str = "") -> list[object]:
+        """What a flight has brought, with full values."""
+        answer: list[object] = self._json("GET", "/api/results.json", query={"flight": flight})
+        return answer
+
+    def results_table(self, *, flight: str = "") -> str:
+        """What a flight has brought, a row a value."""
+        return self._text("GET", "/api/results.csv")
+
+    def results_on_map(self, *, flight: str = "") -> str:
+        """What a flight has brought, by places, in metres of the map."""
+        return self._text("GET", "/api/results.geojson")
+
+    def pictures(self, *, flight: str = "") -> str:
+        """The pictures that a flight has taken, with a table of them."""
+        return self._text("GET", "/api/results.zip")
+
+    def photo(self, *, flight: str = "", result: int, size: str = "") -> str:
+        """The picture of a photo, as it was taken or small."""
+        return self._text("GET", "/api/photo")
 
     def replace_plan(self, *, revision: int, missions: list[PlanMission]) -> PlanData:
         """Replace the plan's missions, but for those that fly."""

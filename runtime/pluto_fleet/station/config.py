@@ -12,6 +12,7 @@ from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.quantities import QUANTITIES, Type, units_of
 from .graph.picture import app_graph, laid_out
+from .results.meaning import SIMULATED_UNITS, Meanings
 
 if TYPE_CHECKING:
     from ..app import App
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
     from .graph.picture import Graph
+    from .wire import Layer
     from .wire_app import ActionData, AppData, CategoryData, FieldData, ParameterData
 
 
@@ -65,6 +67,7 @@ def described(app: App, config: StationConfig, server: str) -> AppData:
             "trip": [_field(field) for field in app.fields if field.on is Entity.TRIP],
         },
         "evaluators": list(app.evaluators),
+        "layers": layers(app, config.sim),
         "actions": [_action(action) for action in app.actions.values() if _can(app, action)],
         "categories": [_category(category) for category in app.categories],
         "drones": [
@@ -82,6 +85,12 @@ def described(app: App, config: StationConfig, server: str) -> AppData:
         "rounds": any(field.type is FieldType.ROUNDS for field in app.fields),
         "graph": laid_out(graph) if graph is not None else None,
     }
+
+
+def layers(app: App, sim: bool) -> list[Layer]:
+    """Return the layers of the map for the results of all that this app's drones can do."""
+    able = [name for name, action in app.actions.items() if _can(app, action)]
+    return Meanings(app.results, able, SIMULATED_UNITS if sim else {}).layers
 
 
 def _field(field: Field) -> FieldData:

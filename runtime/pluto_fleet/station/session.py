@@ -24,11 +24,12 @@ from ..shared import output
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
 from .between_flights import IdleDrones
-from .feed import UNITS, Feed, VersionedRows
+from .feed import Feed, VersionedRows
 from .history.folder import recording_of
 from .history.recorder import Recorder
 from .plan.missing import settled
 from .plan.shape import BROKEN_OFF
+from .results.meaning import SIMULATED_UNITS
 from .wait_reasons import WaitReasons
 
 if TYPE_CHECKING:
@@ -88,7 +89,8 @@ class FlightSession:
         """
         self.flight = flight
         self.id = flight.journal.stem
-        self.feed = Feed(flight.app, UNITS if flight.sim else {})
+        units = SIMULATED_UNITS if flight.sim else {}
+        self.feed = Feed(flight.app, units, self.id)
         self.missions: VersionedRows[MissionRow] = VersionedRows()
         self.drones: VersionedRows[DroneRow] = VersionedRows()
         self.stops = Stops()

@@ -31,6 +31,7 @@ from .config import described
 from .history.past import PastFlights
 from .plan.promised import broken, promised
 from .preflight.start import StartForecasts
+from .results.exports import CurrentFlight, Exports
 from .session import FlightSession, Phase, phase_of
 from .updates import Updates
 
@@ -81,6 +82,7 @@ class Station:
         self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
         self.past = PastFlights(app, config, self._ours)
         """The flights of the past."""
+        self.exports = Exports(app, config, self._flight_now)
         self._before: Path | None = None
         """The folder of the last discarded flight's gateway, whose drones may still be landing."""
 
@@ -416,9 +418,13 @@ class Station:
         """Return the flight's console."""
         return self.session.feed.console() if self.session is not None else ""
 
-    def results(self) -> list[object]:
-        """Return the flight's results."""
-        return self.session.feed.brought() if self.session is not None else []
+    def _flight_now(self) -> CurrentFlight | None:
+        session = self.session
+        if session is None:
+            return None
+        return CurrentFlight(
+            flight=session.journal.stem, journal=session.journal, feed=session.feed
+        )
 
 
 _NOT_YET = "the drones are just being asked where they are: try again in a moment"

@@ -123,6 +123,27 @@ class LogLine(TypedDict):
     kind: LineKind
 
 
+class Layer(TypedDict):
+    """A layer of the map: what of the results it shows, and how.
+
+    The id of a layer of `measure` without a quantity stands for a layer for each quantity that is
+    measured and has none of its own.
+    """
+
+    id: str
+    action: str
+    kind: Literal["heat", "values", "findings", "photos"]
+    title: str | None
+    """As the app calls it; None: a page calls it by its kind, or by its quantity."""
+    quantity: str | None
+    unit: str | None
+    low: float | None
+    """The values at the ends of the colours; None: the lowest, or the highest, that was measured."""
+    high: float | None
+    reach: float | None
+    """Of a heat map: how many metres around its place a value speaks for."""
+
+
 class PhotoValue(TypedDict):
     """A photo: what it covers and shows, and where its picture is, if the camera took one."""
 
@@ -159,6 +180,8 @@ class Result(TypedDict):
     value: Scalar | PhotoValue | None
     values: list[Quantity]
     tags: list[str]
+    layers: list[str]
+    """The ids of the layers that show it."""
 
 
 class Quantity(TypedDict):

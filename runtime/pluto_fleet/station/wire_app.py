@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NotRequired, TypedDict
 
-from .wire import Point, Role, Scalar
+from .wire import Layer, Point, Role, Scalar
 
 
 class FieldData(TypedDict):
@@ -133,6 +133,8 @@ class AppData(TypedDict):
     actions: list[ActionData]
     categories: list[CategoryData]
     drones: list[FleetDrone]
+    layers: list[Layer]
+    """How results are shown on the map."""
     map: MapShape
     retries: bool
     """Whether the graph flies a failed trip again."""

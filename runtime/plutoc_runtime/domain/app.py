@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 A = TypeVar("A", bound="App")
 
-SEAM = (3, 2)
+SEAM = (3, 3)
 """The seam to the library: the first number changes when earlier data would be misread, the second
 when more is said."""
 
@@ -41,6 +41,8 @@ class App:
     """The app's evaluators, by name."""
     resumes: tuple[str, ...] = ()
     """The blocks at which an interrupted mission can resume: `flow` can be entered there."""
+    results: tuple[Mapping[str, Any], ...] = ()
+    """What the results of actions are, and how they are shown: for the library alone."""
 
 
 def needs_library(what: str, extra: str = "") -> str:
@@ -60,9 +62,7 @@ def about(app: App) -> dict[str, Any]:
     return {
         "name": app.name,
         "title": app.title,
-        "fields": [
-            {**asdict(one), "on": one.on.value, "type": one.type.value} for one in app.fields
-        ],
+        "fields": [{**asdict(f), "on": f.on.value, "type": f.type.value} for f in app.fields],
         "categories": [
             {**asdict(one), "actions": one.actions and sorted(one.actions)}
             for one in app.categories
@@ -81,4 +81,5 @@ def about(app: App) -> dict[str, Any]:
         ],
         "evaluators": list(app.evaluators),
         "resumes": list(app.resumes),
+        "results": list(app.results),
     }

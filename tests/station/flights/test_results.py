@@ -10,7 +10,8 @@ from pluto_fleet.shared.domain.model import Photo
 from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.plain_data import value_data
-from pluto_fleet.station.feed import UNITS, Feed
+from pluto_fleet.station.feed import Feed
+from pluto_fleet.station.results.meaning import SIMULATED_UNITS as UNITS
 from tests.station.browser.serving import Station, until
 from tests.station.flights.conftest import Serve
 from tests.station.flights.test_flights import comes_to, tell
@@ -22,6 +23,8 @@ SPRAY = OwnAction(
 
 class Sprays:
     """As much of an app as the results ask for."""
+
+    results = ()
 
     def __init__(self) -> None:
         self.actions = {**BUILT_IN, SPRAY.name: SPRAY}
@@ -49,12 +52,15 @@ def test_a_measurement_says_of_what_it_is_and_where() -> None:
         "attempt": 2,
         "drone": "cf1",
         "kind": "measurement",
-        "value": 17.3,
         "action": "measure",
-        "target": [3.0, 4.5, 1.2],
         "parameters": {},
-        "quantity": "pm10",
-        "unit": "µg/m³",
+        "target": [3.0, 4.5, 1.2],
+        "at": None,
+        "place": None,
+        "value": 17.3,
+        "values": [{"quantity": "pm10", "value": 17.3, "unit": "µg/m³"}],
+        "tags": [],
+        "layers": ["measure"],
     }
 
 
@@ -75,13 +81,14 @@ def test_what_was_done_beside_its_target_says_where() -> None:
 
 def test_a_quantity_that_was_not_named_is_the_usual_one() -> None:
     found = told("measure", 21.0, dict(UNITS))
-    assert (found["quantity"], found["unit"]) == ("temperature", "°C")
+    assert found["values"] == [{"quantity": "temperature", "value": 21.0, "unit": "°C"}]
 
 
 def test_an_undeclared_unit_is_not_made_up() -> None:
     """What a real drone's sensor gives has the unit of its sensor, which is not known here."""
-    assert told("measure", 21.0, {})["unit"] is None
-    assert told("measure", 3.0, dict(UNITS), quantity="radon")["unit"] is None
+    [unknown] = told("measure", 21.0, {})["values"]
+    [radon] = told("measure", 3.0, dict(UNITS), quantity="radon")["values"]
+    assert (unknown["unit"], radon["unit"]) == (None, None)
 
 
 def test_what_an_action_of_the_apps_own_returns_is_no_measurement_and_its_dose_a_parameter() -> (
@@ -90,9 +97,9 @@ def test_what_an_action_of_the_apps_own_returns_is_no_measurement_and_its_dose_a
     found = told("spray", 5e-05, dict(UNITS))
     assert (found["kind"], found["action"]) == ("result", "spray")
     assert found["parameters"] == {"dose": 5e-05}
-    assert (found["quantity"], found["unit"]) == (None, None)
+    assert found["values"] == found["layers"] == []
     assert told("spray", True, {}, dose=1e-05)["parameters"] == {"dose": 1e-05}
-    assert told("release_item", None, {})["kind"] == "result"
+    assert told("release_item", None, {})["kind"] == "handling"
 
 
 def shown(value: object, action: str = "spray") -> tuple[object, object]:
@@ -122,7 +129,7 @@ def test_what_an_action_returned_is_downloaded_as_it_is_and_shown_in_words() -> 
 
 
 def test_an_action_that_returned_nothing_was_done_all_the_same() -> None:
-    assert shown(None) == ("nothing", None)
+    assert shown(None) == (None, None)
     assert shown(None, "release_item") == (None, None)
 
 
@@ -143,7 +150,7 @@ def test_the_same_is_told_of_a_flight_as_it_flies_and_by_the_next_station(serve:
     photos = [one for one in results if one.get("action") == "take_photo"]
     assert all(one["kind"] == "photo" and len(one["target"]) == 3 for one in photos)
     [dose, *_] = [one for one in results if one.get("action") == "pollinate"]
-    assert (dose["kind"], dose["parameters"]) == ("result", {"dose": 2e-05})
+    assert (dose["kind"], dose["parameters"]) == ("handling", {"dose": 2e-05})
     station.kill()
     station.start()
     assert station.get("/api/results.json") == results

@@ -86,8 +86,26 @@ class NoFlights:
     def console(self, id: str, /) -> str:
         raise BadInput(f"no flight {id!r} is kept here")
 
-    def results(self, id: str, /) -> object:
-        raise BadInput(f"no flight {id!r} is kept here")
+
+class SomeResults:
+    """Results of which some are no numbers, and one picture."""
+
+    async def results(self, flight: str) -> list[object]:
+        return [{"value": float("nan")}, {"value": (1.5, float("inf"))}]
+
+    async def csv(self, flight: str) -> str:
+        return "number\r\n"
+
+    async def geojson(self, flight: str) -> dict[str, object]:
+        return {"type": "FeatureCollection", "features": []}
+
+    async def archive(self, flight: str) -> Path:
+        raise BadInput(f"there is no flight '{flight}' here")
+
+    async def picture(self, flight: str, number: int, *, small: bool) -> tuple[bytes, str]:
+        if number != 1:
+            raise BadInput(f"result {number} has no picture")
+        return (b"small" if small else b"whole"), "image/png"
 
 
 @dataclass
@@ -132,8 +150,9 @@ class AStation:
     def console(self) -> str:
         return "<script>alert(1)</script>\ud800"
 
-    def results(self) -> list[object]:
-        return [{"value": float("nan")}, {"value": (1.5, float("inf"))}]
+    @property
+    def exports(self) -> SomeResults:
+        return SomeResults()
 
     @property
     def untouched(self) -> bool:

@@ -325,3 +325,17 @@ def test_where_others_may_listen_a_browser_is_told_nothing_that_it_would_not_hee
     assert reply.status == 200
     assert "Cross-Origin-Opener-Policy" not in dict(reply.headers)
     assert "X-Frame-Options" in dict(reply.headers)
+
+
+def test_a_picture_is_asked_for_by_the_number_of_its_result() -> None:
+    ask = asked()
+    assert ask("GET", "/api/photo", result="1").body == b"whole"
+    assert ask("GET", "/api/photo", result="1", size="thumb").body == b"small"
+    gone = ask("GET", "/api/photo", result="2")
+    assert (gone.status, json.loads(gone.body)) == (404, {"said": "result 2 has no picture"})
+    assert ask("GET", "/api/photo", result="x").status == 400
+    assert ask("GET", "/api/photo", result="1", size="huge").status == 400
+    assert ask("GET", "/api/photo", result="1", flight="f" * 200).status == 400
+    assert ask("GET", "/api/results.zip", flight="older").status == 404
+    assert ask("GET", "/api/results.csv").type == "text/csv; charset=utf-8"
+    assert ask("POST", "/api/photo").status == 405

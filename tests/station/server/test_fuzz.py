@@ -28,7 +28,7 @@ from pluto_fleet.station.wire_app import AppData
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, a_plan
 
-from .asking import HOST, OURS, AStation
+from .asking import HOST, OURS, AStation, SomeResults
 from .serving import Served, served, status
 
 METHODS = st.sampled_from(["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH", "\x00", ""])
@@ -127,8 +127,9 @@ class WithAPlan:
     def console(self) -> str:
         return self.rest.console()
 
-    def results(self) -> list[object]:
-        return self.rest.results()
+    @property
+    def exports(self) -> SomeResults:
+        return self.rest.exports
 
     @property
     def changed(self) -> tuple[int, int]:

@@ -6,6 +6,7 @@ import { tags } from "../codemirror/lezer-highlight.js";
 const WORDS = /^(?:pluto|use|as|app|category|can|action|evaluator|modifier|policy|emits|writes|when|otherwise)\b/;
 const SETTINGS = /^(?:version|requires)\b(?=[ \t]*")/;
 const FIELDS = /^(?:mission|trip)[ \t]+has\b(?=[ \t]+[A-Za-z])/;
+const RESULT = /^(?:result)\b(?=[ \t]+[A-Za-z]\w*[ \t]+as\b)/;
 const CONSTANTS = /^(?:yes|no|safe|once|ask)\b/;
 const STATUS = /^(?:UNEXECUTED|RUNNING|STANDBY|COMPLETED|FAILED)\b/;
 const TYPES = /^(?:int|float|bool|text|mass|length|time|angle|percent|speed|temperature)\b/;
@@ -21,7 +22,7 @@ function token(stream) {
   if (stream.match(/^[A-Za-z]\w*(?=[ \t]*:)/)) return "parameter";
   if (stream.match(/^[A-Za-z]\w*(?=[ \t]*=)/)) return "definition";
   if (stream.match(STATUS)) return "status";
-  if (stream.match(WORDS) || stream.match(SETTINGS) || stream.match(FIELDS)) return "keyword";
+  if (stream.match(WORDS) || stream.match(SETTINGS) || stream.match(FIELDS) || stream.match(RESULT)) return "keyword";
   if (stream.match(CONSTANTS)) return "constant";
   if (stream.match(TYPES) || stream.match(PHOTO)) return "type";
   if (stream.match(/^(?:start|end)\b/)) return "terminal";

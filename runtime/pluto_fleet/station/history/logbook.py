@@ -7,7 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ..feed import UNITS, Feed
+from ..feed import Feed
+from ..results.meaning import SIMULATED_UNITS
 from .reading import BROKEN, JournalText
 
 if TYPE_CHECKING:
@@ -40,7 +41,8 @@ def logbook(app: App, journal: JournalText, said: Sequence[Said]) -> Logbook:
     for instant in journal.instants():
         for event in instant.events:
             if book is None:
-                book = Logbook(Feed(app, UNITS if event.get("sim") else {}))
+                units = SIMULATED_UNITS if event.get("sim") else {}
+                book = Logbook(Feed(app, units, journal.path.stem))
             while ahead is not None and ahead[1] <= told:
                 _say(book, ahead[0])
                 ahead = next(others, None)

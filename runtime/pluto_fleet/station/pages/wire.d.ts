@@ -40,6 +40,8 @@ export interface AppData {
   actions: ActionData[];
   categories: CategoryData[];
   drones: FleetDrone[];
+  /** How results are shown on the map. */
+  layers: Layer[];
   map: MapShape;
   /** Whether the graph flies a failed trip again. */
   retries: boolean;
@@ -283,6 +285,22 @@ export interface ItemData {
   name?: string;
   /** With its unit, as in `4 g`. */
   mass?: string | number | number | boolean;
+}
+
+/** A layer of the map: what of the results it shows, and how. The id of a layer of `measure` without a quantity stands for a layer for each quantity that is measured and has none of its own. */
+export interface Layer {
+  id: string;
+  action: string;
+  kind: "heat" | "values" | "findings" | "photos";
+  /** As the app calls it; None: a page calls it by its kind, or by its quantity. */
+  title: string | null;
+  quantity: string | null;
+  unit: string | null;
+  /** The values at the ends of the colours; None: the lowest, or the highest, that was measured. */
+  low: number | null;
+  high: number | null;
+  /** Of a heat map: how many metres around its place a value speaks for. */
+  reach: number | null;
 }
 
 /** What has changed since a page looked; the rows are whole. */
@@ -629,6 +647,8 @@ export interface Result {
   value: string | number | number | boolean | PhotoValue | null;
   values: Quantity[];
   tags: string[];
+  /** The ids of the layers that show it. */
+  layers: string[];
 }
 
 /** Go on with a flight that was stopped or interrupted. */

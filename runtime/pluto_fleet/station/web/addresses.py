@@ -22,7 +22,7 @@ from ..wire import (
     Role,
 )
 from ..wire_app import AppData, PlanData
-from . import changes, flights, forecasts, reads
+from . import changes, flights, forecasts, reads, results
 from .http import Reply
 from .live import LIVE
 from .reads import TOML
@@ -132,15 +132,6 @@ _READS = (
     ),
     Address(
         method="GET",
-        path="/api/results.json",
-        says="What the flight has brought, with full values.",
-        answers=list[object],
-        do=reads.results,
-        role="watch",
-        query={"flight": Parameter(str, "The id of a flight of the past; left out: that of now.")},
-    ),
-    Address(
-        method="GET",
         path="/api/openapi.json",
         says="This description.",
         answers=dict[str, object],
@@ -242,6 +233,58 @@ _FLIGHTS = (
         role="watch",
     ),
 )
+_OF_FLIGHT = {"flight": Parameter(str, "The id of a flight of the past; left out: that of now.")}
+_RESULTS = (
+    Address(
+        method="GET",
+        path="/api/results.json",
+        says="What a flight has brought, with full values.",
+        answers=list[object],
+        do=results.results,
+        role="watch",
+        query=_OF_FLIGHT,
+    ),
+    Address(
+        method="GET",
+        path="/api/results.csv",
+        says="What a flight has brought, a row a value.",
+        answers=results.CSV,
+        do=results.results_table,
+        role="watch",
+        query=_OF_FLIGHT,
+    ),
+    Address(
+        method="GET",
+        path="/api/results.geojson",
+        says="What a flight has brought, by places, in metres of the map.",
+        answers=results.GEOJSON,
+        do=results.results_on_map,
+        role="watch",
+        query=_OF_FLIGHT,
+    ),
+    Address(
+        method="GET",
+        path="/api/results.zip",
+        says="The pictures that a flight has taken, with a table of them.",
+        answers=results.ZIP,
+        do=results.pictures,
+        role="watch",
+        query=_OF_FLIGHT,
+    ),
+    Address(
+        method="GET",
+        path="/api/photo",
+        says="The picture of a photo, as it was taken or small.",
+        answers=results.PICTURES,
+        do=results.photo,
+        role="watch",
+        query={
+            **_OF_FLIGHT,
+            "result": Parameter(int, "The number of the result.", needed=True),
+            "size": Parameter(str, "`thumb` for a small one."),
+        },
+    ),
+)
 _FORECASTS = (
     Address(
         method="POST",
@@ -253,4 +296,4 @@ _FORECASTS = (
     ),
 )
 
-ADDRESSES: Sequence[Address] = (*_READS, *_FLIGHTS, *_EDITS, *_FORECASTS, *_COMMANDS)
+ADDRESSES: Sequence[Address] = (*_READS, *_FLIGHTS, *_RESULTS, *_EDITS, *_FORECASTS, *_COMMANDS)

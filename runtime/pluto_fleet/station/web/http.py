@@ -10,6 +10,7 @@ import json
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from math import isfinite
+from pathlib import Path
 from typing import Protocol
 
 Read = Callable[[int], Awaitable[bytes]]
@@ -49,6 +50,8 @@ class Reply:
     body: bytes = b""
     type: str = "application/json"
     headers: tuple[tuple[str, str], ...] = ()
+    file: Path | None = None
+    """A file to send instead of a body, and to delete then."""
 
 
 MISTAKES: tuple[type[Exception], ...] = (Exception,)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 
 from ...shared.domain.errors import BadInput
 from ..wire_app import AppData
-from .flights import download, id_in, in_thread
+from .flights import id_in, in_thread
 from .http import Reply, json_reply, said, text_reply
 from .served import Asked
 
@@ -43,14 +43,6 @@ async def console(asked: Asked) -> Reply:
     if id := id_in(asked):
         return await in_thread(lambda: text_reply(asked.station.past.console(id), "console.txt"))
     return text_reply(asked.station.console(), "console.txt")
-
-
-async def results(asked: Asked) -> Reply:
-    """Answer with the results, to be downloaded."""
-    if id := id_in(asked):
-        read = partial(asked.station.past.results, id)
-        return await in_thread(lambda: download(json_reply(200, read()), "results.json"))
-    return download(json_reply(200, asked.station.results()), "results.json")
 
 
 async def description(_: Asked) -> Reply:

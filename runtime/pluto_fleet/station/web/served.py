@@ -58,8 +58,24 @@ class ServedFlights(Protocol):
     def console(self, id: str, /) -> str:
         """Return the console of a flight."""
 
-    def results(self, id: str, /) -> object:
-        """Return the results of a flight."""
+
+class ServedResults(Protocol):
+    """The results that are served. `flight` is an id, or empty for the current flight."""
+
+    async def results(self, flight: str) -> list[object]:
+        """Return the results as mappings."""
+
+    async def csv(self, flight: str) -> str:
+        """Return the table of values."""
+
+    async def geojson(self, flight: str) -> dict[str, object]:
+        """Return the results that have a place."""
+
+    async def archive(self, flight: str) -> Path:
+        """Write an archive of the pictures into a file, which the caller deletes."""
+
+    async def picture(self, flight: str, number: int, *, small: bool) -> tuple[bytes, str]:
+        """Return the picture of a result and its media type."""
 
 
 class ServedStation(UpdateSource, Protocol):
@@ -90,8 +106,9 @@ class ServedStation(UpdateSource, Protocol):
     def console(self) -> str:
         """Return the console."""
 
-    def results(self) -> list[object]:
-        """Return the results."""
+    @property
+    def exports(self) -> ServedResults:
+        """The results of all flights."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,13 +15,13 @@ from urllib.parse import parse_qsl
 import uvicorn
 from starlette.requests import ClientDisconnect
 from starlette.requests import Request as StarletteRequest
-from starlette.responses import Response
+from starlette.responses import FileResponse, Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
 from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 from . import refusals
-from .http import Closed, Request
+from .http import Closed, Reply, Request
 from .refusals import Refused
 
 if TYPE_CHECKING:
@@ -61,8 +61,13 @@ async def serve(api: Api, listener: socket.socket, ready: Callable[[], object]) 
             return
         reply = await api.answer(request)
         headers = {"Content-Type": reply.type, **dict(reply.headers)}
-        with suppress(*_GONE):  # the client has disconnected
-            await Response(reply.body, reply.status, headers)(scope, receive, send)
+        response = _response(reply, headers)
+        try:
+            with suppress(*_GONE):  # the client has disconnected
+                await response(scope, receive, send)
+        finally:
+            if reply.file is not None:
+                reply.file.unlink(missing_ok=True)
 
     server = _server(application)
     serving = asyncio.create_task(server.serve([listener]))
@@ -76,6 +81,12 @@ async def serve(api: Api, listener: socket.socket, ready: Callable[[], object]) 
         api.end()
         server.should_exit = True
         await serving
+
+
+def _response(reply: Reply, headers: dict[str, str]) -> Response:
+    if reply.file is not None:
+        return FileResponse(reply.file, reply.status, headers)
+    return Response(reply.body, reply.status, headers)
 
 
 def _server(application: ASGIApp) -> uvicorn.Server:

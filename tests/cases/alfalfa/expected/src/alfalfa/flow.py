@@ -88,6 +88,10 @@ APP = App(
     evaluators={
         "find_blooms": hooks.find_blooms,
     },
+    results=(
+        # result pollinate as handling
+        {"action": "pollinate", "as": "handling"},
+    ),
     resumes=(
         "wait",
         "allocate",

@@ -1,0 +1,89 @@
+"""The handlers of results: files to download, and pictures; what there is not is 404, with a sentence."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Awaitable
+
+from ...shared.domain.errors import BadInput
+from ..commands import Malformed
+from .http import Reply, json_reply, said, text_reply
+from .served import Asked
+from .strict_json import asked_number
+
+CSV, GEOJSON, ZIP, PICTURES = "text/csv", "application/geo+json", "application/zip", "image/*"
+
+_LONGEST_FLIGHT = 100
+_SIZES = ("", "full", "thumb")
+
+
+async def results(asked: Asked) -> Reply:
+    """Answer with the results, to be downloaded."""
+
+    async def found(flight: str) -> Reply:
+        reply = json_reply(200, await asked.station.exports.results(flight))
+        return Reply(status=200, body=reply.body, headers=(_named("results.json"),))
+
+    return await _or_404(found(_flight(asked)))
+
+
+async def results_table(asked: Asked) -> Reply:
+    """Answer with the table of values."""
+
+    async def found(flight: str) -> Reply:
+        return text_reply(await asked.station.exports.csv(flight), "results.csv", CSV)
+
+    return await _or_404(found(_flight(asked)))
+
+
+async def results_on_map(asked: Asked) -> Reply:
+    """Answer with the results that have a place."""
+
+    async def found(flight: str) -> Reply:
+        text = json.dumps(await asked.station.exports.geojson(flight), ensure_ascii=False)
+        return text_reply(text, "results.geojson", GEOJSON)
+
+    return await _or_404(found(_flight(asked)))
+
+
+async def pictures(asked: Asked) -> Reply:
+    """Answer with an archive of the pictures."""
+
+    async def found(flight: str) -> Reply:
+        file = await asked.station.exports.archive(flight)
+        return Reply(status=200, type=ZIP, headers=(_named("results.zip"),), file=file)
+
+    return await _or_404(found(_flight(asked)))
+
+
+async def photo(asked: Asked) -> Reply:
+    """Answer with the picture of a result."""
+    query = asked.request.query
+    size, number = query.get("size", ""), asked_number(query, "result")
+    if size not in _SIZES:
+        raise Malformed("size is thumb, or full")
+
+    async def found(flight: str) -> Reply:
+        exports = asked.station.exports
+        content, kind = await exports.picture(flight, number, small=size == "thumb")
+        return Reply(status=200, body=content, type=kind)
+
+    return await _or_404(found(_flight(asked)))
+
+
+async def _or_404(found: Awaitable[Reply]) -> Reply:
+    try:
+        return await found
+    except BadInput as why:
+        return said(404, str(why))
+
+
+def _flight(asked: Asked) -> str:
+    flight = asked.request.query.get("flight", "")
+    if len(flight) > _LONGEST_FLIGHT:
+        raise Malformed(f"flight is the id of a flight, of at most {_LONGEST_FLIGHT} characters")
+    return flight
+
+
+def _named(name: str) -> tuple[str, str]:
+    return ("Content-Disposition", f'attachment; filename="{name}"')

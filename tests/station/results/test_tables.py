@@ -1,0 +1,55 @@
+"""A table of results is read by spreadsheets as what it is, whatever texts a flight has brought."""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.shared.domain.actions import BUILT_IN
+from pluto_fleet.station.results.flights import Brought, FlightResults
+from pluto_fleet.station.results.meaning import Meanings
+from pluto_fleet.station.results.rows import ResultRows
+from pluto_fleet.station.results.tables import cells, csv_text, from_cell, geojson
+
+
+def a_flight(**facts: object) -> FlightResults:
+    """Return a flight with one result."""
+    rows = ResultRows("flight", BUILT_IN, Meanings((), BUILT_IN, {}), lambda _: "Bed 3")
+    did = {"action": "measure", "target": [3.0, 4.5, 1.2], "parameters": {"quantity": "pm10"}}
+    event = {"t": 1.5, "event": "trip.completed", "mission": "Field", "trip": "A", "round": 0}
+    brought = rows.take({**event, "attempt": 1, "drone": "cf1", "did": did, "result": 3.5, **facts})
+    assert brought is not None
+    result, value = brought
+    row = Brought(result=result, wall=1_700_000_000.25, value=value)
+    return FlightResults(
+        flight="flight", journal=Path("flight.journal"), rows=(row,), pictures=rows.pictures
+    )
+
+
+@pytest.mark.parametrize(
+    "name", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "'=1", "''", 'a "b", c\r\nd', "µ🐝"]
+)
+def test_no_text_is_a_formula_and_each_is_read_back(name: str) -> None:
+    text = csv_text(cells(a_flight(mission=name)))
+    [line] = csv.DictReader(io.StringIO(text.removeprefix("\ufeff"), newline=""))
+    assert not line["mission"].startswith(("=", "+", "-", "@", "\t", "\r"))
+    assert from_cell(line["mission"]) == name
+
+
+def test_a_row_says_what_where_when_and_in_which_unit() -> None:
+    text = csv_text(cells(a_flight(result=-3.5)))
+    assert text.startswith("\ufeffnumber,time,wall,")
+    assert text.endswith("\r\n")
+    [line] = csv.DictReader(io.StringIO(text.removeprefix("\ufeff"), newline=""))
+    assert line["wall"] == "2023-11-14T22:13:20.250+00:00"
+    assert (line["quantity"], line["value"], line["unit"]) == ("pm10", "-3.5", "")
+    assert (line["x"], line["y"], line["z"], line["place"]) == ("3.0", "4.5", "1.2", "Bed 3")
+
+
+def test_coordinates_of_the_map_are_not_passed_off_as_degrees() -> None:
+    found = geojson(a_flight(), "field")
+    assert found["type"] == "FeatureCollection"
+    assert "metres of the map" in str(found["pluto"])
