@@ -82,6 +82,7 @@ def result(number: int, *tags: str) -> Result:
         "value": None,
         "values": [],
         "tags": [*tags],
+        "layers": [],
     }
 
 

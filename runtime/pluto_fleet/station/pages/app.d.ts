@@ -1,5 +1,7 @@
 // What the station says of its app and of the plan (station/config.py, station/plan/shape.py).
 
+import type { Layer } from "./wire";
+
 export type Scalar = string | number | boolean;
 export type Point = number[];
 
@@ -79,6 +81,7 @@ export interface AppShape {
   role?: "watch" | "fly";
   fields: { mission: FieldShape[]; trip: FieldShape[] };
   evaluators: string[];
+  layers: Layer[];
   actions: ActionShape[];
   categories: CategoryShape[];
   drones: FleetDrone[];

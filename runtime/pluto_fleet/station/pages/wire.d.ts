@@ -376,6 +376,8 @@ export interface MapData {
   north: number;
   image: Picture | null;
   writable: boolean;
+  /** Why nothing that is drawn can be kept; empty: it can. */
+  said: string;
 }
 
 /** What of the map does not change while the station runs. */

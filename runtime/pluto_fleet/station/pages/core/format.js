@@ -50,6 +50,10 @@ export function moment(at) {
   }).format(date);
 }
 
+/** A moment with its day, as on paper. @param {number} at milliseconds since 1970 */
+export const dated = (at) =>
+  new Intl.DateTimeFormat(locale.value, { dateStyle: "long", timeStyle: "short" }).format(new Date(at));
+
 /** A name of a program as people write it: `take_photo` → "take photo". @param {string} name */
 export const plain = (name) => name.replaceAll("_", " ");
 

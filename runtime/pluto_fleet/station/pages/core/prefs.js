@@ -51,6 +51,10 @@ export const prefs = {
   rail: remembered("rail", true),
   railTab: remembered("rail-tab", "missions"),
   tour: remembered("tour-seen", false),
+  /** Which layers of the results are on, and how opaque, by their ids; the others are as is usual. */
+  layers: remembered("layers", /** @type {Record<string, boolean>} */ ({})),
+  opacity: remembered("opacity", /** @type {Record<string, number>} */ ({})),
+  resultsTab: remembered("results-tab", "layers"),
 };
 
 const dark = matchMedia("(prefers-color-scheme: dark)");

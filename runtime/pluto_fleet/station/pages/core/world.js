@@ -40,6 +40,18 @@ class Rows {
     this.version.value += 1;
   }
 
+  /** Have exactly these rows; those that stay keep their signals. @param {Row[]} rows */
+  replace(rows) {
+    /** @type {Set<string>} */
+    const keys = new Set(rows.map((row) => row[this.key]));
+    const gone = [...this.rows.keys()].filter((key) => !keys.has(key));
+    for (const key of gone) this.rows.delete(key);
+    this.take(rows);
+    if (!gone.length) return;
+    this.keys.value = [...this.rows.keys()];
+    this.version.value += 1;
+  }
+
   /** @param {string | null | undefined} key @returns {Row | undefined} */
   get(key) {
     return key === null || key === undefined ? undefined : this.rows.get(key)?.value;
@@ -77,6 +89,13 @@ class Tail {
     const { last } = this;
     const newer = fresh.filter(({ number }) => number > last);
     if (newer.length) this.entries.value = [...this.entries.peek(), ...newer].slice(-LINES_KEPT);
+  }
+
+  /** Have exactly these entries. @param {Entry[]} entries */
+  replace(entries) {
+    const now = this.entries.peek();
+    const isSame = entries.length === now.length && entries.at(-1)?.number === now.at(-1)?.number;
+    if (!isSame) this.entries.value = entries.slice(-LINES_KEPT);
   }
 
   clear() {

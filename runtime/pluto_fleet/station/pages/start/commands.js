@@ -21,9 +21,6 @@ const STOP_ALARM = 1500; // ms
 /** @type {Signal<{ missions: string[] | null } | null>} */
 export const preflight = signal(null);
 
-/** The recording of a forecast's run that the Monitor plays, by its id. */
-export const rehearsal = signal(/** @type {string | null} */ (null));
-
 export const words = computed(() => startWords(world.state.value, {
   missions: plan.missions.value, problems: plan.problems.value, isLoaded: plan.isLoaded.value,
 }, world.drones.all(), mayFly.value));

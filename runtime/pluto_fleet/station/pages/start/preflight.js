@@ -10,7 +10,7 @@ import { line, plan, world } from "../core/station.js";
 import { Button, HoldButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
 import { Battery, Chip, Dialog } from "../ui/parts.js";
-import { preflight, rehearsal, start, words } from "./commands.js";
+import { preflight, start, words } from "./commands.js";
 import { useForecast } from "./forecast.js";
 import { counted } from "./words.js";
 
@@ -39,9 +39,8 @@ export function Preflight({ missions: keys }) {
       forecast?.rehearsal && h(Button, {
         key: "rehearse", icon: "history",
         onClick: () => {
-          rehearsal.value = forecast.rehearsal;
           preflight.value = null;
-          go("monitor");
+          go("history", forecast.rehearsal ?? "");
         },
       }, t("preflight.rehearse")),
     ],

@@ -1,0 +1,29 @@
+// What a page asks of the station when it opens, and whether it is here yet.
+
+import { useEffect, useState } from "preact/hooks";
+import { get, StationError } from "../core/api.js";
+
+/** @template Data @typedef {{ data: Data | null, trouble: string }} Asked */
+
+/**
+ * What the station says at an address; asked again when that changes, or when `anew` does.
+ * @template Data
+ * @param {string | null} path null: nothing is asked
+ * @param {unknown} [anew]
+ * @returns {Asked<Data>}
+ */
+export function useAsked(path, anew) {
+  const [asked, setAsked] = useState(/** @type {Asked<Data> & { path: string | null }} */ ({ data: null, trouble: "", path: null }));
+  useEffect(() => {
+    let isWanted = true;
+    const keep = (/** @type {Asked<Data>} */ answer) => { if (isWanted) setAsked({ ...answer, path }); };
+    if (path !== null) {
+      get(path, 30000).then((data) => keep({ data, trouble: "" }), (error) => {
+        if (!(error instanceof StationError)) throw error;
+        keep({ data: null, trouble: error.message });
+      });
+    }
+    return () => { isWanted = false; };
+  }, [path, anew]);
+  return asked.path === path ? asked : { data: null, trouble: "" };
+}

@@ -1,0 +1,119 @@
+// A flight of the past, or a rehearsal, as the Monitor showed it: at any instant, at any speed. Nothing
+// can be commanded here.
+
+import { useSignal } from "@preact/signals";
+import { h } from "preact";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { get, StationError } from "../core/api.js";
+import { t } from "../core/i18n.js";
+import { selection } from "../core/station.js";
+import { World } from "../core/world.js";
+import { Watch } from "../monitor/page.js";
+import { Icon } from "../ui/icon.js";
+import { Button } from "../ui/button.js";
+import { Banner } from "./banner.js";
+import { marksOf } from "./incidents.js";
+import { Playback } from "./playback.js";
+import { Replayer } from "./replayer.js";
+import { Transport } from "./transport.js";
+
+/** @import { Replay } from "../wire" */
+
+const PATIENCE = 30000; // ms
+const OWN_KEYS = "input, select, textarea, svg.floor-picture, [role=tablist], [role=log], [role=dialog]";
+
+/** @param {string} flight */
+const partsOf = (flight) => (/** @type {number} */ from) =>
+  get(`/api/flights/replay?flight=${encodeURIComponent(flight)}&from=${from}`, PATIENCE);
+
+/**
+ * The replay of a flight by its id, or of a rehearsal: `rehearsal-…`.
+ * @param {{ flight: string, from?: number, onTime?: (time: number) => void }} props
+ */
+export function ReplayView({ flight, from = 0, onTime }) {
+  const replayer = useMemo(() => new Replayer(new World(), partsOf(flight)), [flight]);
+  const [replay, setReplay] = useState(/** @type {Replay | null} */ (null));
+  const [tries, again] = useState(0);
+  const trouble = useSignal("");
+  useEffect(() => {
+    let isHere = true;
+    trouble.value = "";
+    replayer.open().then((whole) => { if (isHere) setReplay(whole); }, (error) => {
+      if (!(error instanceof StationError)) throw error;
+      trouble.value = error.message;
+    });
+    return () => { isHere = false; };
+  }, [replayer, tries, trouble]);
+  if (trouble.value) {
+    return h("div", { class: "replay-trouble stack" }, h("p", { class: "problem", role: "alert" }, h(Icon, { name: "warning" }), trouble.value),
+      h("div", null, h(Button, { onClick: () => again(tries + 1) }, t("history.again"))));
+  }
+  if (!replay) return h("p", { class: "replay-trouble muted", role: "status" }, t("history.loading"));
+  return h(Player, { key: flight, replayer, replay, from, onTime, isRehearsal: flight.startsWith("rehearsal-") });
+}
+
+/**
+ * @param {object} props
+ * @param {Replayer} props.replayer
+ * @param {Replay} props.replay
+ * @param {number} props.from
+ * @param {boolean} props.isRehearsal
+ * @param {(time: number) => void} [props.onTime]
+ */
+function Player({ replayer, replay, from, onTime, isRehearsal }) {
+  const playback = useMemo(() => new Playback(replay.seconds), [replay]);
+  const marks = useMemo(() => marksOf(replay), [replay]);
+  const waiting = useSignal(false);
+  const element = useRef(/** @type {HTMLDivElement | null} */ (null));
+  useEffect(() => {
+    playback.set(from);
+    element.current?.focus({ preventScroll: true });
+  }, [playback, from]);
+
+  useEffect(() => playback.time.subscribe((time) => { // show what was then, as soon as it is here
+    onTime?.(time);
+    if (replayer.show(time)) return;
+    waiting.value = true;
+    replayer.seek(time).then((isShown) => { if (isShown) waiting.value = false; }, (error) => {
+      if (!(error instanceof StationError)) throw error;
+      playback.isPlaying.value = false; // pressed again, it is asked for again
+      waiting.value = false;
+    });
+  }), [playback, replayer, waiting, onTime]);
+
+  useEffect(() => {
+    let [frame, last] = [0, 0];
+    const run = (/** @type {number} */ now) => {
+      if (!waiting.peek()) {
+        playback.tick(last ? (now - last) / 1000 : 0);
+        replayer.ahead(playback.time.peek(), playback.speed.peek());
+      }
+      last = now;
+      frame = requestAnimationFrame(run);
+    };
+    const stop = playback.isPlaying.subscribe((isPlaying) => {
+      cancelAnimationFrame(frame);
+      last = 0;
+      if (isPlaying) frame = requestAnimationFrame(run);
+    });
+    return () => {
+      stop();
+      cancelAnimationFrame(frame);
+    };
+  }, [playback, replayer, waiting]);
+
+  /** @param {KeyboardEvent} event */
+  function onKeyDown(event) {
+    const target = /** @type {Element} */ (event.target);
+    const isButton = event.key === " " && target.closest("button, a, [role=button]");
+    const isOwn = target.closest(OWN_KEYS) && !target.matches(".scrubber");
+    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || isButton || isOwn) return;
+    if (playback.press(event)) event.preventDefault();
+  }
+  return h("div", { class: "replay", ref: element, tabIndex: -1, onKeyDown, "data-flight": replay.flight },
+    h(Banner, { isRehearsal, begunAt: replay.begun_at, seconds: replay.seconds, said: replay.said }),
+    h("div", { class: "replay-watch" }, h(Watch, {
+      world: replayer.world, live: false, foot: waiting.value && h("p", { key: "wait", class: "replay-waits card", role: "status" }, t("history.loading")),
+    })),
+    h(Transport, { playback, replay, marks, chosen: selection.value.drone }));
+}

@@ -1,0 +1,123 @@
+// The report of a flight, to be read and printed: what came of each mission, its results, what went
+// wrong, the batteries, and who commanded what.
+
+import { h } from "preact";
+import { useMemo } from "preact/hooks";
+import { capital, clock, dated, duration, inWords, moment, number, percent, plain } from "../core/format.js";
+import { t, tOr } from "../core/i18n.js";
+import { app } from "../core/station.js";
+import { World } from "../core/world.js";
+import { ResultsModel } from "../results/model.js";
+import { withUnit } from "../results/words.js";
+import { Button } from "../ui/button.js";
+import { useAsked } from "./asked.js";
+import { BatteryChart, Times } from "./battery_chart.js";
+import { ReportMap } from "./report_map.js";
+import { Waiting } from "./waiting.js";
+import { outcomeWords, tookWords } from "./words.js";
+
+/** @import { ComponentChildren } from "preact" */
+/** @import { AppShape } from "../app" */
+/** @import { FlightReport, Replay, ReportCommand, ReportDrone, ReportMission, ReportResults, Result } from "../wire" */
+/** @import { Asked } from "./asked.js" */
+
+/** @param {{ flight: string }} props */
+export function ReportView({ flight }) {
+  const query = `?flight=${encodeURIComponent(flight)}`;
+  const report = /** @type {Asked<FlightReport>} */ (useAsked(`/api/flights/report${query}`));
+  const results = /** @type {Asked<Result[]>} */ (useAsked(`/api/results.json${query}`));
+  const replay = /** @type {Asked<Replay>} */ (useAsked(`/api/flights/replay${query}&from=0`));
+  const model = useMemo(() => {
+    const world = new World();
+    world.results.replace(results.data ?? []);
+    return new ResultsModel(world, app.peek()?.layers ?? [], flight);
+  }, [results.data, flight]);
+  const trouble = report.trouble || results.trouble || replay.trouble;
+  if (!report.data || !results.data || !replay.data) return h(Waiting, { trouble });
+  return h(Report, { report: report.data, replay: replay.data, model });
+}
+
+/** @param {{ report: FlightReport, replay: Replay, model: ResultsModel }} props */
+function Report({ report, replay, model }) {
+  const shape = /** @type {AppShape} */ (app.value);
+  const { flight, missions, results, drones, incidents, commands } = report;
+  const marks = incidents.map(({ time, text }) => ({ time, text }));
+  return h("article", { class: "report" },
+    h("div", { class: "row report-head" }, h("div", null, h("p", { class: "muted" }, shape.title),
+      h("h2", null, t("report.title", { when: flight.begun_at === null ? flight.id : dated(flight.begun_at) }))),
+    h("div", { class: "spread no-print" }, h(Button, { kind: "primary", icon: "save", onClick: () => window.print() }, t("report.print")))),
+    flight.said && h("p", { class: "problem" }, flight.said),
+    h("dl", { class: "report-facts" },
+      h(Fact, { name: t("history.column.end"), words: t(`history.end.${flight.end}`) }),
+      h(Fact, { name: t("history.column.missions"), words: outcomeWords(flight) }),
+      h(Fact, { name: t("history.column.duration"), words: duration(flight.seconds) }),
+      h(Fact, { name: t("history.column.by"), words: flight.by ?? t("history.by-unknown") }),
+      h(Fact, { name: t("report.kind"), words: flight.simulated === null ? t("report.kind-unknown") : t(flight.simulated ? "report.simulated" : "report.real") }),
+      h(Fact, { name: t("history.column.trips"), words: number(flight.trips) }),
+      h(Fact, { name: t("report.lost"), words: flight.lost.join(", ") || t("report.none") })),
+    h(Part, { title: t("report.missions"), isEmpty: !missions.length }, h(Missions, { missions })),
+    h(Part, { title: t("report.results"), isEmpty: !results.length }, h(ReportMap, { shape, model }), h(Results, { results })),
+    h(Part, { title: t("report.incidents"), isEmpty: !incidents.length }, h(Table, {
+      heads: [t("results.column.time"), t("results.column.mission"), t("results.column.drone"), t("report.what")],
+      rows: incidents.map(({ time, mission, drone, text }) => [clock(time), mission ?? "", drone ?? "", text]),
+    })),
+    h(Part, { title: t("report.batteries"), isEmpty: !drones.length },
+      h("div", { class: "report-chart" }, h(BatteryChart, { batteries: replay.batteries, seconds: replay.seconds, marks }), h(Times, { seconds: replay.seconds })),
+      h(Drones, { drones })),
+    h(Part, { title: t("report.commands"), isEmpty: !commands.length }, h(Commands, { commands })));
+}
+
+/** @param {{ name: string, words: string }} props */
+const Fact = ({ name, words }) => h("div", null, h("dt", null, name), h("dd", null, words));
+
+/** @param {{ title: string, isEmpty: boolean, children?: ComponentChildren }} props */
+const Part = ({ title, isEmpty, children }) => h("section", { class: "report-part" }, h("h3", null, title),
+  isEmpty ? h("p", { class: "muted" }, t("report.none")) : children);
+
+/** @param {{ heads: string[], rows: ComponentChildren[][] }} props */
+const Table = ({ heads, rows }) => h("div", { class: "report-table" }, h("table", { class: "table" },
+  h("thead", null, h("tr", null, heads.map((head) => h("th", { key: head, scope: "col" }, head)))),
+  h("tbody", null, rows.map((row, at) => h("tr", { key: at }, row.map((cell, place) => h("td", { key: place }, cell)))))));
+
+/** @param {{ missions: ReportMission[] }} props */
+const Missions = ({ missions }) => h(Table, {
+  heads: [t("results.column.mission"), t("report.outcome"), t("report.began"), t("report.took"), t("history.column.trips")],
+  rows: missions.map(({ name, status, why, began, ended, late, trips }) => [
+    h("strong", null, name),
+    [tOr(`status.${status}`, status), late && ` · ${t("monitor.late")}`, why && h("p", { class: "hint" }, why)],
+    began === null ? "" : clock(began), tookWords(began, ended),
+    h("ul", { class: "report-trips" }, trips.map((trip) => h("li", { key: trip.name },
+      `${trip.name} (${plain(trip.action)}): ${tOr(`status.${trip.status}`, trip.status)}`,
+      trip.drone && ` · ${trip.drone}`, trip.attempts > 1 && ` · ${t("report.attempts", { n: trip.attempts })}`,
+      trip.why && h("span", { class: "hint" }, ` · ${trip.why}`)))),
+  ]),
+});
+
+/** @param {{ results: ReportResults[] }} props */
+const Results = ({ results }) => h(Table, {
+  heads: [t("results.column.what"), t("report.count"), t("report.lowest"), t("report.mean"), t("report.highest")],
+  rows: results.map(({ action, kind, quantity, unit, count, lowest, mean, highest }) => [
+    kind === "verdict" ? t("results.verdict") : capital(quantity ?? action ?? kind), number(count),
+    ...[lowest, mean, highest].map((value) => (value === null ? "" : withUnit(value, unit))),
+  ]),
+});
+
+/** @param {{ drones: ReportDrone[] }} props */
+const Drones = ({ drones }) => h(Table, {
+  heads: [t("results.column.drone"), t("history.column.trips"), t("report.in-the-air"), t("report.battery-first"), t("report.battery-lowest"), t("report.battery-last"), t("history.hours.lost")],
+  rows: drones.map((drone) => [
+    drone.id, number(drone.trips), drone.hours === null ? t("unknown.short") : duration(drone.hours * 3600),
+    percent(drone.first_battery), percent(drone.lowest_battery), percent(drone.last_battery), number(drone.lost),
+  ]),
+});
+
+/** @param {{ commands: ReportCommand[] }} props */
+const Commands = ({ commands }) => h(Table, {
+  heads: [t("results.column.time"), t("report.command"), t("history.column.by"), t("report.said")],
+  rows: commands.map(({ time, at, command, given, by, client, said }) => [
+    time !== null ? clock(time) : at !== null ? moment(at) : "",
+    [capital(command), ...Object.entries(given).filter(([name, value]) => value !== null && name !== "revision")
+      .map(([name, value]) => `${plain(name)} ${inWords(/** @type {import("../app").Scalar} */ (value))}`)].join(", "),
+    by ?? client ?? "", said,
+  ]),
+});

@@ -1,0 +1,61 @@
+// One result, with all that is known of it.
+
+import { h } from "preact";
+import { clock, inWords, place, plain } from "../core/format.js";
+import { t } from "../core/i18n.js";
+import { pictureAt } from "../map/ground.js";
+import { Button, IconButton } from "../ui/button.js";
+import { placeOf } from "./layers.js";
+import { sharpnessWords, tagWords, valueWords, whatWords } from "./words.js";
+
+/** @import { Result } from "../wire" */
+/** @import { Camera } from "../map/camera.js" */
+/** @import { ResultsModel } from "./model.js" */
+
+/** What is known of a result, as pairs of a name and its words. @param {Result} result @returns {[string, string][]} */
+export function facts(result) {
+  const { mission, trip, drone, time, round, parameters, value, tags, place: name } = result;
+  const point = placeOf(result);
+  const given = Object.entries(parameters).map(([key, one]) => `${plain(key)} ${inWords(one)}`);
+  const isPhoto = value !== null && typeof value === "object";
+  /** @type {[string, string][]} */
+  const all = [
+    [t("results.column.place"), [name, point && place(point)].filter(Boolean).join(", ")],
+    [t("results.column.time"), clock(time)],
+    [t("results.column.mission"), mission],
+    [t("results.column.trip"), trip ?? ""],
+    [t("results.round"), round ? String(round) : ""],
+    [t("results.column.drone"), drone ?? ""],
+    [t("results.parameters"), given.join(", ")],
+    [t("results.sees"), isPhoto ? tagWords(value.sees).join(", ") || t("results.sees-nothing") : ""],
+    [t("results.found"), isPhoto ? "" : tagWords(tags).join(", ")],
+  ];
+  return all.filter(([, words]) => words);
+}
+
+/** @param {{ result: Result }} props */
+export const Facts = ({ result }) => h("dl", { class: "facts" }, facts(result).map(([name, words]) =>
+  h("div", { key: name }, h("dt", null, name), h("dd", null, words))));
+
+/**
+ * @param {{ model: ResultsModel, camera: Camera, onConsole: (result: Result) => void, consoleWords: string }} props
+ */
+export function ResultCard({ model, camera, onConsole, consoleWords }) {
+  const result = model.find(model.chosen.value);
+  if (!result) return null;
+  const point = placeOf(result);
+  const { value } = result;
+  const photo = value !== null && typeof value === "object" ? value : null;
+  const picture = photo?.picture ? pictureAt(`${photo.picture}&size=thumb`) : null;
+  const what = whatWords(result);
+  return h("section", { class: "result-card", "aria-label": what },
+    h("div", { class: "row" }, h("h3", null, what), h("span", { class: "spread" }),
+      h(IconButton, { icon: "close", label: t("close"), onClick: () => { model.chosen.value = null; } })),
+    photo ? h("p", { class: "muted" }, sharpnessWords(photo.sharpness)) : h("p", { class: result.values.length ? "result-value" : "user-text" }, valueWords(result) || t("results.no-value")),
+    picture && h("img", { src: picture, alt: t("results.photo-alt", { place: result.place ?? result.mission }) }),
+    h(Facts, { result }),
+    h("div", { class: "row" },
+      photo && h(Button, { small: true, icon: "photo", onClick: () => { model.opened.value = result.number; } }, t("results.open-photo")),
+      point && h(Button, { small: true, icon: "map", onClick: () => camera.reveal(point[0], point[1], 60) }, t("results.show-on-map")),
+      h(Button, { small: true, icon: "list", onClick: () => onConsole(result) }, consoleWords)));
+}

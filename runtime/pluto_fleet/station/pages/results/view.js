@@ -1,0 +1,140 @@
+// The results of a flight: on the map, in layers, and beside it as lists.
+
+import { signal } from "@preact/signals";
+import { h } from "preact";
+import { useMemo } from "preact/hooks";
+import { t } from "../core/i18n.js";
+import { prefs } from "../core/prefs.js";
+import { app } from "../core/station.js";
+import { isFlying } from "../core/world.js";
+import { Camera } from "../map/camera.js";
+import { Floor } from "../map/floor.js";
+import { Landmarks, North } from "../map/landmarks.js";
+import { MapSplit } from "../ui/map_split.js";
+import { Empty, Tabs } from "../ui/parts.js";
+import { ResultCard } from "./card.js";
+import { Exports } from "./exports.js";
+import { estimated, HeatLayers } from "./heat_layer.js";
+import { LayersTab } from "./layers_tab.js";
+import { placeOf } from "./layers.js";
+import { Legend } from "./legend.js";
+import { ResultsModel } from "./model.js";
+import { PhotoLayer } from "./photo_layer.js";
+import { PhotosTab, Viewer } from "./photos_tab.js";
+import { MapLabels, PinLayer } from "./pin_layer.js";
+import { TableTab } from "./table_tab.js";
+import { VerdictsTab } from "./verdicts_tab.js";
+import { layerWords, placeWords, valueWords, whatWords, withUnit } from "./words.js";
+
+/** @import { AppShape } from "../app" */
+/** @import { World } from "../core/world.js" */
+/** @import { Result } from "../wire" */
+/** @import { Signal } from "@preact/signals" */
+
+const TABS = /** @type {const} */ (["layers", "table", "photos", "verdicts"]);
+/** @typedef {typeof TABS[number]} TabName */
+
+/**
+ * What a world has brought: the flight as it is now, or one of the past.
+ * @param {object} props
+ * @param {World} props.world
+ * @param {string | null} props.flight the id of one of the past; null: the one as it is now
+ * @param {(result: Result) => void} props.onConsole show what happened then
+ * @param {string} props.consoleWords what that is called
+ */
+export function ResultsView({ world, flight, onConsole, consoleWords }) {
+  const shape = /** @type {AppShape} */ (app.value);
+  const camera = useMemo(() => new Camera(shape.map.size), [shape]);
+  const model = useMemo(() => new ResultsModel(world, shape.layers, flight), [world, shape, flight]);
+  const tab = TABS.find((name) => name === prefs.resultsTab.value) ?? "layers";
+  const isEmpty = !model.results.value.length;
+  /** @param {number} number @param {boolean} [near] */
+  const choose = (number, near) => {
+    model.chosen.value = number;
+    const place = placeOf(/** @type {Result} */ (model.find(number)));
+    if (near && place) camera.reveal(place[0], place[1]);
+  };
+  return h("div", { class: `results ${tab === "table" && !isEmpty ? "wide-rail" : ""}` }, h(MapSplit, {
+    stage: [
+      h(Stage, { key: "stage", model, camera, choose }),
+      h(Legend, { key: "legend", model }),
+      isEmpty && h("div", { key: "empty", class: "stage-empty card" }, h(Why, { model, shape })),
+      h(ResultCard, { key: "card", model, camera, onConsole, consoleWords }),
+      h(Viewer, { key: "viewer", model }),
+    ],
+    rail: [
+      h(Tabs, {
+        key: "tabs", label: t("results.tabs"), names: TABS, now: tab,
+        title: (/** @type {TabName} */ name) => t(`results.tab.${name}`),
+        onPick: (/** @type {TabName} */ name) => { prefs.resultsTab.value = name; },
+      }),
+      h("div", { key: "body", class: "rail-body", role: "tabpanel", "aria-label": t(`results.tab.${tab}`), tabIndex: 0 }, {
+        layers: () => h(LayersTab, { model }),
+        table: () => (isEmpty ? h(Why, { model, shape })
+          : h(TableTab, { model, onPick: ({ result }) => choose(result.number, true) })),
+        photos: () => h(PhotosTab, { model }),
+        verdicts: () => h(VerdictsTab, { model }),
+      }[tab]()),
+      h(Exports, {
+        key: "exports", flight, disabled: isEmpty,
+        hasPictures: model.album.value.some(({ value }) => typeof value === "object" && Boolean(value?.picture)),
+      }),
+    ],
+  }));
+}
+
+/** Why there is nothing to see, and what will be. @param {{ model: ResultsModel, shape: AppShape }} props */
+function Why({ model, shape }) {
+  const { phase, known } = model.world.state.value;
+  const what = !shape.layers.length ? "never" : !known ? "unknown"
+    : phase === "idle" ? "idle" : isFlying(phase) ? "flying" : "over";
+  return h(Empty, null, t(`results.none.${what}`));
+}
+
+/** @typedef {{ x: number, y: number, words: string } | null} Pointed in pixels */
+
+/** @param {{ model: ResultsModel, camera: Camera, choose: (number: number) => void }} props */
+function Stage({ model, camera, choose }) {
+  const shape = /** @type {AppShape} */ (app.value);
+  const pointed = useMemo(() => signal(/** @type {Pointed} */ (null)), []);
+  /** @param {PointerEvent} event */
+  function point(event) {
+    const isMap = event.pointerType === "mouse" && !event.buttons && camera.picture?.contains(/** @type {Node} */ (event.target));
+    const at = isMap ? camera.metres(event) : null;
+    const words = at ? wordsAt(model, at, camera.view.peek().scale) : "";
+    pointed.value = words ? { ...camera.inside(event), words } : null;
+  }
+  return h("div", { class: "results-stage", onPointerMove: point, onPointerLeave: () => { pointed.value = null; } },
+    h(Floor, {
+      map: shape.map, camera,
+      children: [
+        h(HeatLayers, { key: "heat", model, size: shape.map.size }),
+        h(Landmarks, { key: "landmarks" }),
+        h(PhotoLayer, { key: "photos", model }),
+        h(PinLayer, { key: "pins", model }),
+      ],
+      overlay: [h(MapLabels, { key: "labels", model }), h(North, { key: "north" })],
+      onPlace: (at) => {
+        const [newest] = model.under(at, camera.view.peek().scale);
+        if (newest) choose(newest.number);
+        else model.chosen.value = null;
+      },
+    }), h(Tip, { pointed }));
+}
+
+/** What is known of the place under the pointer. @param {ResultsModel} model @param {import("../map/view.js").At} at @param {number} scale */
+function wordsAt(model, at, scale) {
+  const [newest, ...earlier] = model.under(at, scale);
+  if (newest) {
+    const words = [whatWords(newest), valueWords(newest), placeWords(newest)].filter(Boolean).join(" · ");
+    return earlier.length ? t("results.and-earlier", { words, n: earlier.length }) : words;
+  }
+  const guess = estimated(model.shown.peek(), at.x, at.y);
+  return guess ? t("results.estimated", { what: layerWords(guess.layer), value: withUnit(guess.value, guess.layer.unit) }) : "";
+}
+
+/** @param {{ pointed: Signal<Pointed> }} props */
+function Tip({ pointed }) {
+  const at = pointed.value;
+  return at && h("div", { class: "tip", "aria-hidden": true, style: { transform: `translate(${at.x + 14}px, ${at.y + 14}px)` } }, at.words);
+}
