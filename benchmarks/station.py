@@ -21,6 +21,7 @@ from statistics import median, quantiles
 from playwright.sync_api import Browser
 
 from measuring.options import at_least_one
+from pluto_fleet.station.web.static import pages
 from watching.flight import compiled, fleet, plan
 from watching.idler import idler
 from watching.server import Server, seconds_of, serve
@@ -28,15 +29,14 @@ from watching.tabs import Tab, browser, first_visit, main_threads, opened
 
 Numbers = dict[str, float]
 
-PAGES = Path(__file__).parents[1] / "runtime" / "pluto_fleet" / "station" / "pages"
 SETTLE = 5.0
 """Seconds until what has just begun is steady; never longer than what is measured then."""
 
 
 def weight() -> float:
     """Return the kilobytes of all pages, each gzipped by itself."""
-    files = [path for path in sorted(PAGES.rglob("*")) if path.is_file()]
-    return sum(len(gzip.compress(path.read_bytes(), mtime=0)) for path in files) / 1000
+    files = {one.mark: one for one in pages().values()}  # one may have two addresses
+    return sum(len(gzip.compress(one.plain, mtime=0)) for one in files.values()) / 1000
 
 
 def share(used: Callable[[], float], seconds: float) -> float:

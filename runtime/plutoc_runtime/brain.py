@@ -35,7 +35,6 @@ from .trips.transitions import Transitions
 if TYPE_CHECKING:
     from .domain.airspace import Airspace
     from .domain.app import App
-    from .domain.model import Point
     from .domain.trace import Event
     from .flow.mission import MissionState
     from .time.kernel import Task
@@ -70,10 +69,11 @@ class Brain:
         self._recording = Recording(app, self._states, results, self._events)
         hear = self._recording.hear if recorded else self._events.append
         trace = Trace(kernel, () if fleet.get("silent") else (hear,))
-        self._orders = orders = Orders(
-            kernel, {one["id"]: _home(one) for one in fleet["drones"]}, app.categories[0].motion
-        )
-        drones = _drones(app, fleet, orders, DroneStatus.OFFLINE if recorded else DroneStatus.FREE)
+        self._orders = orders = Orders(kernel)
+        status = DroneStatus.OFFLINE if recorded else DroneStatus.FREE
+        drones = list[Drone]()
+        for one in fleet["drones"]:
+            drones.append(orders.drone_of(app, one, status, len(drones)))
         queue = Queue(kernel, Reach(app, space), drones, fleet.get("max_airborne"))
         after_trip = AfterTrip(fleet.get("after_trip", "next"))
         self._core = core = Core(
@@ -135,7 +135,9 @@ class Brain:
         """Do what a person wants; raise `BadInput` with the reason why it cannot be done.
 
         `{"command": "pause" or "cancel", "mission": …}`: take it out of its graph, to `go_on` later, or
-        never; `skip` a trip that is not the next one; `prioritise` one; `retire` or `bring-back` a drone;
+        never; `skip` a trip that is not the next one; `prioritise` one; `change-trips`, all but the first,
+        to other `trips`; `retire` or `bring-back` a drone;
+        `join`, a new `drone` with its `category` and `home`, which is free when `go_on` says how it is;
         `probe` whether a flight's action was done: the answer is an order to note what was `probed`.
         """
         return self._kernel.call(now, ONLY_WHAT_IS_READY, self._control.perform, request)
@@ -220,26 +222,3 @@ class Brain:
     def close(self) -> None:
         """End everything where it is; nothing may be called after that."""
         self._kernel.close()
-
-
-def _home(drone: Mapping[str, Any]) -> Point:
-    x, y, *z = drone["home"]
-    return x, y, z[0] if z else 0.0
-
-
-def _drones(
-    app: App, fleet: Mapping[str, Any], orders: Orders, status: DroneStatus
-) -> tuple[Drone, ...]:
-    kinds = {category.name: category for category in app.categories}
-    usual = app.categories[0].name
-    return tuple(
-        Drone(
-            id=one["id"],
-            category=kinds[one.get("category", usual)],
-            home=_home(one),
-            telemetry=orders.drones[one["id"]],
-            status=status,
-            index=index,
-        )
-        for index, one in enumerate(fleet["drones"])
-    )

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from pluto_fleet.app import App
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import FleetFile, with_joined
 from pluto_fleet.flight.recorded_flight import RecordedFlight
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
@@ -87,6 +87,8 @@ class Living:
         self.gateway = Gateway(
             self.kernel, self.navigation, drones, space, ledger=Ledger(), measures=True
         )
+        self.gateway.take_in = self.navigation.join
+        self.gateway.rehearse = self.navigation.mishap
         self.events: list[Event] = []
         self.done: Future[float] = Future()
         self._epoch = 0
@@ -100,10 +102,11 @@ class Living:
         records = Records()
         for event in self.memory.read().events:
             records.take(event)
+        fleet = with_joined(self.app, self.fleet, records.joined)
         disk, link = _AtOnce(self.memory), self.gateway.link(self._epoch)
         life = RecordedFlight(
             self.app,
-            self.fleet,
+            fleet,
             self._brain,
             link,
             disk,

@@ -82,11 +82,12 @@ def test_the_exact_level_is_between_its_bounds(
 
     app = apps.app(apps.flow(), categories=(kind,))
     (kind,), reach, home = app.categories, Reach(app, space), on_map(home)
-    here, reach.homes = home if stands_at_home else on_map(away), [home]
+    here = home if stands_at_home else on_map(away)
     source = source and on_map(source)
     trip = apps.Trip(name="1", action=action, target=on_map(target), source=source, item=item)
-    request = Request(reach, apps.mission("m", trip), first, (0, -1))
     drone = Drone(id="cf1", category=kind, home=home, telemetry=told(here, 1.0, kind.motion))
+    reach.drones = [drone]
+    request = Request(reach, apps.mission("m", trip), first, (0, -1))
     exact = reach.level(kind, home, here, [trip])
     least = request.at_least(drone, here)
     assert least <= exact

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.config import End, FlightConfig, FlightResult, Stops
 from pluto_fleet.flight.fly import live
 from pluto_fleet.gateway.gateway import Gateway, Link
@@ -75,7 +76,9 @@ class Tried:
         )
         return [apps.mission("m", *trips)]
 
-    async def connect(self, kernel: RealTime, epoch: int, lost: Callable[[], object]) -> Near:
+    async def connect(
+        self, kernel: RealTime, _: FleetFile, epoch: int, lost: Callable[[], object]
+    ) -> Near:
         """Let new drones stand where they stand: of each life they are new."""
         world = World(0, AIRSPACE, None)
         navigation = SimulatedNavigation(kernel, self.drones, world, Faults(), 0, AIRSPACE)

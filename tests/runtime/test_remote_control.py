@@ -8,7 +8,7 @@ import json
 import socket
 import stat
 from asyncio import StreamReader, StreamWriter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -67,6 +67,17 @@ class Told:
     def bring_back(self, drone: str) -> str:
         return self._said("bring back", drone)
 
+    def change_trips(
+        self, mission: str, trips: Sequence[object], replaces: Sequence[object] | None
+    ) -> str:
+        return self._said("change", mission, trips, replaces)
+
+    def join(self, entry: Mapping[str, object]) -> str:
+        return self._said("join", entry)
+
+    def mishap(self, drone: str, kind: str) -> str:
+        return self._said("mishap", drone, kind)
+
     def _said(self, *call: object) -> str:
         self.calls.append(call)
         return f"did {call[0]}"
@@ -102,6 +113,22 @@ def note(tmp_path: Path) -> Path:
         ),
         ({"command": "retire", "drone": "cf1"}, ("retire", "cf1")),
         ({"command": "bring-back", "drone": "cf1"}, ("bring back", "cf1")),
+        (
+            {"command": "change-trips", "mission": "North", "trips": [{"name": "A"}]},
+            ("change", "North", [{"name": "A"}], None),
+        ),
+        (
+            {"command": "change-trips", "mission": "North", "trips": [], "replaces": ["A"]},
+            ("change", "North", [], ["A"]),
+        ),
+        (
+            {"command": "join", "drone": "cf9", "home": [1, 2], "uri": None},
+            ("join", {"id": "cf9", "home": [1, 2]}),
+        ),
+        (
+            {"command": "mishap", "drone": "cf1", "kind": "crash"},
+            ("mishap", "cf1", "crash"),
+        ),
         ({"command": "stop", "how": "land"}, ("stop", Down.LAND)),
         ({"command": "pause", "mission": None}, ("pause", None)),
         ({"command": "go-on", "mission": "North"}, ("go on", "North")),
@@ -127,6 +154,8 @@ def test_each_command_reaches_the_app(
         {"command": "pause"},
         {"command": "skip", "mission": None, "trip": None},
         {"command": "decide", "mission": "North", "answer": 1},
+        {"command": "change-trips", "mission": "North", "trips": {}},
+        {"command": "mishap", "drone": "cf1", "kind": "rain"},
         {"command": "__init__"},
         {},
     ],

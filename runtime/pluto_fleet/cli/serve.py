@@ -104,12 +104,14 @@ async def _serve(
 
         def ready() -> None:
             (config.own_folder / PORT_FILE).write_text(str(guard.port), encoding="utf-8")
-            output.line(f"station: {address(guard)}")
+            output.line(f"station: {address(guard, guard.token)}")
+            if guard.watch_token is not None:
+                output.line(f"to watch only: {address(guard, guard.watch_token)}")
             output.flush()
             if options.open:
                 import webbrowser  # rarely needed, and slow to import
 
-                webbrowser.open(address(guard))
+                webbrowser.open(address(guard, guard.token))
 
         server = asyncio.create_task(serve_web(api, listener, ready))
         leaves = asyncio.create_task(station.leaves.wait())
@@ -127,8 +129,14 @@ async def _serve(
 
 def _guard(options: Options, config: StationConfig, port: int) -> Guard:
     names = tuple(map(proper_name, options.names))
-    token = _token(config) if needs_token(options.host, names) else None
-    return Guard(host=options.host, port=port, names=names, token=token)
+    guarded = needs_token(options.host, names)
+    return Guard(
+        host=options.host,
+        port=port,
+        names=names,
+        token=_token(config, TOKEN_FILE) if guarded else None,
+        watch_token=_token(config, WATCH_TOKEN_FILE) if guarded else None,
+    )
 
 
 class _Leaving:
@@ -211,9 +219,12 @@ def _port(options: Options, config: StationConfig) -> int:
     return options.port
 
 
-def _token(config: StationConfig) -> str:
-    """Return the token, which is the same after a restart, so that open pages keep their access."""
-    file = config.own_folder / "token"
+TOKEN_FILE, WATCH_TOKEN_FILE = "token", "watch_token"
+
+
+def _token(config: StationConfig, name: str) -> str:
+    """Return a token, which is the same after a restart, so that open pages keep their access."""
+    file = config.own_folder / name
     with suppress(OSError, ValueError):
         known = file.read_text(encoding="ascii").strip()
         if len(known) >= _TOKEN_BYTES:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 from .connection import Connection
 
 if TYPE_CHECKING:
+    from ..station.requests import Start
     from ..station.wire import (
         DroneHours,
         FlightReport,
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
         LiveMessage,
         Replay,
     )
-    from ..station.wire_app import AppData, PlanData, PlanMission
+    from ..station.wire_app import AppData, PlanData, PlanMission, PlanTrip
 
 
 class Calls(Connection):
@@ -193,6 +194,19 @@ class Calls(Connection):
         """Answer the question of a mission."""
         return self._command("/api/decide", id, {"mission": mission, "answer": answer})
 
+    def change_trips(
+        self,
+        *,
+        mission: str,
+        trips: list[PlanTrip],
+        id: str | None = None,
+        replaces: list[str] | None = None,
+    ) -> str:
+        """Change what has not flown of a mission that is under way."""
+        return self._command(
+            "/api/change-trips", id, {"mission": mission, "trips": trips, "replaces": replaces}
+        )
+
     def prioritise(self, *, mission: str, trip: str, priority: int, id: str | None = None) -> str:
         """Change the priority of a trip."""
         return self._command(
@@ -207,6 +221,45 @@ class Calls(Connection):
         """Say that a lost or retired drone can fly again."""
         return self._command("/api/bring-back", id, {"drone": drone})
 
+    def join(
+        self,
+        *,
+        drone: str,
+        id: str | None = None,
+        category: str | None = None,
+        home: list[float] | None = None,
+        uri: str | None = None,
+        navigation: str | None = None,
+        options: dict[str, str | int | float | bool] | None = None,
+    ) -> str:
+        """Let a drone join the flight that is under way, as an entry of a fleet file says it."""
+        return self._command(
+            "/api/join",
+            id,
+            {
+                "drone": drone,
+                "category": category,
+                "home": home,
+                "uri": uri,
+                "navigation": navigation,
+                "options": options,
+            },
+        )
+
+    def mishap(
+        self,
+        *,
+        drone: str,
+        kind: Literal["lost", "crash", "battery", "uncertain"],
+        id: str | None = None,
+    ) -> str:
+        """Let something go wrong with a simulated drone, to rehearse it."""
+        return self._command("/api/mishap", id, {"drone": drone, "kind": kind})
+
     def cut_motors(self, *, drone: str, id: str | None = None) -> str:
         """Switch a drone's motors off at once: if it flies, it falls."""
         return self._command("/api/cut-motors", id, {"drone": drone})
+
+    def acknowledge(self, *, alert: str, id: str | None = None) -> str:
+        """Say that a person knows of an alert."""
+        return self._command("/api/acknowledge", id, {"alert": alert})

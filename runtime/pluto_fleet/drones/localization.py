@@ -64,7 +64,7 @@ class LocalizationFeed:
     ) -> None:
         self.name = name
         """Its name in the fleet file."""
-        self._source, self._drones, self._log, self._clock = source, drones, log, clock
+        self._source, self._drones, self._log, self._clock = source, dict(drones), log, clock
         self._heard = dict.fromkeys(drones, clock())
         """When each drone has received its latest position."""
         self._latest: dict[str, Point] = {}
@@ -77,6 +77,10 @@ class LocalizationFeed:
         """Start the feed."""
         if self._listening is None:
             self._listening = asyncio.create_task(self._listen(), name=f"positions of {self.name}")
+
+    def feed(self, drone: str, navigation: Locatable) -> None:
+        """Feed a drone that has joined, too."""
+        self._drones[drone], self._heard[drone] = navigation, self._clock()
 
     def silent(self, drone: str) -> str | None:
         """Return why a drone has no current position, or None."""

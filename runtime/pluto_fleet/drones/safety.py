@@ -153,17 +153,18 @@ class SafetyMonitor:
     """Monitors all drones of the team."""
 
     def __init__(
-        self,
-        vehicles: Sequence[Vehicle],
-        airspace: Airspace,
-        say: Callable[[str], object],
-        clock: Callable[[], float],
+        self, airspace: Airspace, say: Callable[[str], object], clock: Callable[[], float]
     ) -> None:
-        self._vehicles, self._airspace = vehicles, airspace
-        self._say, self._clock = say, clock
-        self._low_since = {vehicle.id: inf for vehicle in vehicles}
-        self._fallen_since = {vehicle.id: inf for vehicle in vehicles}
+        self._vehicles: list[Vehicle] = []
+        self._airspace, self._say, self._clock = airspace, say, clock
+        self._low_since: dict[str, float] = {}
+        self._fallen_since: dict[str, float] = {}
         self._landings: dict[str, asyncio.Task[None]] = {}
+
+    def watch(self, vehicle: Vehicle) -> None:
+        """Check this drone from now on."""
+        self._vehicles.append(vehicle)
+        self._low_since[vehicle.id] = self._fallen_since[vehicle.id] = inf
 
     def hear(self, late: float) -> None:
         """Check all drones; `late`: the delay in seconds."""

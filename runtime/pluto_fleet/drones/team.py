@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from ..jobs.reports import DroneReport
 from ..jobs.telemetry import Publisher
 from ..shared.domain.actions import BUILT_IN, Plain
-from ..shared.domain.errors import ANY_ERROR
+from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import commands, plugins
 from .connection import Connection, close
 from .loading import make_localization, make_navigation
@@ -52,22 +52,53 @@ class Team:
         wanted: Sequence[RequiredAction] = (),
         feeding: LocalizationFeed | None = None,
         clock: Callable[[], float] = time.monotonic,
+        loaded: Collection[str] = (),
     ) -> None:
+        """`loaded`: the names of the navigations that drones may have that join."""
+        self._loaded = frozenset(loaded)
         self._kernel, self._wanted = kernel, tuple(wanted)
         self._cargo, self._feed = Cargo(folder, say), feeding
-        self._vehicles = {drone.id: Vehicle(drone, self._cargo, say, clock) for drone in drones}
-        self.telemetry: Mapping[str, Telemetry] = {
-            id: vehicle.telemetry for id, vehicle in self._vehicles.items()
-        }
+        self._say, self._clock, self._folder = say, clock, folder
+        self._vehicles: dict[str, Vehicle] = {}
+        self._told: dict[str, Telemetry] = {}
+        self.telemetry: Mapping[str, Telemetry] = self._told
         """The drones' telemetry, always current."""
-        self._links = {id: Connection(vehicle) for id, vehicle in self._vehicles.items()}
-        self._monitor = SafetyMonitor(tuple(self._vehicles.values()), airspace, say, clock)
+        self._links: dict[str, Connection] = {}
+        self._monitor = SafetyMonitor(airspace, say, clock)
         self._tasks: list[asyncio.Task[None]] = []
         self._monitoring: Subscription[float] | None = None
-        for vehicle in self._vehicles.values():
-            vehicle.missing_actions = partial(self._lacks, vehicle)
-            if feeding is not None:
-                vehicle.position_problem = partial(feeding.silent, vehicle.id)
+        for drone in drones:
+            self._have(drone)
+
+    def _have(self, drone: TeamDrone) -> Vehicle:
+        vehicle = Vehicle(drone, self._cargo, self._say, self._clock)
+        self._vehicles[drone.id], self._told[drone.id] = vehicle, vehicle.telemetry
+        self._links[drone.id] = Connection(vehicle)
+        self._monitor.watch(vehicle)
+        vehicle.missing_actions = partial(self._lacks, vehicle)
+        if self._feed is not None:
+            vehicle.position_problem = partial(self._feed.silent, vehicle.id)
+        return vehicle
+
+    def join(self, drone: FleetDrone, how: RealDrone) -> None:
+        """Have one more drone, and connect to it; raise `BadInput` if it cannot be flown.
+
+        Its navigation must be one that is flown already: to load another may hold up all drones.
+        """
+        if how.navigation not in self._loaded:
+            raise BadInput(
+                f"{drone.id} cannot join: no drone of this flight is flown by {how.navigation}, and to"
+                " load it would hold up those in the air; end this flight, and begin one with it"
+            )
+        navigation = make_one(how, drone.home, drone.category.speed, self._folder / FILES)
+        if self._feed is not None:
+            if not isinstance(navigation, Locatable):
+                raise plugins.deaf(self._feed.name, [drone.id])
+            self._feed.feed(drone.id, navigation)
+        one = TeamDrone(
+            id=drone.id, category=drone.category, home=drone.home, navigation=navigation
+        )
+        self._connect(self._have(one))
 
     def begin(self) -> None:
         """Start to connect to all drones, and to monitor them; waits for none."""
@@ -77,10 +108,13 @@ class Team:
             self._look, every=EACH, view=lambda _, known: known.silence
         )
         for vehicle in self._vehicles.values():
-            self._tasks.append(asyncio.ensure_future(follow_events(vehicle)))
-            self._tasks.append(self._links[vehicle.id].start())
-        for task in self._tasks:
+            self._connect(vehicle)
+
+    def _connect(self, vehicle: Vehicle) -> None:
+        tasks = [asyncio.ensure_future(follow_events(vehicle)), self._links[vehicle.id].start()]
+        for task in tasks:
             task.add_done_callback(self._ended)
+        self._tasks += tasks
 
     def _look(self, _: Mapping[str, float], late: float) -> None:
         """Run the safety checks; if they raise, all drones land, and the team ends."""
@@ -280,6 +314,7 @@ def make_team(
         say=say,
         wanted=real.wanted,
         feeding=_feeding(real, navigations, say),
+        loaded={drone.navigation for drone in real.drones},
     )
 
 

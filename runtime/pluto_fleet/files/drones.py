@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ..shared.domain import values
+from ..shared.domain.errors import BadInput
 from ..shared.domain.fleet_data import DroneData
 from ..shared.domain.text import quoted
 from ..shared.domain.values import Cells, crowded
 from . import errors
 from .options import Options, options_under
+from .reading import Document, Table, shortened
 
 if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.airspace import Airspace
-    from .reading import Table
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,6 +47,28 @@ def read_drones(top: Table, app: App, airspace: Airspace | None) -> tuple[DroneE
     if top.data.get("drone", []) == []:
         top.problem(errors.none_given("drone"))
     return tuple(drones)
+
+
+def joining_drone(
+    app: App, airspace: Airspace, drones: Sequence[DroneEntry], data: Mapping[str, object]
+) -> DroneEntry:
+    """Read a drone that joins these, given as in a fleet file; raise `BadInput` with all that is wrong."""
+    document = Document("", {"drone": [{**data}]})
+    table = Table(document, data, ("drone", 0))
+    homes, ids, uris = Cells(), dict[str, Table](), dict[str, Table]()
+    for one in drones:
+        other = Table(document, {}, who=f"drone {quoted(one.id)}")
+        crowded(one.home, one.id, homes)
+        ids[one.id] = other
+        if one.uri is not None:
+            uris[which(one.uri)] = other
+    drone = _drone(table, len(drones), app, airspace, ids, homes)
+    _answers_alone(table, uris)
+    if document.problems or drone is None:
+        raise BadInput(shortened([one.sentence for one in document.problems]))
+    if drone.home[2] != 0.0:  # what is known of ways from the docks on the ground would not hold
+        raise BadInput(f"{table.who}: a drone that joins has its dock on the ground: home = [x, y]")
+    return drone
 
 
 def named_navigations(top: Table, of_fleet: str) -> list[str]:

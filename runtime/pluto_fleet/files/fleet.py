@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import cycle, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.motion import motion_of
 from ..shared.domain.quantities import Type
 from . import errors
-from .drones import DroneEntry, named_navigations, read_drones
+from .drones import DroneEntry, joining_drone, named_navigations, read_drones
 from .options import Options, navigation_options, options_under
 from .reading import Document, Table, read
 
@@ -248,6 +248,14 @@ def navigation_of(fleet: FleetFile, drone: DroneEntry) -> str:
 def options_of(fleet: FleetFile, drone: DroneEntry) -> Options:
     """Return the options for its navigation: the fleet's, overridden by the drone's own."""
     return {**fleet.options.get(navigation_of(fleet, drone), {}), **drone.options}
+
+
+def with_joined(app: App, fleet: FleetFile, joined: Sequence[Mapping[str, object]]) -> FleetFile:
+    """Return the fleet with the drones that have joined it, each as it was given."""
+    for data in joined:
+        drone = joining_drone(app, fleet.airspace, fleet.drones, data)
+        fleet = replace(fleet, drones=(*fleet.drones, drone))
+    return fleet
 
 
 def not_real(fleet: FleetFile) -> str | None:

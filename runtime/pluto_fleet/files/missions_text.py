@@ -20,7 +20,7 @@ def missions_text(app: App, missions: Sequence[Mission[Any]]) -> str:
 
 def mission_table(app: App, mission: Mission[Any]) -> dict[str, Any]:
     """Return one mission of a missions file."""
-    trips = [_trip(app, trip) for trip in mission.trips]
+    trips = [trip_table(app, trip) for trip in mission.trips]
     fields = {**_promises(mission), **_fields(app, Entity.MISSION, mission)}
     return {"name": mission.name, **fields, "trip": trips}
 
@@ -34,7 +34,8 @@ def _promises(mission: Mission[Any]) -> dict[str, Any]:
     return when | ({"after": [*said["after"]]} if "after" in said else {})
 
 
-def _trip(app: App, trip: Trip) -> dict[str, Any]:
+def trip_table(app: App, trip: Trip) -> dict[str, Any]:
+    """Return one trip of a missions file."""
     table: dict[str, Any] = {"name": trip.name, "action": trip.action}
     if trip.source is not None:
         table["source"] = [float(along) for along in trip.source]

@@ -6,7 +6,7 @@ even while the app waits for other things. Only the answer may have to wait.
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 from typing import Protocol
@@ -15,6 +15,7 @@ from ..jobs.reports import Down
 from ..journal.errors import why
 from ..process.ipc import Answer, answering, listening
 from ..shared.domain.errors import BadInput
+from .mishaps import KINDS
 
 
 class Control(Protocol):
@@ -40,12 +41,26 @@ class Control(Protocol):
         """End a mission, or all, for good."""
         ...
 
+    def change_trips(
+        self, mission: str, trips: Sequence[object], replaces: Sequence[object] | None
+    ) -> str:
+        """Replace the trips of a mission that have not flown."""
+        ...
+
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
         """Change a trip's priority in the queue for a drone."""
         ...
 
     def retire(self, drone: str) -> str:
         """Allocate a drone to no further trip, until it is brought back."""
+        ...
+
+    def join(self, entry: Mapping[str, object]) -> str:
+        """Have a drone join the fleet, given as in a fleet file."""
+        ...
+
+    def mishap(self, drone: str, kind: str) -> str:
+        """Have a mishap happen to a simulated drone, to rehearse it."""
         ...
 
     def bring_back(self, drone: str) -> str:
@@ -73,6 +88,11 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.cancel(mission)
         case {"command": "decide", "mission": str(mission), "answer": str(answer)}:
             return control.decide(mission, answer)
+        case {"command": "change-trips", "mission": str(mission), "trips": list(trips), **more}:
+            replaces = more.get("replaces")
+            if not isinstance(replaces, list | None):
+                raise BadInput("change-trips needs replaces: a list of names, or nothing")
+            return control.change_trips(mission, trips, replaces)
         case {
             "command": "prioritise",
             "mission": str(mission),
@@ -84,8 +104,23 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.retire(drone)
         case {"command": "bring-back", "drone": str(drone)}:
             return control.bring_back(drone)
+        case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind in KINDS:
+            return control.mishap(drone, kind)
+        case {"command": "join"} if (entry := joining_in(request)) is not None:
+            return control.join(entry)
         case _:
             raise BadInput("this app does not know that command")
+
+
+def joining_in(request: Mapping[str, object]) -> Mapping[str, object] | None:
+    """Return the drone that is to join, as in a fleet file; None: it is another request."""
+    if request.get("command") != "join":
+        return None
+    given = {key: one for key, one in request.items() if key not in ("command", "drone")}
+    return {
+        "id": request.get("drone"),
+        **{key: one for key, one in given.items() if one is not None},
+    }
 
 
 def stop_in(request: Mapping[str, object]) -> Down | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Any
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
 
-    Connect = Callable[[RealTime, int, Callable[[], object]], Awaitable[GatewayLink]]
+    Connect = Callable[[RealTime, FleetFile, int, Callable[[], object]], Awaitable[GatewayLink]]
+    Joining = Callable[[FleetFile], Awaitable[Mapping[str, object]]]
 
 
 class End(Enum):
@@ -41,11 +42,13 @@ class FlightConfig:
     """The missions as planned."""
     fleet: FleetFile
     connect: Connect
-    """Connects to the gateway, or starts it: given kernel, epoch, and what to call if it dies."""
+    """Connects to the gateway, or starts it: given kernel, fleet, epoch, and what to call if it dies."""
     note: Path
     """The note with the address for commands."""
     tell: Callable[[Event], object]
     """Called with an event, once it is durable."""
+    joining: Joining | None = None
+    """Returns the last drone of a fleet as the gateway takes it in; None: no drone can join."""
     speed: float = 1.0
     sim: bool = True
     """Whether drones are simulated: then a lost one is carried home automatically."""

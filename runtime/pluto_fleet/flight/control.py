@@ -11,18 +11,22 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..files.fleet import with_joined
 from ..jobs.reports import Down, reported_result
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
 from ..shared.domain.text import counted, quoted
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, Task
+from .changing import TripChange, refuse_if_older, refuse_if_stale
+from .mishaps import UNCERTAIN, Mishaps
 from .mission_status import aside, in_order
 from .reconcile import ANSWERS as DONE_OR_NOT
 from .reconcile import (
     CANCELLED,
     PROBED,
     Outcome,
+    drone_told,
     ended,
     for_brain,
     id_of,
@@ -34,6 +38,7 @@ from .reconcile import (
 )
 
 if TYPE_CHECKING:
+    from ..files.fleet import FleetFile
     from ..journal.fold import Record
     from .recorded_brain import RecordedBrain
 
@@ -53,10 +58,14 @@ class Control:
         self.whole: Task[float] | None = None
         """The task that starts or resumes all missions, and waits for their end."""
         self._stops: Task[None] | None = None
+        self.mishaps = Mishaps(run, self._look_into)
+        """What happens to simulated drones to rehearse it."""
         self._busy = False
         """Whether a command is half done: missions may be in no graph that are about to go on."""
         self._steps_out: dict[str, Task[None]] = {}
         """The tasks of missions whose flights are being aborted."""
+        self._joining: dict[str, Task[None]] = {}
+        """The tasks that ask drones how they are that are joining."""
         self._probes: dict[str, Future[bool | None]] = {}
         """The flights whose outcomes the app is asked for, by their ids."""
         self._untold: list[tuple[int, list[Any]]] = []
@@ -68,7 +77,7 @@ class Control:
             return "all missions have ended, and all drones are down"
         if self._stops is None:
             self._run.halt()
-            for work in self._steps_out.values():
+            for work in (*self._steps_out.values(), *self._joining.values()):
                 work.cancel()
             if self.whole is not None:
                 self.whole.cancel()  # it may still be querying drones: nothing may begin after that
@@ -100,7 +109,7 @@ class Control:
 
     def skip(self, mission: str, trip: str | None = None) -> str:
         """Skip a trip, the next one or the one named; if it flies, its drone comes home."""
-        record = self._record(mission)
+        record = self.record(mission)
         if self._status(mission, record) in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
         unwanted = _trip_to_skip(mission, record, trip)
@@ -120,7 +129,7 @@ class Control:
 
     def decide(self, mission: str, answer: str) -> str:
         """Answer an open question: `done`, `not-done`, `go-on` or `cancel`."""
-        record = self._record(mission)
+        record = self.record(mission)
         status = self._status(mission, record)
         fitting = ANSWERS.get(status, ())
         if answer not in fitting:
@@ -138,9 +147,50 @@ class Control:
             self._go_on(mission, record)
         return f"mission {quoted(mission)}: {answer}"
 
+    def change_trips(
+        self, mission: str, trips: Sequence[object], replaces: Sequence[object] | None
+    ) -> str:
+        """Replace the trips of a mission that have not flown; `replaces`: what those were, by name."""
+        self.changed(mission, trips, replaces)()
+        return f"mission {quoted(mission)}: what has not flown is changed"
+
+    def changed(
+        self, mission: str, trips: Sequence[object], replaces: Sequence[object] | None = None
+    ) -> Callable[[], None]:
+        """Return what makes that change, checked; raise `BadInput` if it cannot be made."""
+        record = self.record(mission)
+        refuse_if_older(self._run.app, "trips can be changed in flight")
+        if self._status(mission, record) in (Status.UNCERTAIN, Status.HELD):
+            raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
+        self._refuse_while_it_steps_out(mission)
+        if replaces is not None:
+            refuse_if_stale(mission, record, replaces)
+        change = TripChange(self._run.app, self._run.fleet, mission, record, trips)
+        drone = record["carrier"] or (in_flight(record) or {}).get("drone")
+        if drone is not None:
+            change.refuse_too_little_battery(drone, self._link.telemetry(drone))
+        return partial(self._change, mission, record, change)
+
+    def _change(self, mission: str, record: Record, change: TripChange) -> None:
+        if aside(record) is not None:
+            self._replan(change.todo, mission, record)
+        elif change.in_place:
+            self._command("change-trips", mission=mission, trips=change.todo[1:])
+            self._replan(change.todo, mission, record)
+        else:
+            self._step_out(mission, record, partial(self._replan_and_resume, change.todo))
+
+    def _replan(self, todo: Sequence[Record], name: str, record: Record) -> None:
+        facts = {"todo": todo, "done": record["done"], "fields": record["fields"]}
+        self._run.note("mission.replanned", mission=name, **facts)
+
+    def _replan_and_resume(self, todo: Sequence[Record], name: str, record: Record) -> None:
+        self._replan(todo, name, record)
+        self._resume(name, record)
+
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
         """Change the priority of a trip that has not been flown."""
-        record = self._record(mission)
+        record = self.record(mission)
         if not any(field.name == PRIORITY for field in self._run.app.fields):
             raise BadInput("the trips of this app have no priority")
         _trip_to_do(mission, record, trip)
@@ -150,7 +200,7 @@ class Control:
 
     def retire(self, drone: str) -> str:
         """Allocate a drone to no further trip, until it is brought back."""
-        known = self._drone(drone)
+        known = self.check_drone(drone)
         if drone in self._run.records.retired:
             return f"{drone} is retired already"
         self._run.note("drone.retired", drone=drone)
@@ -159,9 +209,41 @@ class Control:
             ", once its trip is over" if known["status"] == "BUSY" else ""
         )
 
+    def fleet_with(self, entry: Mapping[str, object]) -> FleetFile:
+        """Return the fleet with a drone that joins; raise `BadInput` if it cannot."""
+        self._refuse_after_stop()
+        refuse_if_older(self._run.app, "drones can join")
+        if not self._run.is_set_out:
+            raise BadInput("the drones are just being asked where they are: try again in a moment")
+        return with_joined(self._run.app, self._run.fleet, [entry])
+
+    def join(self, entry: Mapping[str, object]) -> str:
+        """Have a drone join the fleet, which the gateway has taken in already."""
+        fleet = self.fleet_with(entry)
+        drone = fleet.drones[-1].id
+        self._run.join(fleet, entry)
+        self._joining[drone] = self._run.kernel.spawn(self._ask(drone), FLEET, f"{drone} joins")
+        return f"{drone} joins the fleet"
+
+    async def _ask(self, drone: str) -> None:
+        """Ask a drone that joins how it is; before that it gets no trip."""
+        report = await self._link.drone_report(drone)
+        del self._joining[drone]
+        told = {drone: drone_told(report)}
+        self._run.driver.call(partial(self._run.brain.go_on, {}, told))
+
+    def mishap(self, drone: str, kind: str) -> str:
+        """Have a mishap happen to a simulated drone in flight, to rehearse it."""
+        self.check_drone(drone)
+        said = f"{drone}: {kind}"
+        if kind == UNCERTAIN:
+            said = self.mishaps.arm(drone)
+        self._run.note("drone.mishap", drone=drone, kind=kind)
+        return said
+
     def bring_back(self, drone: str) -> str:
         """Make a drone available again that was retired, or lost and repaired since."""
-        known = self._drone(drone)
+        known = self.check_drone(drone)
         lost = known["status"] == "LOST"
         asked = lost or bool(known.get("unready"))
         if not asked and drone not in self._run.records.retired:
@@ -183,7 +265,7 @@ class Control:
     @property
     def waits(self) -> bool:
         """Whether missions that are in no graph keep the app running."""
-        if self._busy or self._steps_out:
+        if self._busy or self._steps_out or self._joining:
             return True
         waiting = [aside(record) for record in self._run.records.missions.values()]
         paused = any(one is not None and one[0] is Status.PAUSED for one in waiting)
@@ -208,6 +290,10 @@ class Control:
                 self._steps_out[name] = self._run.kernel.spawn(
                     self._broken_off(name, record, then), FLEET, f"{name} is interrupted"
                 )
+
+    def _look_into(self, name: str, record: Record) -> None:
+        """Find out what came of a flight of which no report comes; its mission goes on if that is known."""
+        self._step_out(name, record, self._resume)
 
     @contextmanager
     def _half_done(self) -> Iterator[None]:
@@ -345,7 +431,8 @@ class Control:
 
     # Which missions and drones
 
-    def _drone(self, id: str) -> Mapping[str, Any]:
+    def check_drone(self, id: str) -> Mapping[str, Any]:
+        """Return where a drone stands; raise `BadInput` if it is not in the fleet."""
         self._refuse_after_stop()
         drones = self._run.brain.drones()
         if id in drones:
@@ -358,7 +445,8 @@ class Control:
         known = in_order(self._run.records) if self._run.is_set_out else []
         return [(name, record) for name, record in known if not record["ended"]]
 
-    def _record(self, mission: str) -> Record:
+    def record(self, mission: str) -> Record:
+        """Return the record of a mission that is under way; raise `BadInput` if it is not."""
         self._refuse_after_stop()
         living = self._under_way()
         for name, record in living:
@@ -382,7 +470,7 @@ class Control:
     ) -> Sequence[tuple[str, Record]]:
         self._refuse_after_stop()
         if mission is not None:
-            record = self._record(mission)
+            record = self.record(mission)
             status = self._status(mission, record)
             if not fits(status):
                 raise BadInput(f"mission {quoted(mission)} is {status.value}")

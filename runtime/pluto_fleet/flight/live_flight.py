@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from ..files.fleet import with_joined
 from ..jobs.reports import Down
 from ..journal.errors import JournalError
 from ..journal.writer import Writer
@@ -21,8 +22,9 @@ from ..process.realtime import RealTime
 from ..shared.domain.errors import BadInput, Cancelled
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET
-from .commands import hear_commands, perform, stop_in
+from .commands import hear_commands, joining_in, perform, stop_in
 from .config import End, FlightResult
+from .mishaps import UNCERTAIN
 from .recorded_flight import RecordedFlight
 
 if TYPE_CHECKING:
@@ -69,12 +71,13 @@ class LiveFlight:
         """Run until all missions have ended, it is stopped, or the gateway dies."""
         setting, kernel, self._stops = self._setting, self._kernel, stops
         lost = partial(self._end.set, End.LOST)
-        self._link = link = await setting.connect(kernel, self._store.epoch, lost)
+        fleet = with_joined(setting.app, setting.fleet, self._records.joined)
+        self._link = link = await setting.connect(kernel, fleet, self._store.epoch, lost)
         link.on_telemetry(self._seen)
         hooks = RealHooks(kernel)
         self.life = life = RecordedFlight(
             setting.app,
-            setting.fleet,
+            fleet,
             kernel,
             link,
             self._writer,
@@ -213,7 +216,36 @@ class LiveFlight:
 
         Raises `BadInput` if it cannot be done.
         """
+        await self.prepare(request)
         return await self.carry_out(lambda life: perform(life.control, request), stop_in(request))
+
+    async def prepare(self, request: Mapping[str, object]) -> None:
+        """Have the gateway do its part of a command first; raise `BadInput` if it cannot.
+
+        It takes in a drone that is to join, as a brain knows none that is not there; and a mishap
+        happens to simulated drones.
+        """
+        life, link = self.life, self._link
+        if life is None or link is None or self._end.is_set:
+            return
+        entry = joining_in(request)
+        if entry is not None:
+            if self._setting.joining is None:
+                raise BadInput("no drone can join this flight")
+            joining = await self._setting.joining(life.control.fleet_with(entry))
+            await self._asked(link.join(joining), "a drone joins")
+        match request:
+            case {"command": "mishap"} if not self._setting.sim:
+                raise BadInput("mishaps happen to simulated drones only: fly, or serve, with --sim")
+            case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind != UNCERTAIN:
+                life.control.check_drone(drone)
+                await self._asked(life.control.mishaps.happen(drone, kind), "a mishap")
+
+    async def _asked(self, question: Coroutine[Any, Any, str], what: str) -> None:
+        """Ask the gateway; raise `BadInput` with its reason why that cannot be."""
+        why = await self._kernel.offer(self._kernel.spawn(question, FLEET, what))
+        if why:
+            raise BadInput(why)
 
     async def carry_out(
         self, what: Callable[[RecordedFlight], str], how: Down | None = None

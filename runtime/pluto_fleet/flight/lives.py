@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from ..drones.real_fleet import real_fleet
 from ..files.crtp_fleet import fleet_from
+from ..files.fleet import not_real
 from ..files.missions import missions_of
 from ..files.reading import parsed
 from ..gateway.process import NOTE
-from ..gateway.settings import settings_for
+from ..gateway.settings import Settings, joining_data, settings_for
 from ..gateway.starting import connect, speed_in
 from ..journal.header import Header, check
 from ..journal.place import commands_note, gateway_folder
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
     from ..app import App
     from ..drones.real_fleet import RealFleet
     from ..files.fleet import FleetFile
+    from ..gateway.remote import RemoteLink
+    from ..process.realtime import RealTime
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
 
@@ -150,20 +153,37 @@ async def run_flight(
 ) -> FlightResult:
     """Run again each time that the gateway dies; `known` is the journal's content."""
     folder = gateway_folder(flight.journal)
-    settings = settings_for(
-        flight.app,
-        flight.fleet,
-        seed=flight.seed,
-        faults=flight.faults,
-        real=None if flight.sim else await _real(flight, folder, known),
-        speed=flight.speed,
-    )
     gateway = respawn.library("gateway", beside=flight.app.package)
+    records = () if known is None else tuple(known.records.missions.values())
+
+    async def settings(fleet: FleetFile) -> Settings:
+        return settings_for(
+            flight.app,
+            fleet,
+            seed=flight.seed,
+            faults=flight.faults,
+            real=None if flight.sim else await _real(flight, fleet, folder, records),
+            speed=flight.speed,
+        )
+
+    async def reach(
+        kernel: RealTime, fleet: FleetFile, epoch: int, lost: Callable[[], object]
+    ) -> RemoteLink:
+        return await connect(folder, await settings(fleet), kernel, epoch, lost, gateway)
+
+    async def joining(fleet: FleetFile) -> Mapping[str, object]:
+        if not flight.sim and not flight.crtp and (why := not_real(fleet)):
+            raise BadInput(why)
+        whole = await settings(fleet)
+        real = None if whole.real is None else whole.real.drones[-1]
+        return joining_data(whole.drones[-1], real)
+
     setting = FlightConfig(
         app=flight.app,
         missions=flight.missions,
         fleet=flight.fleet,
-        connect=lambda kernel, epoch, lost: connect(folder, settings, kernel, epoch, lost, gateway),
+        connect=reach,
+        joining=joining,
         note=commands_note(flight.journal),
         tell=observer.tell,
         speed=flight.speed,
@@ -207,20 +227,21 @@ def may_hover(drones: Iterable[Drone]) -> str:
     )
 
 
-async def _real(flight: FlightSetup, folder: Path, known: Recovered | None) -> RealFleet:
+async def _real(
+    flight: FlightSetup, fleet: FleetFile, folder: Path, records: Iterable[Mapping[str, Any]]
+) -> RealFleet:
     """Return the gateway's arguments for real drones; starts simulated Crazyflies if needed."""
-    records = () if known is None else known.records.missions.values()
-    real = real_fleet(flight.fleet, flight.missions, records=records)
+    real = real_fleet(fleet, flight.missions, records=records)
     if not flight.crtp:
         return real
     from ..crtp.equipment import fitted
     from ..crtp.process import start, told  # rarely needed
 
-    homes = {drone.id: drone.home for drone in flight.fleet.drones}
+    homes = {drone.id: drone.home for drone in fleet.drones}
     kinds = {one.name: one for one in flight.app.categories}
     batteries = {
         drone.id: (kind.flight_time / flight.fleet.motion.drain, kind.charge_time)
-        for drone in flight.fleet.drones
+        for drone in fleet.drones
         for kind in (kinds[drone.category],)
     }
     uris = await asyncio.to_thread(start, folder, homes, None, batteries)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from ..app import App
+    from ..jobs.reports import DroneReport
     from ..journal.fold import Record
 
 Data = dict[str, Any]
@@ -98,6 +99,16 @@ def for_brain(app: App, record: Record) -> Record:
     if at is not None and at not in app.resumes and app.resumes:
         at = app.resumes[0]  # the user has said so
     return {**record, "at": at}
+
+
+def drone_told(report: DroneReport) -> Data:
+    """Return what a brain is told of a drone that no mission needs."""
+    return {
+        "reached": report.reached,
+        "landed": report.landed,
+        "carrying": report.carrying,
+        "problems": list(report.problems),
+    }
 
 
 CANCELLED = "cancelled by hand"

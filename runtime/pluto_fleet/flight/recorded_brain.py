@@ -67,6 +67,7 @@ class RecordedBrain:
         )
         self._listeners, self._watcher = tuple(listeners), watcher
         keys = {drone.id: FLEET + 1 + index for index, drone in enumerate(fleet.drones)}
+        self._keys = keys
         self._dispatcher = Dispatcher(kernel, link, keys)
         self.driver = Driver(
             kernel, self.brain, obey=self._obey, motions=self._news, hear=self._hear
@@ -116,6 +117,16 @@ class RecordedBrain:
     def drones(self) -> tuple[Drone, ...]:
         """The drones as they stand."""
         return drones_of(self.app, self.fleet, self.brain.drones(), self.link.telemetry)
+
+    def join(self, fleet: FleetFile, entry: Mapping[str, object]) -> None:
+        """Go on with a fleet that has one more drone, the last; `entry` is that as it was given."""
+        drone = fleet.drones[-1]
+        self._keys[drone.id] = FLEET + len(fleet.drones)
+        self.note("drone.joined", drone=drone.id, entry=entry)
+        data = {"drone": drone.id, "category": drone.category, "home": drone.home}
+        told = {"command": "join", **data}
+        self.driver.call(partial(self.app.perform, self.brain, told))
+        self.fleet = fleet
 
     def halt(self) -> None:
         """Let the brain do nothing more: a later run goes on from the records."""

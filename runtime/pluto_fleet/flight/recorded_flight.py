@@ -43,6 +43,7 @@ class RecordedFlight(RecordedBrain):
         self._ended_at: float | None = None
         self._helpless: Task[None] | None = None
         self.control = Control(self)
+        self._listeners = (*self._listeners, self.control.mishaps.hear)
         self.probed, self.doubted = self.control.probed, self.control.doubt_in_flight
 
     # Starting and resuming

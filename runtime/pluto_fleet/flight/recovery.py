@@ -19,6 +19,7 @@ from .reconcile import (
     ANSWERS,
     CANCELLED,
     Outcome,
+    drone_told,
     ended,
     for_brain,
     id_of,
@@ -28,7 +29,7 @@ from .reconcile import (
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..jobs.reports import DroneReport, FleetReport
+    from ..jobs.reports import FleetReport
     from ..journal.fold import Record
     from .control import Control
     from .recorded_brain import RecordedBrain
@@ -178,20 +179,11 @@ class Recovery:
         at_work = {entry.drone for entry in self._report.jobs.values() if entry.flies} - wanted
         told = {}
         for drone, report in self._report.drones.items():
-            told[drone] = _as_data(report)
+            told[drone] = drone_told(report)
             if drone in at_work:  # the earlier run could not abort its job any more
                 self._link.break_off(drone)
                 told[drone]["landed"] = False  # it may take off before it receives that
         return told
-
-
-def _as_data(report: DroneReport) -> dict[str, Any]:
-    return {
-        "reached": report.reached,
-        "landed": report.landed,
-        "carrying": report.carrying,
-        "problems": list(report.problems),
-    }
 
 
 def _bare(app: App, record: Record) -> dict[str, Any]:

@@ -74,6 +74,10 @@ class Executor:
         """The drones' telemetry, always current."""
         self._cut = CutMotors(ledger, lambda drone: not controls.telemetry[drone].landed)
 
+    def join(self, drone: FleetDrone) -> None:
+        """Fly a drone that has joined, too."""
+        self._drones[drone.id] = drone
+
     # Jobs
 
     def fly(self, job: Job, report: Callable[[object], object]) -> None:

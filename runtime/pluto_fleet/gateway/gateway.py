@@ -6,20 +6,23 @@ old link is cut: its commands are ignored, and it gets no reports.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
+from ..drones.real_fleet import RealDrone
 from ..jobs.controls import FleetDrone
 from ..jobs.reports import Down, DroneReport, FleetReport
 from ..shared.domain.errors import BadInput, Cancelled, Failure, FlightFailed
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, EventKind, Kernel, Task
+from ..simulation.body import SimulatedDrone
 from .descent import Descent
 from .envelope import Envelope
 from .executor import Executor, Leaving
 from .jobs import Jobs
 from .measuring import MeasuringControls
+from .settings import joining_of
 from .traffic.traffic import Traffic
 
 if TYPE_CHECKING:
@@ -33,6 +36,9 @@ if TYPE_CHECKING:
 
 
 T = TypeVar("T")
+
+Rehearse = Callable[[str, str, "str | None"], Coroutine[Any, Any, str]]
+TakeIn = Callable[[SimulatedDrone, RealDrone | None], object]
 
 
 class Busy(RuntimeError):
@@ -113,6 +119,21 @@ class Link:
         self._gateway.envelope.check(target)
         await self._command(drone, self._navigation.go_to(drone, target))
 
+    async def join(self, joining: Mapping[str, Any]) -> str:
+        """Take a drone into the fleet; return why that cannot be, or nothing."""
+        if not self._gateway.is_commanded_by(self):
+            await _for_ever()
+        return self._gateway.join(joining)
+
+    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
+        """Have a mishap happen to a simulated drone; return why it cannot, or nothing."""
+        if not self._gateway.is_commanded_by(self):
+            await _for_ever()
+        why = await self._gateway.mishap(drone, kind, job)
+        if not self._is_heard:
+            await _for_ever()
+        return why
+
     async def home(self, drone: str) -> None:
         """Fly to its dock, and land there."""
         await self._command(drone, self._navigation.home(drone))
@@ -132,7 +153,7 @@ class Link:
 
     async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done."""
-        report = await self._navigation.drone_report(drone)
+        report = await self._gateway.ask(drone)
         if not self._is_heard:
             await _for_ever()
         return report
@@ -219,6 +240,10 @@ class Link:
             kernel.schedule(kernel.now, EventKind.FLIGHT, FLEET, self._lost)
 
 
+def _take_in_none(drone: SimulatedDrone, _: RealDrone | None) -> NoReturn:
+    raise BadInput(f"{drone.id} cannot join: these drones are all that there are")
+
+
 async def _for_ever() -> NoReturn:
     """Never return."""
     await Future[None]()
@@ -249,8 +274,14 @@ class Gateway:
         measures: bool = False,
     ) -> None:
         self.kernel = kernel
+        self.take_in: TakeIn = _take_in_none
+        """Gives a drone that joins to the controls; raises `BadInput` if they cannot have it."""
+        self.rehearse: Rehearse | None = None
+        """Has mishaps happen to simulated drones; None: they are real."""
+        self._measuring: MeasuringControls | None = None
         if measures:
-            controls = MeasuringControls(kernel, controls, drones, self.flown)
+            self._measuring = MeasuringControls(kernel, controls, drones, self.flown)
+            controls = self._measuring
         self.traffic: Traffic | None = None
         """Keeps drones apart, if configured."""
         if apart > 0:
@@ -319,6 +350,34 @@ class Gateway:
         if self.commander is not None and self.commander.flown is not None:
             self.commander.flown(command)
 
+    def join(self, joining: Mapping[str, Any]) -> str:
+        """Take a drone in, unless it is there already; return why that cannot be, or nothing."""
+        try:
+            drone, real = joining_of(joining)
+            if drone.id in self._keys:
+                return ""
+            self.take_in(drone, real)
+        except BadInput as error:
+            return str(error)
+        except (KeyError, TypeError, ValueError) as error:
+            return f"that is no drone: {type(error).__name__}: {error}"
+        self.drones = (*self.drones, drone)
+        self._keys[drone.id] = FLEET + 1 + drone.index  # its jobs have the same mapping
+        self.jobs.boots[drone.id] = 0
+        for part in (self.navigation, self.traffic, self._measuring):
+            if part is not None:
+                part.join(drone)
+        return ""
+
+    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
+        """Have a mishap happen to a simulated drone; return why it cannot, or nothing."""
+        if self.rehearse is None:
+            return "mishaps happen to simulated drones only"
+        why = await self.rehearse(drone, kind, job)
+        if not why and job is not None:
+            self.break_off(drone)  # what has been done is not reported
+        return why
+
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover."""
         self.jobs.break_off(drone)
@@ -371,12 +430,13 @@ class Gateway:
         """Query every drone, and settle the outcome of every job by that."""
         spawn = self.kernel.spawn
         asked = [
-            spawn(self._ask(drone), key, f"{drone} is asked") for drone, key in self._keys.items()
+            spawn(self.ask(drone), key, f"{drone} is asked") for drone, key in self._keys.items()
         ]
         drones = {drone: await task for drone, task in zip(self._keys, asked, strict=True)}
         return FleetReport(drones=drones, jobs=self.jobs.settle(drones, self._epoch > 1))
 
-    async def _ask(self, drone: str) -> DroneReport:
+    async def ask(self, drone: str) -> DroneReport:
+        """Ask a drone where it is and what it has done; its next jobs are known by its boot."""
         report = await self.navigation.drone_report(drone)
         if report.reached:
             self.jobs.boots[drone] = report.boot
@@ -386,7 +446,7 @@ class Gateway:
         """Bring a drone home after a failed flight; it may have been restarted meanwhile."""
         found = await self.navigation.recover(drone)
         if found:
-            await self._ask(drone)
+            await self.ask(drone)
         return found
 
     def bring_down(self, how: Down) -> Task[None]:

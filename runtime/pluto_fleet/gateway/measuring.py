@@ -33,6 +33,10 @@ class MeasuringControls(ForwardingControls):
         self._kernel, self._hear = kernel, hear
         self._categories = {drone.id: drone.category for drone in drones}
 
+    def join(self, drone: FleetDrone) -> None:
+        """Measure a drone that has joined, too."""
+        self._categories[drone.id] = drone.category
+
     async def takeoff(self, drone: str, height: float) -> None:
         """Take off to a height."""
         x, y, _ = self.telemetry[drone].location

@@ -9,7 +9,7 @@ import signal
 import sys
 import time
 from collections.abc import Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from errno import EDQUOT, EFBIG, ENOSPC
 from functools import partial
 from pathlib import Path
@@ -27,10 +27,10 @@ from ..shared.domain.motion import CRAZYFLIE
 from ..shared.domain.text import printable
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, EventKind
-from ..simulation.drones import SimulatedNavigation
+from ..simulation.drones import SimulatedDrone, SimulatedNavigation
 from ..simulation.world_store import WorldStore, this_moment
 from .drone_lock import LEAVING, lock_drones
-from .gateway import Gateway
+from .gateway import Gateway, Rehearse, TakeIn
 from .ledger import FileLedger
 from .server import Server
 from .settings import settings_of
@@ -38,6 +38,7 @@ from .sightings import SEEN, Sightings
 from .wire import MAX_COMMAND
 
 if TYPE_CHECKING:
+    from ..drones.real_fleet import RealDrone
     from ..jobs.controls import Controls
     from .settings import Settings
 
@@ -165,26 +166,39 @@ async def run(folder: Path, settings: Settings) -> None:
     """Connect the drones, or resume the simulated world, and serve brains until the end."""
     kernel = RealTime(settings.speed)
     if settings.real is None:
-        simulated = _simulated(folder, settings, kernel)
+        simulated, keeper = _simulated(folder, settings, kernel)
         seen = Sightings(folder / SEEN, simulated.telemetry, down=simulated.down)
-        await _command(folder, settings, kernel, simulated, seen)
+
+        def take_in(drone: SimulatedDrone, _: object) -> None:
+            simulated.join(drone)
+            keeper.watch(drone.id)
+
+        await _command(folder, settings, kernel, simulated, seen, take_in, simulated.mishap)
         return
     from ..drones.team import make_team  # not needed in a simulation
 
     uris = {drone.id: drone.uri or drone.id for drone in settings.real.drones}
-    with lock_drones(uris, patience=LEAVING):
+    with lock_drones(uris, patience=LEAVING), ExitStack() as joined:
         team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)
         team.begin()
         seen = Sightings(folder / SEEN, team.telemetry, down=team.down)
+
+        def take_in_real(drone: SimulatedDrone, how: RealDrone | None) -> None:
+            assert how is not None
+            joined.enter_context(lock_drones({drone.id: how.uri or drone.id}))
+            team.join(drone, how)
+
         try:
-            await _command(folder, settings, kernel, team, seen)
+            await _command(folder, settings, kernel, team, seen, take_in_real)
         finally:
             await team.close()
             seen.keep()
 
 
-def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedNavigation:
-    """Return the simulated drones, in their stored world."""
+def _simulated(
+    folder: Path, settings: Settings, kernel: RealTime
+) -> tuple[SimulatedNavigation, WorldStore]:
+    """Return the simulated drones, and their stored world."""
     keeper = WorldStore(folder, kernel.time, settings.speed, this_moment)
     navigation = SimulatedNavigation(
         kernel,
@@ -197,7 +211,7 @@ def _simulated(folder: Path, settings: Settings, kernel: RealTime) -> SimulatedN
     )
     keeper.take_over(navigation.bodies)
     kernel.settled = keeper.settled
-    return navigation
+    return navigation, keeper
 
 
 def _slack(settings: Settings) -> float:
@@ -207,9 +221,15 @@ def _slack(settings: Settings) -> float:
 
 
 async def _command(
-    folder: Path, settings: Settings, kernel: RealTime, controls: Controls, seen: Sightings
+    folder: Path,
+    settings: Settings,
+    kernel: RealTime,
+    controls: Controls,
+    seen: Sightings,
+    take_in: TakeIn,
+    rehearse: Rehearse | None = None,
 ) -> None:
-    """Serve brains."""
+    """Serve brains; `take_in` gives drones that join to the controls, `rehearse` has mishaps happen."""
     gateway = Gateway(
         kernel,
         controls,
@@ -223,6 +243,7 @@ async def _command(
         leaving=seen.leaving,
         measures=True,
     )
+    gateway.take_in, gateway.rehearse = take_in, rehearse
     over: Future[None] = Future()
     ending = Ending(gateway, over, settings)
     publisher = Publisher(controls.telemetry)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING, Any
@@ -226,6 +226,14 @@ class RemoteLink:
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
         await self._ask(do="go_to", drone=drone, target=target)
+
+    async def join(self, joining: Mapping[str, Any]) -> str:
+        """Take a drone into the fleet; return why that cannot be, or nothing."""
+        return str(await self._ask(do="join", joining=joining))
+
+    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
+        """Have a mishap happen to a simulated drone; return why it cannot, or nothing."""
+        return str(await self._ask(do="mishap", drone=drone, kind=kind, job=job))
 
     async def home(self, drone: str) -> None:
         """Fly to its dock, and land there."""

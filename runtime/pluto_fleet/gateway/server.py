@@ -288,10 +288,15 @@ def _asked(
     """Return the coroutine that answers a request; `known` refuses unknown drones."""
     if what == "call":
         return _as_data(fleet_report_data, link.fleet_report)
+    if what == "join":
+        return link.join(dict(message["joining"]))
     if what == "down":
         return link.bring_down(Down(message["how"]))
     drone = known(message["drone"])
     match what:
+        case "mishap":
+            job = message["job"]
+            return link.mishap(drone, str(message["kind"]), None if job is None else str(job))
         case "hold":
             return link.hold(drone)
         case "read":

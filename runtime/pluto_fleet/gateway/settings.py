@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..drones.real_fleet import RealFleet, real_of
+from ..drones.real_fleet import RealDrone, RealFleet, real_of
 from ..shared.alone.faults import Faults
 from ..shared.domain.airspace import Airspace
 from ..shared.domain.app import moving
@@ -110,6 +110,17 @@ def settings_of(data: Mapping[str, Any]) -> Settings:
         patience=data["patience"],
         idle=data["idle"],
     )
+
+
+def joining_data(drone: SimulatedDrone, real: RealDrone | None) -> dict[str, object]:
+    """Return a drone that joins as plain data; `real`: how a real one is flown."""
+    return {"drone": _drone_data(drone), "real": None if real is None else asdict(real)}
+
+
+def joining_of(data: Mapping[str, Any]) -> tuple[SimulatedDrone, RealDrone | None]:
+    """Return a drone that joins; raise `KeyError`, `TypeError` or `ValueError` if it is none."""
+    real = data["real"]
+    return _drone(data["drone"]), None if real is None else RealDrone(**real)
 
 
 def _drone_data(drone: SimulatedDrone) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..shared.domain.errors import Failure, FlightFailed
 
@@ -108,6 +108,17 @@ class CommandLink(Protocol):
 
     async def write(self, drone: str, name: str, value: float) -> None:
         """Set a parameter of a hovering drone."""
+        ...
+
+    async def join(self, joining: Mapping[str, Any]) -> str:
+        """Take a drone into the fleet, given as plain data; return why that cannot be, or nothing."""
+        ...
+
+    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
+        """Have a mishap happen to a simulated drone; return why it cannot, or nothing.
+
+        `uncertain` returns when the action of that job was done, and no report comes of it.
+        """
         ...
 
     async def home(self, drone: str) -> None:

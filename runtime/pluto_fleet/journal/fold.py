@@ -53,6 +53,8 @@ class Records:
         """The retired drones."""
         self.mended: list[str] = self.data.setdefault("mended", [])
         """The drones that were lost and repaired, and are not back yet."""
+        self.joined: list[Record] = self.data.setdefault("joined", [])
+        """The drones that have joined the fleet, in their order, each as in a fleet file."""
         self.lost: dict[str, Record] = self.data.setdefault("lost", {})
         """The drones that no trip may have before a person has looked after them: why, and where
         each was when it was lost."""
@@ -116,6 +118,7 @@ def _new() -> Record:
         "accepted": None,
         "promises": {},
         "late": False,
+        "replanned": False,
     }
 
 
@@ -135,6 +138,19 @@ def _changed(_: Records, record: Record, event: Fact) -> None:
     names = {trip["name"] for trip in (*event["todo"], *event["done"])}
     record["gone"] += [t for t in (*record["todo"], *record["done"]) if t["name"] not in names]
     record.update(fields=event["fields"], todo=event["todo"], done=event["done"])
+
+
+def _replanned(_: Records, record: Record, event: Fact) -> None:
+    """Take over what a person has put in place of the trips that had not flown."""
+    flight, last, todo = record["flight"], record["todo"][0], event["todo"]
+    if last["name"] != todo[0]["name"] and flight and flight["outcome"]:
+        _goes_on(record)
+    if any(last.get(fact) != todo[0].get(fact) for fact in ("name", "fields")):
+        record["delay"] = None  # it was the delay of another trip, or another delay
+    names = {trip["name"] for trip in todo}
+    old = (*record["gone"], *record["todo"])
+    gone = [trip for trip in old if trip["name"] not in names]
+    record.update(gone=gone, todo=todo, replanned=True)
 
 
 def _delayed(_: Records, record: Record, event: Fact) -> None:
@@ -310,6 +326,7 @@ def _inherited(records: Records, event: Fact) -> None:
     records.lost.update(event.get("lost") or {})
     records.mended += event.get("mended") or []
     records.retired += event.get("retired") or []
+    records.joined += event.get("joined") or []
 
 
 def _began(records: Records, event: Fact) -> None:
@@ -328,6 +345,10 @@ def _commanded(records: Records, event: Fact) -> None:
     """Remember a command's id: a sender that has missed the answer may repeat it."""
     records.commands.append(str(event["id"]))
     del records.commands[:-REMEMBERED]
+
+
+def _joined(records: Records, event: Fact) -> None:
+    records.joined.append(dict(event["entry"]))
 
 
 def _retired(records: Records, event: Fact) -> None:
@@ -399,6 +420,7 @@ _MISSION: dict[str, Callable[[Records, Record, Fact], None]] = {
     "mission.created": _created,
     "mission.late": _late,
     "mission.changed": _changed,
+    "mission.replanned": _replanned,
     "trip.delayed": _delayed,
     "trip.allocated": _allocated,
     "trip.launched": _launched,
@@ -427,6 +449,7 @@ _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
     "brain.began": _began,
     "stopped": _stopped,
     "commanded": _commanded,
+    "drone.joined": _joined,
     "drone.retired": _retired,
     "drone.brought_back": _brought_back,
     "drone.free": _came_back,

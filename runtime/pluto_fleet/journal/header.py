@@ -38,10 +38,12 @@ def header(
     seed: int,
     faults: Mapping[str, float] | None = None,
     inherited: Mapping[str, object] | None = None,
+    by: str = "",
 ) -> dict[str, object]:
     """Return the header of a new journal, with the texts of the two files for later runs.
 
-    `inherited` has the drones that are lost, repaired or retired since earlier flights.
+    `inherited` has the drones that are lost, repaired or retired since earlier flights, or have joined; `by` is the
+    name of the person who started it, if that is known.
     """
     return {
         "t": 0.0,
@@ -58,6 +60,7 @@ def header(
         "crtp_sim": crtp_sim,
         "seed": seed,
         "faults": dict(faults or {}),
+        **({"by": by} if by else {}),
         **(inherited or {}),
     }
 

@@ -120,5 +120,8 @@ def _as_new(trip: Record) -> Record:
 
 _OF_FLIGHTS = ("start_time", "end_time", "reason")
 
-_SHARED = ("mission.created", "mission.changed", "mission.extended", "trip.reset")
+_SHARED = (
+    *("mission.created", "mission.changed", "mission.replanned", "mission.extended"),
+    "trip.reset",
+)
 """The events with parts that are kept in records, which change."""

@@ -61,6 +61,12 @@ def _extended(event: Event) -> str:
     return f"goes on with more trips ({'; '.join(told)})"
 
 
+def _replanned(event: Event) -> str:
+    todo: Any = event["todo"]
+    trips = ", ".join(str(trip["name"]) for trip in todo) or "none"
+    return f"was changed by a person; trips to do: {trips}"
+
+
 def _ended(event: Event) -> str:
     reason = event.get("reason")
     return f"{event['status']}: {reason}" if reason else str(event["status"])
@@ -86,6 +92,7 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "mission.late": lambda _: "is late: its deadline has passed",
     "mission.repeated": lambda event: f"round {int(str(event['round'])) + 1} begins",
     "mission.extended": _extended,
+    "mission.replanned": _replanned,
     "mission.ended": _ended,
     "mission.paused": lambda _: "paused",
     "mission.resumed": lambda _: "goes on",
@@ -95,6 +102,8 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "trip.interrupted": lambda event: f"trip {event['trip']} interrupted; it will be flown again",
     "trip.skipped": lambda event: f"trip {event['trip']} skipped",
     "trip.prioritised": lambda event: f"trip {event['trip']} has priority {event['priority']}",
+    "drone.joined": lambda event: f"{event['drone']} joins the fleet",
+    "drone.mishap": lambda event: f"{event['drone']}: a mishap is rehearsed: {event['kind']}",
     "drone.retired": lambda event: f"{event['drone']} is retired",
     "drone.brought_back": _brought_back,
     "drone.not_ready": lambda event: f"{event['drone']} is not ready: {event['reason']}",

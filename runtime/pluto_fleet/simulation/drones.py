@@ -71,8 +71,14 @@ class SimulatedNavigation:
         self.record = record
         """Called right before each action of a drone on the world."""
         self.bodies = {drone.id: Body(drone, kernel.time, seed) for drone in drones}
+        self._forgotten: dict[str | None, Future[None]] = {}
+        """By jobs, what to set when their actions were done and forgotten."""
         self.telemetry: Mapping[str, Telemetry] = self.bodies
         """The drones' telemetry, always current."""
+
+    def join(self, drone: SimulatedDrone, _: object = None) -> None:
+        """Have one more drone, in its dock."""
+        self.bodies[drone.id] = Body(drone, self._kernel.time, self._seed)
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands; None: it takes them."""
@@ -97,6 +103,25 @@ class SimulatedNavigation:
             return False
         self._interrupt(body, FlightFailed(failure, str(body.down)))
         return True
+
+    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
+        """Have a mishap happen to a drone in the air; return why it cannot, or nothing.
+
+        A lost link, a crash and an empty battery happen now. Uncertain: this returns when the action
+        of a job was done, and the drone has forgotten that; the job does not go on.
+        """
+        body = self.bodies[drone]
+        if job is not None:
+            forgotten = self._forgotten[job] = Future[None]()
+            try:
+                await forgotten
+            finally:
+                del self._forgotten[job]
+            return ""
+        body.settle(self._kernel.now)
+        if body.landed:
+            return f"{drone} stands on the ground: mishaps happen in the air"
+        return "" if self.strike(drone, _MISHAPS[kind]) else f"{drone} is down already: {body.down}"
 
     def reboot(self, drone: str) -> None:
         """Restart a drone: it forgets what it has done, and sinks if it flies."""
@@ -190,6 +215,10 @@ class SimulatedNavigation:
         body.carries = aboard
         if job is not None:
             body.done[job] = value
+        if job in self._forgotten:
+            body.reboot()
+            self._forgotten[job].set(None)
+            await Future[None]()  # until it is broken off
         return value
 
     async def hold(self, drone: str) -> None:
@@ -315,6 +344,9 @@ class SimulatedNavigation:
             reason = f"{drone} is on the ground at {where}: it must take off first"
             raise FlightFailed(Failure.REFUSED, reason)
         return body
+
+
+_MISHAPS = {"lost": Failure.LINK, "crash": Failure.CRASH, "battery": Failure.BATTERY}
 
 
 def broken_off(drone: str) -> FlightFailed:

@@ -100,6 +100,12 @@ class WorldStore:
         self._changed()
         self.settled()
 
+    def watch(self, drone: str) -> None:
+        """Record a drone that has joined, too."""
+        self._counts.setdefault(drone, 0)
+        self._bodies[drone].on_change = self._changed
+        self._changed()
+
     def _catch_up(self) -> None:
         """Restore the drones' memories of their actions, and apply those newer than the stored states."""
         seen = dict.fromkeys(self._bodies, 0)

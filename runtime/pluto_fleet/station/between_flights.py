@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import shutil
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..files.fleet import with_joined
 from ..flight.fly import recovered
 from ..flight.lives import Resumable, fleet_in, how_to_go_on, reopen
 from ..flight.offline import record_loss, record_return, returned
@@ -25,6 +26,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 from ..simulation.world_store import DRONES
 from . import rows
+from .attention.causes import Cause, of_drones
 
 if TYPE_CHECKING:
     from ..app import App
@@ -59,8 +61,15 @@ class IdleDrones:
     def rows(self, known: Records | None) -> Iterator[DroneRow]:
         """Yield the row of each; `known` is the journal's record of them."""
         sightings, now = self._newest(), time.time()
-        for entry in self._fleet:
-            yield _row(entry.id, sightings.get(entry.id), known, now)
+        ids = dict.fromkeys(entry.id for entry in self._fleet)
+        if known is not None:
+            ids |= dict.fromkeys(str(one["id"]) for one in known.joined)
+        for id in ids:
+            yield _row(id, sightings.get(id), known, now)
+
+    def crashed(self) -> Collection[str]:
+        """Return the drones that fell, as the gateway has seen."""
+        return [id for id, seen in self._newest().items() if seen.crashed]
 
     def write_down(self, app: App, known: Records | None) -> bool:
         """Record the drones that crashed while no app was running; return whether there are any.
@@ -171,7 +180,6 @@ class FleetHistory:
         self._app, self._config = app, config
         self._kind = [config.sim, config.crtp_sim is not None]
         self._file = config.own_folder / DRONES_FILE
-        self._fleet = [entry.id for entry in config.fleet.drones]
         self.records = Records()
         self._journal: Path | None = None
         """The newest journal, if it is of these drones."""
@@ -202,6 +210,7 @@ class FleetHistory:
         if same:
             self._journal = journal
         else:  # positions on another map mean nothing on this one
+            records.joined.clear()
             for why in records.lost.values():
                 why["at"] = None
 
@@ -220,7 +229,9 @@ class FleetHistory:
         self._keep()
 
     def _keep(self) -> None:
-        text = json.dumps({"kind": self._kind, "drones": self.facts})
+        known = self.records
+        drones = {"lost": known.lost, "mended": known.mended, "retired": known.retired}
+        text = json.dumps({"kind": self._kind, "drones": drones})
         with suppress(OSError):  # the journal has it, too
             part = self._file.with_name(f"{self._file.name}.part")
             part.write_text(text, encoding="utf-8")
@@ -230,7 +241,17 @@ class FleetHistory:
     def facts(self) -> dict[str, object]:
         """Return the facts that the next journal inherits."""
         known = self.records
-        return {"lost": known.lost, "mended": known.mended, "retired": known.retired}
+        drones = {"lost": known.lost, "mended": known.mended, "retired": known.retired}
+        return drones | {"joined": known.joined}
+
+    @property
+    def fleet(self) -> FleetFile:
+        """The fleet, with the drones that have joined it in earlier flights on this map."""
+        return with_joined(self._app, self._config.fleet, self.records.joined)
+
+    @property
+    def _fleet(self) -> list[str]:
+        return [entry.id for entry in self.fleet.drones]
 
     @property
     def sightings(self) -> Mapping[str, Sighting]:
@@ -290,7 +311,7 @@ class FleetHistory:
                 with suppress(FileNotFoundError):
                     shutil.copyfile(old / name, new / name)
         if self._config.sim:
-            at_home(new, {entry.id: entry.home for entry in self._config.fleet.drones})
+            at_home(new, {entry.id: entry.home for entry in self.fleet.drones})
 
     def _world(self, folder: Path) -> Sequence[str]:
         """Return the files of the simulated world of a gateway that has ended."""
@@ -310,3 +331,7 @@ class FleetHistory:
         known = self.records
         if self._journal is not None or known.lost or known.mended or known.retired:
             yield from self._idle.rows(known)
+
+    def causes(self, drones: Sequence[DroneRow]) -> Iterator[Cause]:
+        """Yield what a person must know of while there is no flight."""
+        return of_drones(drones, self._idle.crashed())

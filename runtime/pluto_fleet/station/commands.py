@@ -13,6 +13,7 @@ from typing import (
     get_args,
     get_origin,
     get_type_hints,
+    is_typeddict,
 )
 
 from ..shared.domain.errors import BadInput
@@ -61,24 +62,39 @@ def _kinds(hint: Any) -> tuple[Any, ...]:
 
 
 def _fits(value: object, kind: Any) -> bool:
+    if is_typeddict(kind):
+        return isinstance(value, dict)  # its keys are checked by what takes it
+    if kind is float:
+        return type(value) in (int, float)
     match get_origin(kind):
         case None:
             return type(value) is kind
         case origin if origin is Literal:
             return type(value) is str and value in get_args(kind)
+        case origin if origin is dict:
+            return isinstance(value, dict)
         case _:  # a list
             [inner] = get_args(kind)
-            return isinstance(value, list) and all(type(one) is inner for one in value)
+            return isinstance(value, list) and all(_fits(one, inner) for one in value)
 
 
 def _said(kind: Any) -> str:
     match get_origin(kind):
         case None:
-            return _NAMES[kind]
+            return "an object" if is_typeddict(kind) else _NAMES[kind]
         case origin if origin is Literal:
             return " or ".join(f'"{one}"' for one in get_args(kind))
+        case origin if origin is dict:
+            return "an object"
         case _:
-            return "a list of texts"
+            [inner] = get_args(kind)
+            return f"a list, each of it {_said(inner)}"
 
 
-_NAMES = {str: "a text", bool: "true or false", int: "a whole number", NoneType: "null"}
+_NAMES = {
+    str: "a text",
+    bool: "true or false",
+    int: "a whole number",
+    float: "a number",
+    NoneType: "null",
+}

@@ -33,9 +33,13 @@ class VersionedRows(Generic[Row]):
         self._rows[name] = number, row, json.dumps(row)
         return True
 
-    def rows(self) -> list[Any]:
-        """Return all rows; one that has not changed is the same object as before."""
-        return [row for _, row, _ in self._rows.values()]
+    def drop(self, name: str) -> None:
+        """Forget a row; pages that have it keep it."""
+        self._rows.pop(name, None)
+
+    def __iter__(self) -> Iterator[Row]:
+        """Yield all rows; one that has not changed is the same object as before."""
+        return (row for _, row, _ in self._rows.values())
 
     def since(self, number: int) -> Iterator[str]:
         """Yield the rows that have changed after a version."""
@@ -44,6 +48,9 @@ class VersionedRows(Generic[Row]):
 
 LINES_KEPT = 20_000
 """The number of lines, and of results, that are kept; older ones are only in the journal."""
+
+FINDINGS_KEPT = 100
+"""The number of results with findings of which pages are alerted."""
 
 LINES_A_MESSAGE = 500
 """The most lines in one message: the newest ones."""
@@ -90,6 +97,8 @@ class Feed:
         self._rows = ResultRows(flight, app.actions, meanings, name_of)
         self.log: Tail[LogLine] = Tail()
         self.results: Tail[Result] = Tail()
+        self.findings: deque[Result] = deque(maxlen=FINDINGS_KEPT)
+        """The newest results in which something was found."""
         self._lines: deque[str] = deque(maxlen=LINES_KEPT)
         self._whole: deque[object] = deque(maxlen=LINES_KEPT)
         """The full values of results that pages get shortened."""
@@ -104,6 +113,8 @@ class Feed:
         if brought is not None:
             row, value = brought
             self.results.add(row)
+            if row["tags"]:
+                self.findings.append(row)
             self._whole.append(value)
 
     def say(self, time: float, text: str, kind: LineKind = "info") -> None:

@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal, NotRequired, TypedDict
 
-from .wire_app import PlanMission
+from .wire import Scalar
+from .wire_app import PlanMission, PlanTrip
 
 
 class Said(TypedDict):
@@ -92,6 +93,16 @@ class Prioritise(Command):
     priority: int
 
 
+class ChangeTrips(Command):
+    """Change what has not flown of a mission that is under way."""
+
+    mission: str
+    trips: list[PlanTrip]
+    """All that is to be flown from now on, but for the trip that flies now."""
+    replaces: NotRequired[list[str] | None]
+    """The names of the trips that were seen to wait: others are refused; null: any."""
+
+
 class Retire(Command):
     """Give a drone to no mission any more, once its trip is done."""
 
@@ -104,10 +115,36 @@ class BringBack(Command):
     drone: str
 
 
+class Join(Command):
+    """Let a drone join the flight that is under way, as an entry of a fleet file says it."""
+
+    drone: str
+    """Its id."""
+    category: NotRequired[str | None]
+    home: NotRequired[list[float] | None]
+    uri: NotRequired[str | None]
+    navigation: NotRequired[str | None]
+    options: NotRequired[dict[str, Scalar] | None]
+
+
+class Mishap(Command):
+    """Let something go wrong with a simulated drone, to rehearse it."""
+
+    drone: str
+    kind: Literal["lost", "crash", "battery", "uncertain"]
+
+
 class CutMotors(Command):
     """Switch a drone's motors off at once: if it flies, it falls."""
 
     drone: str
+
+
+class Acknowledge(Command):
+    """Say that a person knows of an alert."""
+
+    alert: str
+    """Its id."""
 
 
 COMMANDS: Mapping[str, type[Command]] = {
@@ -120,10 +157,14 @@ COMMANDS: Mapping[str, type[Command]] = {
     "skip": Skip,
     "cancel": Cancel,
     "decide": Decide,
+    "change-trips": ChangeTrips,
     "prioritise": Prioritise,
     "retire": Retire,
     "bring-back": BringBack,
+    "join": Join,
+    "mishap": Mishap,
     "cut-motors": CutMotors,
+    "acknowledge": Acknowledge,
 }
 """The body of each command, at `/api/` and its name."""
 

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 END = "end"
 """The pseudo-block of missions that have ended."""
 
+WAITS_FOR_A_DRONE = "waits for a drone"
+"""With why none flies, if that is known already."""
+
 ENDED = (Status.COMPLETED, Status.FAILED, Status.CANCELLED)
 
 _BRANCHES = re.compile(r"\[(.*)\]")
@@ -63,43 +66,57 @@ def living_row(
     until = where["until"] or opens
     until = until if (until or 0.0) > now else None
     why = partial(fleet, name, todo)
-    row = recorded_row(name, record, lives=True)
+    wait = "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
+    trips = [_trip(trip, "COMPLETED", priority) for trip in record["done"]]
+    trips += [_trip(trip, "WAITING", priority) for trip in todo]
     # once its trips are done, a block has yet to decide
-    row["status"] = (Status.STANDBY if status in ENDED else status).value
-    row["trips"] = [_trip(trip, "COMPLETED", priority) for trip in record["done"]]
-    row["trips"] += [_trip(trip, "WAITING", priority) for trip in todo]
-    row["drone"], row["at"], row["until"] = where["drone"], list(at), until
-    row["wait"] = (
-        "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
-    )
+    stands = Status.STANDBY if status in ENDED else status
+    row = _row(name, record, stands, str(record["reason"]), trips, [*at], wait)
+    row["drone"], row["until"] = where["drone"], until
     return row
 
 
 def recorded_row(name: str, record: Record, *, lives: bool = False) -> MissionRow:
     """Return the row of a mission from its journal's record; `lives`: its app is running."""
-    done, todo = record["done"], record["todo"]
     status, reason = aside(record) or (Status(record["status"]), str(record["reason"]))
     if status is Status.RUNNING or (status in ENDED and not record["ended"]):
         status = Status.STANDBY  # it flew, and does so no longer; or its outcome is open
     at = [END] if record["ended"] else [record["at"]] if record["at"] else []
+    trips = [_recorded_trip(trip, "COMPLETED") for trip in record["done"]]
+    trips += [_recorded_trip(trip, "WAITING") for trip in record["todo"]]
+    row = _row(name, record, status, reason, trips, at, _WAITS.get(status, "") if lives else "")
+    if lives:
+        row["drone"], row["question"] = record["carrier"], _question(status, reason)
+    return row
+
+
+def _row(
+    name: str,
+    record: Record,
+    status: Status,
+    reason: str,
+    trips: list[TripRow],
+    at: list[str],
+    wait: str,
+) -> MissionRow:
+    done, todo = len(record["done"]), record["todo"]
     return {
         "name": name,
         "index": record["index"],
         "status": status.value,
         "reason": reason,
-        "trips": [_recorded_trip(trip, "COMPLETED") for trip in done]
-        + [_recorded_trip(trip, "WAITING") for trip in todo],
-        "current": len(done) if todo else None,
-        "done": len(done),
-        "total": len(done) + len(todo),
-        "drone": record["carrier"] if lives else None,
+        "trips": trips,
+        "current": done if todo else None,
+        "done": done,
+        "total": len(trips),
+        "drone": None,
         "at": at,
-        "wait": _WAITS.get(status, "") if lives else "",
+        "wait": wait,
         "until": None,
         "attempt": todo[0].get("attempt", 1) if todo else 1,
         "attempts": record["attempts"],
         "round": record["round"],
-        "question": _question(status, reason) if lives else None,
+        "question": None,
         "due": record["promises"].get("deadline"),
         "late": record["late"],
         "fields": {key: one for key, one in record["fields"].items() if one is not None},
@@ -107,15 +124,21 @@ def recorded_row(name: str, record: Record, *, lives: bool = False) -> MissionRo
 
 
 def drone_row(
-    id: str, drone: Mapping[str, Any], silence: float, mission: str | None, why: str, status: str
+    id: str,
+    drone: Mapping[str, Any],
+    silence: float,
+    mission: str | None,
+    why: str,
+    status: str,
+    ready_in: float | None = None,
 ) -> DroneRow:
     """Return the row of a drone as it stands, rounded to centimetres and thousandths.
 
     `silence`: the seconds since it was heard last; `why`: why it may not fly; `status` replaces its
-    own status if that would mislead.
+    own status if that would mislead; `ready_in`: the seconds until it is charged, if it is not.
     """
     heard = isfinite(silence)
-    return _drone_row(
+    row = _drone_row(
         id,
         status or drone["status"],
         drone["at"] if heard else None,
@@ -126,6 +149,9 @@ def drone_row(
         why,
         time.time() - silence if heard and silence > STALE_AFTER else None,
     )
+    if ready_in is not None:
+        row["ready_in"] = round(ready_in)
+    return row
 
 
 def drone_at(
@@ -203,7 +229,7 @@ def _why_it_waits(
         return "waits until its time has come"
     if not where["allocated"] and at and at[0] in resumes:
         why = fleet()
-        return f"waits for a drone ({why})" if why else "waits for a drone"
+        return f"{WAITS_FOR_A_DRONE} ({why})" if why else WAITS_FOR_A_DRONE
     if at and status in ENDED:
         return f"waits for what {at[0]} says"
     return ""

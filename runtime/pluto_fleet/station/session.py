@@ -6,7 +6,7 @@ import asyncio
 import json
 import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import closing, suppress
 from enum import Enum
 from pathlib import Path
@@ -23,6 +23,15 @@ from ..journal.reader import Reader
 from ..shared import output
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
+from .attention.causes import (
+    Cause,
+    of_batteries,
+    of_drones,
+    of_missions,
+    of_results,
+    of_waiting,
+)
+from .attention.waits import Waits
 from .between_flights import IdleDrones
 from .feed import Feed, VersionedRows
 from .history.folder import recording_of
@@ -103,9 +112,12 @@ class FlightSession:
         self.trouble = ""
         """Why it could not be resumed."""
         self.task: asyncio.Task[None] | None = None
+        self.heard: Callable[[Event], object] = _ignore
+        """Called with each event, once it is durable."""
         self._ended, self._seen = ended, seen
         self._idle = IdleDrones(flight.fleet.drones, flight.journal)
         self._waiting = WaitReasons(flight.app, flight.fleet, time.monotonic)
+        self._waits = Waits()
         self._left_at = 0.0
         self.recorder: Recorder | None = None
         """Records what pages are shown, from its begin on until its end."""
@@ -225,7 +237,9 @@ class FlightSession:
 
     def _hear(self, event: Event) -> None:
         """Update the pages outside of the current instant, so that errors there cannot affect the flight."""
-        asyncio.get_running_loop().call_soon(self.feed.take, event)
+        loop = asyncio.get_running_loop()
+        loop.call_soon(self.feed.take, event)
+        loop.call_soon(self.heard, event)
 
     def say(self, text: str) -> None:
         """Tell users on the console what they should know of it."""
@@ -274,7 +288,7 @@ class FlightSession:
         if life is not None and life.is_set_out:
             now, app, brain = self.now, self.flight.app, life.brain
             priority = next((one.default for one in app.fields if one.name == PRIORITY), None)
-            self._waiting.look(brain)
+            self._waiting.look(brain, life.fleet)
             why, where = self._waiting.why, brain.whereabouts()
             for name, record in in_order(life.records):
                 found = where.get(name)
@@ -309,4 +323,27 @@ class FlightSession:
             low = self._waiting.why_low(drone)
             why, status = low or drone["unready"], "LOW" if low else ""
             silence = life.link.telemetry(id).silence
-            yield rows.drone_row(id, drone, silence, work.get(id), why, status)
+            ready = self._waiting.ready_in(id, drone, bool(low))
+            yield rows.drone_row(id, drone, silence, work.get(id), why, status, ready)
+
+    def causes(self) -> Iterator[Cause]:
+        """Yield what a person must know of, as the rows are now."""
+        drones = list(self.drones)
+        long = self._waits.look(self.missions, self.now) if self.lives else 0
+        yield from of_drones(drones, self.crashed(drones))
+        yield from of_missions(self.missions)
+        yield from of_results(self.feed.findings)
+        if self.lives:
+            yield from of_batteries(drones, self._waits.any)
+            cause = of_waiting(long, drones, self._waiting.takes) if long else None
+            if cause is not None:
+                yield cause
+
+    def crashed(self, drones: Sequence[DroneRow]) -> Collection[str]:
+        """Return the lost drones of which the gateway knows that they fell."""
+        lost = [row["id"] for row in drones if row["status"] == "LOST"]
+        return self._idle.crashed() if lost else ()
+
+
+def _ignore(_: object) -> None:
+    """Do nothing: no callback is set."""

@@ -8,8 +8,10 @@ import time
 from collections import OrderedDict
 from collections.abc import Mapping
 from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from ..files.fleet import with_joined
 from ..flight.commands import perform
 from ..flight.config import End
 from ..flight.lives import FlightSetup, reopen
@@ -25,9 +27,12 @@ from ..process.ipc import NoAnswer, NotRunning
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted
+from .attention.attention import FILE as ALERTS
+from .attention.attention import Attention
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
+from .flight_changes import FlightChanges
 from .history.past import PastFlights
 from .plan.promised import broken, promised
 from .preflight.start import StartForecasts
@@ -40,7 +45,9 @@ if TYPE_CHECKING:
 
     from ..app import App
     from ..flight.fly import Recovered
+    from ..flight.live_flight import LiveFlight
     from ..shared.domain.model import Mission
+    from ..shared.domain.trace import Event
     from .config import StationConfig
     from .plan.plan import MissionPlan
     from .preflight.start import PlannedStart
@@ -64,6 +71,9 @@ class Station:
 
     def __init__(self, app: App, config: StationConfig, plan: MissionPlan) -> None:
         self._app, self._config, self.plan = app, config, plan
+        self._changes = FlightChanges(app, plan, self._commandable)
+        self.fleet = config.fleet
+        """The fleet, with the drones that have joined it."""
         self.described = described(app, config, secrets.token_hex(8))
         self.session: FlightSession | None = None
         """The current or last flight."""
@@ -71,6 +81,8 @@ class Station:
         """Set when the station is to end and nothing flies any more."""
         self.map_revision = 0
         """The revision of what is drawn on the map, which nothing changes while a station runs."""
+        self.attention = Attention(config.own_folder / ALERTS, time.time)
+        """What people must know of."""
         self._leaving = False
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._updates = Updates(self)
@@ -111,18 +123,27 @@ class Station:
         self.session = FlightSession(
             taken.flight(self._config.speed), self._over, self._updates.hurry
         )
+        self.session.heard = self._follow
         self.session.read(taken.known)
         if taken.is_over:
             self.session.end = End.OVER
         taken.store.close()
         self._lock_what_flies()
 
+    async def edit(self, revision: int, missions: object) -> None:
+        """Replace the plan by a page's; of missions that fly, what has not flown is changed in flight.
+
+        Raises `Stale` if it was drawn on an old revision, and `BadInput` if that cannot be flown so.
+        """
+        await self._changes.edit(revision, missions)
+
     # Commands
 
-    async def command(self, name: str, id: str, given: Mapping[str, object]) -> str:
+    async def command(self, name: str, id: str, given: Mapping[str, object], by: str = "") -> str:
         """Carry out a command, once; return what was done, or raise `BadInput`.
 
-        It is idempotent: a command that is repeated with the same id gets the same answer.
+        It is idempotent: a command that is repeated with the same id gets the same answer. `by` is
+        the name of the person who gives it, if that is known.
         """
         arguments = checked(name, given)
         if id in self._answers:
@@ -130,14 +151,14 @@ class Station:
         known = self.session.known if self.session is not None else None
         if known is not None and id in known.commands:
             return "done already"
-        answer = asyncio.ensure_future(self._do(name, id, arguments))
+        answer = asyncio.ensure_future(self._do(name, id, arguments, by))
         self._answers[id] = answer
         answer.add_done_callback(_heard)
         while len(self._answers) > ANSWERS_KEPT and next(iter(self._answers.values())).done():
             self._answers.popitem(last=False)
         return await asyncio.shield(answer)  # it is completed even if the page disconnects
 
-    async def _do(self, name: str, id: str, given: Mapping[str, object]) -> str:
+    async def _do(self, name: str, id: str, given: Mapping[str, object], by: str) -> str:
         match name:
             case "stop":
                 return await self._stop(Down(str(given["how"])))
@@ -145,20 +166,24 @@ class Station:
                 return await self._cut_motors(str(given["drone"]))
             case "start":
                 async with self._one_at_a_time:
-                    return await self._start(id, given)
+                    return await self._start(id, given, by)
             case "resume":
                 async with self._one_at_a_time:
                     return self.resume()
             case "bring-back" if self.session is None or not self.session.lives:
                 async with self._one_at_a_time:
                     return self._bring_back(id, str(given["drone"]))
+            case "acknowledge":
+                return self.attention.acknowledge(str(given["alert"]), by)
             case "discard":
                 async with self._one_at_a_time:
                     return await self._discard()
+            case "change-trips":
+                return await self._changes.change_trips(id, given)
             case _:
                 return await self._of_the_flight(name, id, given)
 
-    async def _start(self, id: str, given: Mapping[str, object]) -> str:
+    async def _start(self, id: str, given: Mapping[str, object], by: str) -> str:
         await self.plan.examined()
         if self.session is None:
             self.begin()  # another process may have flown meanwhile
@@ -185,11 +210,11 @@ class Station:
             if phase is Phase.FLYING:
                 await self._add(id, missions)
             else:
-                await self._set_out(missions, text)
+                await self._set_out(missions, text, by)
         except BaseException:
             self._lock_what_flies()
             raise
-        impossible = await broken(held_to, self._app, self._config.fleet)
+        impossible = await broken(held_to, self._app, self.fleet)
         if self.session is not None:
             for said in impossible:
                 self.session.say(said)
@@ -215,7 +240,7 @@ class Station:
         self.history.read()
         self.history.check_free()
         lost = self.history.lost
-        if lost and len(lost) == len(self._config.fleet.drones):
+        if lost and len(lost) == len(self.history.fleet.drones):
             raise BadInput(
                 "every drone is lost: look after one, put it into its dock, and bring it back first"
             )
@@ -248,8 +273,36 @@ class Station:
             self.plan.settle(self.session.ends, self.session.done)
         else:
             self.plan.adopt(self.session.names)
+            known = self.session.known
+            for name, record in known.missions.items() if known is not None else ():
+                if record["replanned"]:
+                    self.plan.follow(name, record)
+        self._know_the_fleet()
 
-    async def _set_out(self, missions: list[Mission[Any]], text: str) -> None:
+    def _know_the_fleet(self) -> None:
+        """Draw for, and show, the drones that have joined, too."""
+        known = self.session.known if self.session is not None else None
+        fleet = self.history.fleet
+        if known is not None:
+            own = {one.id for one in self._config.fleet.drones}  # it may be in the file by now
+            joined = [one for one in known.joined if one["id"] not in own]
+            fleet = with_joined(self._app, self._config.fleet, joined)
+        if fleet.drones != self.fleet.drones:
+            self.fleet = fleet
+            self.plan.fly_with(fleet)
+            config = replace(self._config, fleet=fleet)
+            self.described = described(self._app, config, self.described["server"])
+
+    def _follow(self, event: Event) -> None:
+        """Let the plan agree with the flight, whoever has commanded what has happened."""
+        known = self.session.known if self.session is not None else None
+        if event["event"] == "drone.joined":
+            self._know_the_fleet()
+        elif event["event"] == "mission.replanned" and known is not None:
+            name = str(event["mission"])
+            self.plan.follow(name, known.missions[name])
+
+    async def _set_out(self, missions: list[Mission[Any]], text: str, by: str) -> None:
         config = self._config
         for index, mission in enumerate(missions):
             mission.index = index
@@ -263,6 +316,7 @@ class Station:
             seed=config.seed,
             faults=config.faults,
             inherited=self.history.facts,
+            by=by,
         )
         await asyncio.to_thread(self.history.hand_on_the_world, journal)
         store = Store.create(journal, begun)
@@ -280,6 +334,7 @@ class Station:
         known = Records()
         known.take(begun)
         self.session = FlightSession(flight, self._over, self._updates.hurry, known)
+        self.session.heard = self._follow
         self._begin(self.session, store, None)
 
     def resume(self) -> str:
@@ -370,19 +425,25 @@ class Station:
         return said
 
     async def _of_the_flight(self, name: str, id: str, given: Mapping[str, object]) -> str:
+        one, request = self._commandable(), {"command": name, **given}
+        await one.prepare(request)
+
+        def do(life: RecordedFlight) -> str:
+            said = perform(life.control, request)
+            life.control.remember(id, name)
+            return said
+
+        return await one.carry_out(do)
+
+    def _commandable(self) -> LiveFlight:
+        """Return the run that can be commanded; raise `BadInput` if there is none."""
         session = self.session
         if session is None or not session.lives:
             held = self.phase in (Phase.STOPPED, Phase.INTERRUPTED)
             raise BadInput("nothing flies now" + (": resume the flight first" if held else ""))
         if session.one is None or session.life is None:
             raise BadInput(_NOT_YET)
-
-        def do(life: RecordedFlight) -> str:
-            said = perform(life.control, {"command": name, **given})
-            life.control.remember(id, name)
-            return said
-
-        return await session.one.carry_out(do)
+        return session.one
 
     def leave(self) -> None:
         """End the station as soon as all drones have landed."""

@@ -17,6 +17,7 @@ from .history.recorder import Sample
 from .session import phase_of
 
 if TYPE_CHECKING:
+    from .attention.attention import Attention
     from .between_flights import FleetHistory
     from .plan.plan import MissionPlan
     from .session import FlightSession
@@ -28,6 +29,9 @@ LOOK_EVERY = 0.12
 
 LOOK_NO_SOONER = 0.08
 """The shortest sampling interval in seconds, however much changes."""
+
+LOOK_UNSEEN = 1.0
+"""The sampling interval in seconds while no page looks, so that alerts arise all the same."""
 
 ANSWER_WITHIN = 1.0
 """Seconds after which a page is answered even without changes."""
@@ -45,6 +49,7 @@ class StationState(Protocol):
     plan: MissionPlan
     history: FleetHistory
     map_revision: int
+    attention: Attention
 
 
 class Updates:
@@ -105,8 +110,10 @@ class Updates:
         Not within this call, so that errors of the display cannot affect the flight.
         """
         loop = asyncio.get_running_loop()
-        if self._timer is not None and loop.time() - self._ticked_at >= LOOK_NO_SOONER:
-            self._timer.cancel()
+        soonest = LOOK_NO_SOONER if self._timer is not None else LOOK_UNSEEN
+        if loop.time() - self._ticked_at >= soonest:
+            if self._timer is not None:
+                self._timer.cancel()
             self._timer = loop.call_soon(self._look)
 
     def _look(self) -> None:
@@ -132,6 +139,9 @@ class Updates:
         else:
             for row in self._station.history.rows():
                 changed |= self.drones.put(row["id"], row, version)
+        causes = session.causes() if session else self._station.history.causes([*self.drones])
+        flight = session.id if session is not None else ""
+        changed |= self._station.attention.look(flight, causes, version)
         if changed:
             self._version = version
         if changed and session is not None and session.recorder is not None:
@@ -139,8 +149,8 @@ class Updates:
                 Sample(
                     t=self._now,
                     state={**state, "time": self._now},
-                    missions=session.missions.rows(),
-                    drones=session.drones.rows(),
+                    missions=[*session.missions],
+                    drones=[*session.drones],
                 )
             )
 
@@ -169,7 +179,7 @@ class Updates:
             "drones": _listed((session or self).drones.since(seen)),
             "log": _listed(session.feed.log.since(log) if session else ()),
             "results": _listed(session.feed.results.since(results) if session else ()),
-            "alerts": "[]",
+            "alerts": _listed(self._station.attention.rows.since(seen)),
         }
         return "{" + ", ".join(f'"{name}": {text}' for name, text in parts.items()) + "}"
 

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 from ..shared.domain.app import moving
 from ..shared.domain.status import IN_THE_AIR, DroneStatus
 from ..shared.domain.text import percent
-from ..shared.fleet.reach import Reach, chain_of, miss_of
+from ..shared.fleet.reach import Reach, chain_of, docked, miss_of
 from ..shared.hooks.plain_data import trip_of
+from .charging import ready_in, to_fly
 
 if TYPE_CHECKING:
     from ..journal.fold import Record
@@ -25,7 +26,9 @@ LOOK_EVERY = 3.0
 MISSIONS_A_LOOK = 10
 """The most missions whose reasons are updated in one sample: there may be hundreds."""
 
-_FREE, _LOST = DroneStatus.FREE.value, DroneStatus.LOST.value
+_FREE, _LOST, _CHARGING = (
+    one.value for one in (DroneStatus.FREE, DroneStatus.LOST, DroneStatus.CHARGING)
+)
 _DOES = {
     "LOST": "lost",
     "BUSY": "flying",
@@ -47,15 +50,24 @@ class WaitReasons:
         """Where each stood when the sample began."""
         self._known: dict[tuple[str, str], tuple[float, str]] = {}
         """By mission and trip: when it was asked, and the reason."""
+        self._needs: dict[str, tuple[float, float]] = {}
+        """Of each drone that is too low: when it was asked, and the level for the nearest trip."""
+        self._entries = {one.id: one for one in fleet.drones}
         self._left = MISSIONS_A_LOOK
 
-    def look(self, brain: Brain) -> None:
-        """Begin a sample of all missions and drones."""
+    def look(self, brain: Brain, fleet: FleetData) -> None:
+        """Begin a sample of all missions and drones; drones may have joined the fleet."""
+        self._fleet = fleet
         now, self._left, self._drones = self._clock(), MISSIONS_A_LOOK, brain.drones()
         self._known = {
             which: (asked, said)
             for which, (asked, said) in self._known.items()
             if now - asked < 2 * LOOK_EVERY
+        }
+        self._needs = {
+            id: (asked, level)
+            for id, (asked, level) in self._needs.items()
+            if now - asked < 2 * LOOK_EVERY and self._drones[id].get("aside")
         }
 
     def why(self, mission: str, todo: Sequence[Record]) -> str:
@@ -76,6 +88,26 @@ class WaitReasons:
             return "its battery is too low for every trip that waits"
         return "its battery has little more than its reserve" if drone["low"] else ""
 
+    @property
+    def takes(self) -> float | None:
+        """The level below which all drones are that are too low; None: none is, or it is not known."""
+        return max((self._wanted(id) for id in self._needs), default=None)
+
+    def _wanted(self, id: str) -> float:
+        """Return to which level a drone is charged: for its share of what waits, as its queue does it."""
+        kind = self._kinds[self._entries[id].category]
+        _, least = self._needs.get(id, (0.0, to_fly(kind)))
+        share = -(-len(self._known) // len(self._entries))
+        return max(least, min(1.0, kind.reserve + share * (least - kind.reserve)))
+
+    def ready_in(self, id: str, drone: Mapping[str, Any], low: bool) -> float | None:
+        """Return the seconds until a drone is charged that is too `low`, or charging; None: it is, or never."""
+        if not low and drone["status"] != _CHARGING:
+            return None
+        one, (x, y, z) = self._entries[id], drone["at"]
+        kind, stands = self._kinds[one.category], drone["landed"] and docked((x, y, z), one.home)
+        return ready_in(kind, round(drone["battery"], 3), self._wanted(id), docked=stands)
+
     def _why_no_drone(self, chain: Sequence[Trip]) -> str:
         """Return what keeps each drone of the fleet from flying a chain of trips."""
         free = retired = 0
@@ -94,6 +126,8 @@ class WaitReasons:
                 x, y, z = drone["at"]
                 kind = self._kinds[one.category]
                 needs = self._reach.level(kind, one.home, (x, y, z), chain)
+                _, least = self._needs.get(one.id, (0.0, needs))
+                self._needs[one.id] = self._clock(), min(needs, least)
                 low.append((needs, drone["battery"]))
             else:
                 free += 1

@@ -193,7 +193,7 @@ class Quantity(TypedDict):
 
 
 class Alert(TypedDict):
-    """Something that somebody must know of, until it is over."""
+    """Something that a person must know of, until it is over."""
 
     id: str
     kind: AlertKind
@@ -206,7 +206,7 @@ class Alert(TypedDict):
     said: Words
     over: bool
     by: str | None
-    """Who has acknowledged it."""
+    """Who has acknowledged it: a name, or an empty text if none was said; null: it was not."""
     by_at: int | None
 
 
@@ -507,6 +507,8 @@ class MapData(TypedDict):
     """Degrees by which north is turned from up, clockwise."""
     image: Picture | None
     writable: bool
+    said: str
+    """Why nothing that is drawn can be kept; empty: it can."""
 
 
 class Picture(TypedDict):

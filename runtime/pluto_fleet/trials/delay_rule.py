@@ -38,6 +38,7 @@ class DelaysAreWaited:
             "trip.skipped": self._skip,
             "mission.extended": self._extend,
             "mission.changed": self._change,
+            "mission.replanned": self._change,
             "mission.repeated": self._repeat,
             "mission.paused": self._pause,
             "mission.resumed": self._resume,

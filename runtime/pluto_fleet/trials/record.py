@@ -164,7 +164,10 @@ def forgotten(
             yield f"{trip} of {name} had {_shown(facts)}, and went on with {_shown(found)}"
 
 
-_CHANGES = ("trip.reset", "trip.skipped", "mission.repeated", "mission.extended", "mission.changed")
+_CHANGES = (
+    *("trip.reset", "trip.skipped", "mission.repeated", "mission.extended", "mission.changed"),
+    "mission.replanned",
+)
 
 
 def _fields(of: Record) -> tuple[object, ...]:

@@ -140,6 +140,7 @@ class CompletedDidEverything:
             "mission.repeated": self._repeat,
             "mission.ended": self._end,
             "mission.changed": self._change,
+            "mission.replanned": self._change,
             "trip.completed": self._complete,
             "trip.skipped": self._skip,
         }
@@ -243,6 +244,7 @@ class AttemptsCountUp:
             "trip.interrupted": self._interrupt,
             "mission.repeated": self._repeat,
             "mission.changed": self._change,
+            "mission.replanned": self._change,
         }
 
     def _repeat(self, event: Event) -> None:

@@ -5,7 +5,7 @@ The only place where a drone's status changes, except at its allocation.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -35,11 +35,11 @@ class Fleet:
         kernel: Kernel,
         trace: Trace,
         orders: Orders,
-        drones: Sequence[Drone],
+        drones: list[Drone],
         queue: Queue,
         after_trip: AfterTrip,
     ) -> None:
-        self.drones, self.queue = tuple(drones), queue
+        self.drones, self.queue = drones, queue
         self._kernel, self._trace, self._orders = kernel, trace, orders
         self._after_trip, queue.stay_out = after_trip, after_trip is not AfterTrip.HOME
         self.errands: dict[Drone, Task[None]] = {}

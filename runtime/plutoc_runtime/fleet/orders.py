@@ -12,14 +12,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import Failure, FlightFailed
+from ..domain.errors import BadInput, Failure, FlightFailed
+from ..domain.model import Drone
 from ..hooks.plain_data import value_of
 from ..time.future import Future
 from .telemetry import KnownState
 
 if TYPE_CHECKING:
-    from ..domain.model import Point
-    from ..domain.motion import Motion
+    from ..domain.app import App
+    from ..domain.status import DroneStatus
     from ..domain.trace import Clock
 
 Order = dict[str, Any]
@@ -30,15 +31,30 @@ Answer = Callable[[object], object]
 class Orders:
     """The orders of one brain. A cancelled command leaves its drone hovering where it is."""
 
-    def __init__(self, clock: Clock, homes: Mapping[str, Point], motion: Motion) -> None:
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
         self.pending: list[Order] = []
         """The orders that have not been taken yet; the kernel looks into this very list while it runs."""
-        self.drones = {drone: KnownState(clock, home, motion) for drone, home in homes.items()}
+        self.drones: dict[str, KnownState] = {}
         """What was told of the drones, by their ids; always current."""
         self._answers: dict[int, Answer] = {}
         """What to call with the outcome of each order that is under way, by its id."""
         self._flying: dict[str, int] = {}  # the latest order to fly of each drone
         self._count = 0
+
+    def drone_of(self, app: App, data: Mapping[str, Any], status: DroneStatus, index: int) -> Drone:
+        """Return a drone of the fleet, of which nothing has been told yet."""
+        id, kinds = data["id"], {category.name: category for category in app.categories}
+        category = kinds.get(data.get("category", app.categories[0].name))
+        if category is None or id in self.drones:
+            why = "category " + data["category"] if category is None else f"second drone {id}"
+            raise BadInput(f"the fleet can have no {why}")
+        x, y, *z = data["home"]
+        home = x, y, z[0] if z else 0.0
+        self.drones[id] = known = KnownState(self._clock, home, app.categories[0].motion)
+        return Drone(
+            id=id, category=category, home=home, telemetry=known, status=status, index=index
+        )
 
     def take(self) -> list[Order]:
         """Return the orders that were given since the last call."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from math import inf
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
@@ -33,9 +33,10 @@ class Queue:
     """The waiting requests, and the free drones."""
 
     def __init__(
-        self, kernel: Kernel, reach: Reach, drones: Sequence[Drone], max_airborne: int | None
+        self, kernel: Kernel, reach: Reach, drones: list[Drone], max_airborne: int | None
     ) -> None:
-        self.kernel, self._reach, reach.homes = kernel, reach, [one.home for one in drones]
+        """`drones`: the fleet's very list, which grows as drones join."""
+        self.kernel, self._reach, reach.drones = kernel, reach, drones
         self.drones, self._max_airborne = drones, max_airborne
         self.requests: list[Request] = []  # sorted by rank, the last is served first
         self._fresh: list[Request] = []  # the requests that have not been looked at yet

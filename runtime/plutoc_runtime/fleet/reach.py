@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
-    from ..domain.model import Category, Item, Mission, Point, Trip
+    from ..domain.model import Category, Drone, Item, Mission, Point, Trip
 
 Stop = tuple["Point", float]  # a point to fly to, and the seconds that the drone is busy there
 Stops = Sequence[Stop]
@@ -220,7 +220,7 @@ class Reach:
 
     def __init__(self, app: App, airspace: Airspace) -> None:
         self.app, self.airspace = app, airspace
-        self.homes: Sequence[Point] = ()  # where the drones' docks are
+        self.drones: Sequence[Drone] = ()  # those whose docks count
         self.bounds = lru_cache(1_000)(self._bounds)  # plans repeat their targets
 
     def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
@@ -235,7 +235,9 @@ class Reach:
     def _open(self) -> bool:
         """Whether nothing is in the way from any dock on the ground to any place on the map."""
         space = self.airspace
-        ends = (0.0, 0.0, space.cruise_height), *((x, y, -z) for x, y, z in self.homes)
+        ends = (0.0, 0.0, space.cruise_height), *(
+            (x, y, -z) for x, y, z in (one.home for one in self.drones)
+        )
         return not (space.no_fly or any(map(space.problem, ends)))
 
     def _bounds(self, action: str, target: Point, straight: bool) -> Mapping[Category, Bounds]:

@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import BadInput
-from ..domain.status import Status
+from ..domain.status import DroneStatus, Status
+from ..hooks.plain_data import trip_of
 from ..time.kernel import mission_key
 
 if TYPE_CHECKING:
@@ -59,6 +60,17 @@ class Control:
         state.mission.trips.remove(trip)
         return f"trip {trip.name} is skipped"
 
+    def _change_trips(self, request: Request) -> str:
+        """Replace all that a mission has to do behind its first trip, which may be flying."""
+        state = self._state(request)
+        core, trips = self._core, state.mission.trips
+        if state.task is None or not trips:
+            raise BadInput(f"mission {request['mission']} has no trip before these in its graph")
+        trips[1:] = [trip_of(core.app, one, place) for place, one in enumerate(request["trips"], 1)]
+        for trip in trips[1:]:
+            trip.now = core.kernel.time
+        return f"mission {request['mission']} has {len(trips)} trips to do"
+
     def _prioritise(self, request: Request) -> str:
         _, trip = self._trip(request)
         if not any(field.name == PRIORITY for field in self._core.app.fields):
@@ -76,6 +88,14 @@ class Control:
         drone = self._drone(request)
         self._core.fleet.bring_back(drone)
         return f"{drone.id} is back"
+
+    def _join(self, request: Request) -> str:
+        core, data = self._core, {"id": request["drone"], **request}
+        offline = DroneStatus.OFFLINE  # until it is said how it is
+        drone = core.orders.drone_of(core.app, data, offline, len(core.fleet.drones))
+        core.fleet.drones.append(drone)
+        self._restorer.drones[drone.id] = drone
+        return f"{drone.id} has joined"
 
     # Whether an action was done
 
@@ -120,8 +140,10 @@ _COMMANDS: Mapping[str, Callable[[Control, Request], str]] = {
     "pause": Control._pause,
     "cancel": Control._cancel,
     "skip": Control._skip,
+    "change-trips": Control._change_trips,
     "prioritise": Control._prioritise,
     "retire": Control._retire,
     "bring-back": Control._bring_back,
+    "join": Control._join,
     "probe": Control._probe,
 }

@@ -95,7 +95,7 @@ class Restorer:
 
     def __init__(self, engine: Engine) -> None:
         self._core, self._engine, self._states = engine.core, engine, engine.states
-        self._drones = {drone.id: drone for drone in engine.core.fleet.drones}
+        self.drones = {drone.id: drone for drone in engine.core.fleet.drones}
         self._trips: dict[str, dict[str, Trip]] = {}
 
     def go_on(self, standing: Record, drones: Mapping[str, Record]) -> None:
@@ -111,15 +111,15 @@ class Restorer:
                 core.fleet.recover(had)  # it may have had the mission's item
         self._restore_results(standing.get("results", ()), standing.get("first_result", 0), records)
         for drone, flown in standing.get("flown", {}).items():
-            if drone in self._drones:
-                self._drones[drone].trips = flown
+            if drone in self.drones:
+                self.drones[drone].trips = flown
         engaged: set[Drone] = set()
         for name in by_index:
             if not records[name].get("ended"):
                 self._resume(self._states[name], records[name], engaged)
         for id, report in drones.items():
-            if id in self._drones and self._drones[id] not in engaged:
-                core.fleet.take_up(self._drones[id], report)
+            if id in self.drones and self.drones[id] not in engaged:
+                core.fleet.take_up(self.drones[id], report)
         self._engine.look_for_the_end()
 
     def restored(self, name: str, record: Record) -> MissionState:
@@ -145,7 +145,7 @@ class Restorer:
             place, over, begins = record["delay"]
             state.delay = cast("Delay", tuple(place)), over, begins
         if record.get("carrier") is not None:
-            state.carrier = self._drones[record["carrier"]]
+            state.carrier = self.drones[record["carrier"]]
             state.carries = item_of(record.get("carries"))
         self._restore_flight(state, record.get("flight"), trips)
         return state
@@ -163,7 +163,7 @@ class Restorer:
         outcome, heard = known.get("outcome"), known.get("heard")
         if outcome is None and heard:
             return
-        trip.drone = drone = self._drones[known["drone"]]
+        trip.drone = drone = self.drones[known["drone"]]
         action, retry = self._core.app.actions[trip.action], bool(known.get("retry"))
         state.flight = flight = Flight(state.mission, trip, drone, action, known["since"], retry)
         if outcome is not None:

@@ -150,3 +150,25 @@ def test_a_name_that_was_bent_to_this_machine_shows_nothing(
         answer = page.goto(f"{site}/")
         assert answer is not None and answer.status == 403
     assert station.phase == "flying"
+
+
+HOLDS = """async (token) => {
+  const line = () => new WebSocket(`ws://${location.host}/api/live`);
+  const open = (one) => new Promise((done) => { one.onopen = done; });
+  await Promise.all(Array.from({ length: 40 }, () => open(line())));
+  const polls = Array.from({ length: 40 }, () => fetch("/api/live").then((answer) => answer.status));
+  const asked = { flight: "", seen: 0, log: 0, results: 0, token };
+  const mine = line();
+  await open(mine);
+  const told = new Promise((done) => { mine.onmessage = () => done(1); mine.onclose = () => done(0); });
+  mine.send(JSON.stringify(asked));
+  return { told: await told, polls: [...new Set(await Promise.all(polls))] };
+}"""
+
+
+def test_a_tab_without_the_token_takes_no_place_of_one_with_it(serve: Serve, page: Page) -> None:
+    """It holds forty connections that say nothing, and asks for forty answers."""
+    station = serve("drugs_distribution", "--name", "ward.example")
+    page.goto(f"http://127.0.0.1:{station.port}/")
+    _, _, token = station.url.partition("#token=")
+    assert page.evaluate(HOLDS, token) == {"told": 1, "polls": [401]}

@@ -53,6 +53,10 @@ def row(station: Station, mission: str) -> dict[str, Any]:
     return next(row for row in station.now()["missions"] if row["name"] == mission)
 
 
+def alerts(station: Station, kind: str) -> list[dict[str, Any]]:
+    return [alert for alert in station.now()["alerts"] if alert["kind"] == kind]
+
+
 def flies(station: Station) -> None:
     until(lambda: len(events(station, "trip.launched")) > 0, "something flies")
 
@@ -143,8 +147,18 @@ def test_motors_are_cut_one_drone_at_a_time_and_the_others_finish(serve: Serve) 
     assert tell(station, "cut-motors", drone=who) == f"the motors of {who} are cut"
     until(lambda: any(e["drone"] == who for e in events(station, "drone.lost")), "it is lost")
     assert refused(station, "cut-motors", drone="cf9")[1].startswith('no drone "cf9" is in the')
+    until(lambda: alerts(station, "crashed") != [], "it is alerted of")
+    [alert] = alerts(station, "crashed")
+    assert (alert["drone"], alert["over"], alert["by_at"]) == (who, False, None)
+    assert tell(station, "acknowledge", alert=alert["id"]) == "acknowledged"
     assert tell(station, "bring-back", drone=who) == f"{who} is asked whether it is well"
     comes_to(station, "over")
+    station.kill()
+    station.start()
+    [after] = alerts(station, "crashed")
+    assert (
+        after["by_at"] is not None and {**after, "over": False, "by": None, "by_at": None} == alert
+    )
     reasons = [event["reason"] for event in events(station, "trip.failed")]
     assert any(reason.startswith(f"{who}'s motors were cut") for reason in reasons)
     assert tuple(station.statuses().values()).count("COMPLETED") > 0

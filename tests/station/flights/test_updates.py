@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import json
+from pathlib import Path
 from typing import Any
 
+from pluto_fleet.station.attention.attention import Attention
 from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.updates import Updates
 from tests.runtime.files.an_app import APP
@@ -30,6 +32,10 @@ class Nothing:
         """Return that there is nothing to see."""
         return ()
 
+    def causes(self, drones: object) -> tuple[()]:
+        """Return that there is nothing to know of."""
+        return ()
+
 
 class Shown:
     """A station with such a flight."""
@@ -40,6 +46,7 @@ class Shown:
         self.plan = MissionPlan(APP, FLEET, None)
         self.history: Any = Nothing()
         self.map_revision = 0
+        self.attention = Attention(Path("nowhere"), lambda: 0.0)
 
 
 def test_a_mistake_in_what_is_shown_leaves_no_one_waiting_nor_who_heard_of_the_drones() -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from pluto_fleet.shared.domain.model import Category, Item
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.telemetry import Charge
@@ -30,7 +32,7 @@ def far(name: str, **more: Any) -> apps.Mission:
 def looking(fleet: Living) -> WaitReasons:
     """Return the reasons at the beginning of a sample."""
     waiting = WaitReasons(fleet.app, fleet.fleet, lambda: 0.0)
-    waiting.look(fleet.life.brain)
+    waiting.look(fleet.life.brain, fleet.fleet)
     return waiting
 
 
@@ -50,6 +52,20 @@ def test_drones_that_are_free_but_too_low_are_not_what_a_mission_waits_for_witho
     assert [why.split(":")[0] for why in said(fleet)] == ["3 free, but too low"] * 2
     assert all(25 < int(percent) < 100 for percent in takes)
     assert all(why.endswith("the nearest has 25 %") for why in said(fleet))
+
+
+def test_when_a_drone_is_ready_that_is_too_low_is_when_its_queue_looks_at_it_again() -> None:
+    fleet = living(far("a"), far("b"), low=0.25)
+    waiting, brain = looking(fleet), fleet.life.brain
+    for name, one in fleet.life.records.missions.items():
+        waiting.why(name, one["todo"])
+    until = {one.id: at for one, (at, _) in brain._core.fleet.queue.low.items()}
+    assert len(until) == 3 and waiting.takes is not None and 0.25 < waiting.takes < 1
+    for id, drone in brain.drones().items():
+        ready = waiting.ready_in(id, drone, True)
+        assert ready == pytest.approx(until[id] - fleet.life.kernel.time(), abs=2.0)
+        assert waiting.ready_in(id, {**drone, "at": [9.0, 9.0, 0.0]}, True) is None
+        assert waiting.ready_in(id, drone, False) is None
 
 
 def test_drones_that_can_never_fly_it_are_counted_apart_with_the_reason() -> None:
@@ -98,6 +114,6 @@ def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
     fleet = living(*[far(f"m{n}") for n in range(3 * MISSIONS_A_LOOK)], low=0.25)
     waiting, missions, seen = looking(fleet), fleet.life.records.missions.items(), list[int]()
     for _ in range(4):
-        waiting.look(fleet.life.brain)
+        waiting.look(fleet.life.brain, fleet.fleet)
         seen.append(sum(bool(waiting.why(name, one["todo"])) for name, one in missions))
     assert seen == [MISSIONS_A_LOOK, 2 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK]

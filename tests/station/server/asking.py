@@ -124,7 +124,10 @@ class AStation:
     def described(self) -> AppData:
         return cast(AppData, {"name": "alfalfa"})
 
-    async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
+    async def edit(self, revision: int, missions: object, /) -> None:
+        self.plan.replace(revision, missions)
+
+    async def command(self, name: str, id: str, given: Mapping[str, object], by: str, /) -> str:
         if self.wrong is not None:
             raise self.wrong
         if self.busy is not None and name not in ("stop", "cut-motors"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequence
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +12,7 @@ from typing import Any
 
 from websockets.typing import Origin
 
+from pluto_fleet.station.web.addresses import ADDRESSES, Address
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
@@ -27,6 +28,7 @@ class Served:
 
     station: AStation
     port: int
+    token: str | None = None
 
     @property
     def host(self) -> str:
@@ -46,6 +48,7 @@ class Served:
             "X-Pluto": "1",
             "Content-Type": "application/json",
             "Connection": "close",
+            **({} if self.token is None else {"Authorization": f"Bearer {self.token}"}),
         }
 
     def request(
@@ -99,18 +102,35 @@ def status(answer: bytes) -> int:
 
 
 @asynccontextmanager
-async def served(file: Path | None = None, **guard: Any) -> AsyncIterator[Served]:
+async def served(
+    file: Path | None = None, *, addresses: Sequence[Address] = ADDRESSES, **guard: Any
+) -> AsyncIterator[Served]:
     """Serve a station on a port that is free."""
     station = AStation()
     with listening("127.0.0.1", 0) as listener:
         port = port_of(listener)
-        api = Api(station, Guard(host="127.0.0.1", port=port, **guard), Audit(file))
+        guarded = Guard(host="127.0.0.1", port=port, **guard)
+        api = Api(station, guarded, Audit(file), addresses=addresses)
         ready = asyncio.Event()
         serving = asyncio.create_task(serve(api, listener, ready.set))
         try:
             await ready.wait()
-            yield Served(station, port)
+            yield Served(station, port, guarded.token)
         finally:
             serving.cancel()
             with suppress(asyncio.CancelledError):
                 await serving
+
+
+Scene = Callable[[Served], Coroutine[object, object, None]]
+
+
+def play(scene: Scene, file: Path | None = None, **served_with: Any) -> None:
+    """Serve a station for a scene, at whose end a Stop is still taken."""
+
+    async def whole() -> None:
+        async with served(file, **served_with) as station:
+            await scene(station)
+            await station.stop()
+
+    asyncio.run(whole())

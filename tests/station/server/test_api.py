@@ -89,6 +89,26 @@ def test_without_the_token_nothing_changes_and_one_waits_to_be_told(
     assert len(ask.paused) == 2
 
 
+def test_who_has_the_token_for_watching_reads_everything_and_commands_nothing() -> None:
+    ask = asked(token="sesame", watch_token="poppy")
+    watch = without(authorization="Bearer poppy")
+    for address in ADDRESSES:
+        reply = ask(address.method, address.path, {"id": "1"}, watch)
+        if address.role == "watch":
+            assert reply.status == 200
+        else:
+            assert reply.status == 403 and "may watch and not command" in said(reply)
+    assert ask.station.untouched
+    roles = [
+        json.loads(ask("GET", "/api/app", b"", without(authorization=f"Bearer {token}")).body)[
+            "role"
+        ]
+        for token in ("poppy", "sesame")
+    ]
+    assert roles == ["watch", "fly"]
+    assert {one.role for one in ADDRESSES if one.method != "GET"} == {"fly"}
+
+
 async def test_many_who_guess_keep_no_owner_out() -> None:
     ask = asked(token="sesame")
     gate = asyncio.Event()

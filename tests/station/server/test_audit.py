@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pluto_fleet.station.web.audit import Audit
 
-from .asking import asked, request, without
+from .asking import OURS, asked, request, without
 
 
 def lines(file: Path) -> list[dict[str, object]]:
@@ -35,6 +35,16 @@ def test_what_was_done_and_what_was_refused_stands_there(tmp_path: Path) -> None
     assert (refused["origin"], refused["status"]) == ("http://evil.example", 403)
     assert (stale["do"], stale["status"]) == ("/api/plan", 409)
     assert (nowhere["refused"], nowhere["status"]) == ("GET /pages/../secret", 404)
+
+
+def test_who_gave_a_command_stands_there_by_their_own_account(tmp_path: Path) -> None:
+    file = tmp_path / "audit.log"
+    ask = asked(file=file)
+    for name in ("Z%C3%BCbeyde", "a%0A%1B[31m", "x" * 9_999, "%ff", ""):
+        ask("POST", "/api/pause", {"id": "one"}, {**OURS, "x-pluto-who": name})
+    assert [line.get("by") for line in lines(file)] == [
+        *("Zübeyde", "a\\n\\x1b[31m", f"{39 * 'x'}…", "\ufffd", None)
+    ]
 
 
 def test_its_owner_alone_reads_it_and_no_token_stands_there(tmp_path: Path) -> None:

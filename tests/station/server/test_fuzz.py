@@ -111,8 +111,8 @@ class WithAPlan:
     def described(self) -> AppData:
         return self.rest.described
 
-    async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
-        return await self.rest.command(name, id, given)
+    async def command(self, name: str, id: str, given: Mapping[str, object], by: str, /) -> str:
+        return await self.rest.command(name, id, given, by)
 
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
         return await self.rest.newer(flight, seen, log, results)
@@ -123,6 +123,9 @@ class WithAPlan:
     @property
     def past(self) -> ServedFlights:
         return self.rest.past
+
+    async def edit(self, revision: int, missions: object, /) -> None:
+        self.plan.replace(revision, missions)
 
     def console(self) -> str:
         return self.rest.console()

@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Sequence
+from dataclasses import replace
+from itertools import zip_longest
 from pathlib import Path
 
 import pytest
@@ -142,12 +144,14 @@ def test_a_mistake_of_ours_is_told_to_the_log_and_not_to_the_page(tmp_path: Path
     assert "ZeroDivisionError: secret" in (tmp_path / "audit.log").read_text()
 
 
-def all_at_once(ask: Asked, lines: Sequence[ALine]) -> None:
+def all_at_once(ask: Asked, lines: Sequence[ALine], clients: Sequence[str] = ()) -> None:
     """Let all of them connect, and end the station once nothing happens any more."""
+    live = request("GET", "/api/live")
 
     async def scene() -> None:
         talks = [
-            asyncio.create_task(ask.api.live(line, request("GET", "/api/live"))) for line in lines
+            asyncio.create_task(ask.api.live(line, replace(live, client=client or live.client)))
+            for line, client in zip_longest(lines, clients)
         ]
         for _ in range(10):
             await asyncio.sleep(0)
@@ -170,9 +174,47 @@ def test_strangers_who_say_nothing_take_no_clients_place() -> None:
     ask = asked(token="sesame")
     strangers = [ALine(stays=True) for _ in range(100)]
     all_at_once(ask, strangers)
-    assert [line.opened for line in strangers] == [True] * 32 + [False] * 68
+    assert {line.closed for line in strangers[:68]} == {live.TOO_MANY}
+    assert {line.closed for line in strangers[68:]} == {live.OVER}
     headers = without(authorization="Bearer sesame")
     assert ask("GET", "/api/live", b"", headers).status == 200
+
+
+def test_who_opens_one_connection_keeps_its_place_beside_who_opens_many() -> None:
+    ask, patient = asked(token="sesame"), ALine(stays=True)
+    all_at_once(ask, [patient, *(ALine(stays=True) for _ in range(100))], ["10.0.0.7"])
+    assert (patient.opened, patient.closed) == (True, live.OVER)
+
+
+def test_those_who_watch_take_no_place_of_those_who_command() -> None:
+    ask = asked(token="sesame", watch_token="poppy")
+    watching = [ALine({**SEEN, "token": "poppy"}, stays=True) for _ in range(40)]
+    flies = ALine({**SEEN, "token": "sesame"}, stays=True)
+    all_at_once(ask, [*watching, flies])
+    assert sum(len(line.heard) for line in watching) == 32
+    assert len(flies.heard) == 1
+
+
+ME = {"id": "abc", "name": "Ana", "page": "monitor", "touches": ""}
+
+
+def test_people_see_who_else_is_there() -> None:
+    """What they say of themselves is a text of bounded length, and told once."""
+    ask = asked(AStation(busy=lambda: asyncio.sleep(0)), token="sesame", watch_token="poppy")
+    long = {"id": "x", "name": "B\x1b" + 100 * "o", "page": "plan", "touches": "trip-key"}
+    ana = ALine({**SEEN, "token": "sesame", "me": ME}, SEEN, SEEN, stays=True)
+    ben = ALine({**SEEN, "token": "poppy", "me": long}, SEEN, stays=True)
+    all_at_once(ask, [ana, ben, ALine({**SEEN, "token": "poppy"}, stays=True)])
+    [[person]] = [one["people"] for one in map(json.loads, ana.heard) if one.get("people")]
+    assert person == {**long, "name": person["name"], "role": "watch"}
+    assert person["name"].startswith("B\\x1boo") and len(person["name"]) <= 41
+    first, second = map(json.loads, ben.heard)
+    assert first["people"] == [{**ME, "role": "fly"}] and "people" not in second
+
+
+@pytest.mark.parametrize("me", ["Ana", {**ME, "id": 1}, {"id": "abc"}])
+def test_who_says_nonsense_of_themselves_is_hung_up_on(me: object) -> None:
+    assert talk(asked(), ALine({**SEEN, "me": me})).closed == live.MALFORMED
 
 
 def test_a_page_that_hangs_up_makes_room() -> None:

@@ -45,15 +45,46 @@ def test_no_path_leads_out_of_the_table(path: str) -> None:
     assert b"root" not in reply.body
 
 
+KINDS = (".css", ".html", ".js", ".json", ".mjs", ".png", ".svg", ".webmanifest", ".woff2")
+
+
 def test_there_is_each_page_and_nothing_else() -> None:
     table = pages()
-    assert set(table) - {"/"} == {
-        f"/pages/{file.name}" for file in FOLDER.iterdir() if file.suffix in (".html", ".js")
-    } | {f"/pages/{file.name}" for file in FOLDER.iterdir() if file.suffix in (".css", ".svg")}
+    assert set(table) - {"/", "/manifest.webmanifest"} == {
+        f"/pages/{file.relative_to(FOLDER)}"
+        for file in FOLDER.rglob("*")
+        if file.suffix in KINDS and file.is_file()
+    }
     ask = asked()
     for path, held in table.items():
         assert ask("GET", path).body == held.plain
     assert ask("GET", "/").body == (FOLDER / "index.html").read_bytes()
+
+
+def test_what_lies_in_subfolders_is_served_and_the_manifest_at_the_top(tmp_path: Path) -> None:
+    for name in (
+        *("index.html", "manifest.webmanifest", "map/draw.mjs", "map/icons/a-1.png"),
+        *("wire.d.ts", "LICENSE.txt", ".hidden/a.js", "Map/a.js", "map/.a.js", "map/__init__.py"),
+    ):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(name)
+    table = pages(tmp_path)
+    assert {address: held.type.partition(";")[0] for address, held in table.items()} == {
+        "/": "text/html",
+        "/pages/index.html": "text/html",
+        "/manifest.webmanifest": "application/manifest+json",
+        "/pages/manifest.webmanifest": "application/manifest+json",
+        "/pages/map/draw.mjs": "text/javascript",
+        "/pages/map/icons/a-1.png": "image/png",
+    }
+
+
+def test_a_page_takes_nothing_from_elsewhere() -> None:
+    policy = dict(asked()("GET", "/").headers)["Content-Security-Policy"]
+    rules = dict(rule.strip().split(" ", 1) for rule in policy.split(";"))
+    assert rules.pop("img-src") == "'self' data: blob:"
+    assert {source for rule in rules.values() for source in rule.split()} == {"'none'", "'self'"}
+    assert rules["manifest-src"] == "'self'"
 
 
 def test_a_browser_that_has_a_page_is_not_sent_it_again() -> None:

@@ -32,9 +32,11 @@ class Space:
         is_real: bool,
         most: int,
     ) -> None:
-        """`limit` is how near two may come to each other, `most` how many may be in the air."""
+        """`limit` is how near two may come to each other."""
         self._kernel, self._drones, self._telemetry = kernel, drones, telemetry
-        self._apart, self._limit, self._is_real, self._most = apart, limit, is_real, most
+        self._apart, self._limit, self._is_real = apart, limit, is_real
+        self.most = most
+        """How many may be in the air."""
         self.claims: dict[str, Reservation] = {}
         """By their drones."""
         self._silent: dict[str, float] = {}
@@ -58,12 +60,12 @@ class Space:
     def has_room(self, section: Section) -> bool:
         """Return whether a drone may take off, by the limit of drones in the air."""
         claims = self.claims
-        if not section.stands or len(claims) < self._most:
+        if not section.stands or len(claims) < self.most:
             return True
         for claim in [*claims.values()]:  # some may have come down by themselves
             if not claim.moves and self.is_over(claim):
                 self.drop(claim.drone)
-        return len(claims) < self._most
+        return len(claims) < self.most
 
     def is_over(self, claim: Reservation) -> bool:
         """Whether a drone that should hover, or has failed, is not in the air any more."""

@@ -66,6 +66,7 @@ class Traffic:
         self.level = self.step + (SWAY if self.is_real else 0.0)
         """The height between two ways of which one leads over the other."""
         self._overshoot = OVERSHOOT if self.is_real else 0.0
+        self._max_airborne = max_airborne
         most = len(drones) if max_airborne is None else max_airborne
         self.is_limited = most < len(drones)
         """Whether the number of drones in the air is limited."""
@@ -88,6 +89,13 @@ class Traffic:
         self._timer: Timer | None = None
         self.ground = Ground(self._drones, self._telemetry, airspace, self.step)
         self.look_around()
+
+    def join(self, drone: FleetDrone) -> None:
+        """Keep a drone that has joined apart, too; its dock is taken from now on."""
+        self._drones[drone.id] = drone  # the space and the ground have the same mapping
+        if self._max_airborne is None:
+            self._space.most = len(self._drones)
+        self.is_limited = self._space.most < len(self._drones)
 
     def look_around(self) -> None:
         """Reserve space for drones that are in the air without a section."""

@@ -1,5 +1,12 @@
 // Made from pluto_fleet/station/wire.py by `python -m tests.station.schema`: change that.
 
+/** Say that a person knows of an alert. */
+export interface Acknowledge {
+  id: string;
+  /** Its id. */
+  alert: string;
+}
+
 /** An action that a drone of the fleet can do. */
 export interface ActionData {
   name: string;
@@ -8,7 +15,7 @@ export interface ActionData {
   parameters: ParameterData[];
 }
 
-/** Something that somebody must know of, until it is over. */
+/** Something that a person must know of, until it is over. */
 export interface Alert {
   id: string;
   kind: "lost" | "crashed" | "battery" | "uncertain" | "finding" | "late" | "waiting" | "failed";
@@ -20,7 +27,7 @@ export interface Alert {
   since_at: number;
   said: Words;
   over: boolean;
-  /** Who has acknowledged it. */
+  /** Who has acknowledged it: a name, or an empty text if none was said; null: it was not. */
   by: string | null;
   by_at: number | null;
 }
@@ -88,6 +95,16 @@ export interface CategoryData {
   flight_time: number;
   /** The actions that it can do; null: all. */
   actions: string[] | null;
+}
+
+/** Change what has not flown of a mission that is under way. */
+export interface ChangeTrips {
+  id: string;
+  mission: string;
+  /** All that is to be flown from now on, but for the trip that flies now. */
+  trips: PlanTrip[];
+  /** The names of the trips that were seen to wait: others are refused; null: any. */
+  replaces?: string[] | null;
 }
 
 /** Switch a drone's motors off at once: if it flies, it falls. */
@@ -287,6 +304,18 @@ export interface ItemData {
   mass?: string | number | number | boolean;
 }
 
+/** Let a drone join the flight that is under way, as an entry of a fleet file says it. */
+export interface Join {
+  id: string;
+  /** Its id. */
+  drone: string;
+  category?: string | null;
+  home?: number[] | null;
+  uri?: string | null;
+  navigation?: string | null;
+  options?: Record<string, string | number | number | boolean> | null;
+}
+
 /** A layer of the map: what of the results it shows, and how. The id of a layer of `measure` without a quantity stands for a layer for each quantity that is measured and has none of its own. */
 export interface Layer {
   id: string;
@@ -347,6 +376,8 @@ export interface MapData {
   north: number;
   image: Picture | null;
   writable: boolean;
+  /** Why nothing that is drawn can be kept; empty: it can. */
+  said: string;
 }
 
 /** What of the map does not change while the station runs. */
@@ -365,6 +396,13 @@ export interface Me {
   name: string;
   page: string;
   touches: string;
+}
+
+/** Let something go wrong with a simulated drone, to rehearse it. */
+export interface Mishap {
+  id: string;
+  drone: string;
+  kind: "lost" | "crash" | "battery" | "uncertain";
 }
 
 /** What is expected of a mission. */

@@ -15,15 +15,19 @@ from ...shared.domain.text import counted, printable, quoted
 from ...shared.domain.values import shown
 from . import kept as on_disk
 from .example import example_missions
+from .in_flight import differs, followed
 from .missing import only_missing
-from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, read
+from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, bare, read
 from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
 from .text import NAME, shapes_of, text_of
 
 if TYPE_CHECKING:
     from ...app import App
     from ...files.fleet import FleetFile
+    from ...journal.fold import Record
     from ...shared.domain.model import Mission
+
+_NOTHING: Mapping[str, Sequence[Shape]] = {}
 
 MOST_SHOWN = 1_000
 """The most problems that pages get."""
@@ -37,7 +41,7 @@ class Stale(PlutoError):
 
 
 class MissionPlan:
-    """The drawn missions; launched ones cannot be changed while anything flies.
+    """The drawn missions; of launched ones only what has not flown can be changed while they fly.
 
     Every change creates a new revision, and names the one that it was made on.
     """
@@ -86,25 +90,65 @@ class MissionPlan:
         given = missions_from(missions, self._app)
         drawn = self._with_launched(given)
         if drawn != self._missions or self._overrules(given):
-            self._check_current(revision)
+            self.check_current(revision)
         if drawn != self._missions:  # an identical plan is no conflict
             self._change(drawn)
+
+    # Changes of what flies
+
+    def drawn_in_flight(self, missions: object) -> dict[str, Sequence[Shape]]:
+        """Return the trips of a page's missions that fly and were drawn otherwise, by their names."""
+        given = {str(one["key"]): one for one in missions_from(missions, self._app)}
+        return {
+            name: trips_of(given[str(fixed["key"])])
+            for name, fixed in self._flying.items()
+            if fixed["key"] in given and differs(fixed, given[str(fixed["key"])])
+        }
+
+    def launched_mission(self, name: str) -> Shape | None:
+        """Return a mission that flies; None: the plan does not have it."""
+        return self._flying.get(name)
+
+    def merged(self, missions: object, trips: Mapping[str, Sequence[Shape]]) -> list[Shape]:
+        """Return the plan of a page with these trips of missions that fly, by name; None: the plan itself."""
+        given = self._missions if missions is None else missions_from(missions, self._app)
+        return self._with_launched(given, trips)
+
+    def take(self, missions: list[Shape]) -> None:
+        """Take what was merged for the plan."""
+        if missions != self._missions:
+            self._change(missions)
+
+    def follow(self, name: str, record: Record) -> None:
+        """Let a mission have the trips that it flies, if they were changed elsewhere."""
+        fixed = self._flying.get(name)
+        if fixed is not None:
+            trips = followed(self._app, self._fleet.airspace, fixed, record, self._keyed())
+            self.take(self.merged(None, {name: trips}))
+
+    def fly_with(self, fleet: FleetFile) -> None:
+        """Check missions against another fleet from now on: a drone has joined."""
+        self._fleet, self._flyability = fleet, FlyabilityCache(self._app, fleet)
+
+    @property
+    def _flying(self) -> dict[str, Shape]:
+        return {str(one["name"]): one for one in self._missions if one["launched"]}
 
     def import_toml(
         self, text: str, revision: object, file: str = NAME, folder: Path | None = None
     ) -> None:
         """Replace the missions that were not launched by those of a file; `folder`: where it lies."""
-        self._check_current(revision)
+        self.check_current(revision)
         self._take(shapes_of(text, self._app, self._fleet.airspace, file, folder), revision)
 
     async def import_file(self, text: str, revision: object, file: str = NAME) -> None:
         """Do the same in a thread, as reading a large file takes seconds."""
-        self._check_current(revision)
+        self.check_current(revision)
         given = await to_thread(shapes_of, text, self._app, self._fleet.airspace, file)
         self._take(given, revision)
 
     def _take(self, read: Sequence[Shape], revision: object) -> None:
-        self._check_current(revision)
+        self.check_current(revision)
         given = self._shaped(read)
         # a plan that was exported during the flight has those missions, too
         flying = [as_in_a_file(one) for one in self._missions if one["launched"]]
@@ -113,7 +157,7 @@ class MissionPlan:
 
     def example(self, revision: object) -> None:
         """Add example missions that this app and fleet can fly."""
-        self._check_current(revision)
+        self.check_current(revision)
         names = [str(mission["name"]) for mission in self._missions]
         added = example_missions(self._app, self._fleet, names)
         self._change([*self._missions, *self._shaped(added)])
@@ -243,7 +287,8 @@ class MissionPlan:
         if marked != self._missions:
             self._change(marked)
 
-    def _check_current(self, revision: object) -> None:
+    def check_current(self, revision: object) -> None:
+        """Raise `Stale` if a change was made on an old revision."""
         if isinstance(revision, bool) or not isinstance(revision, int):
             raise BadInput(f"the plan's revision {shown(revision)} is not a whole number")
         if revision != self.revision:
@@ -253,12 +298,18 @@ class MissionPlan:
 
     def _overrules(self, given: Sequence[Shape]) -> bool:
         """Return whether an edit changes a mission that has been launched meanwhile."""
-        fixed = {one["key"]: as_in_a_file(one) for one in self._missions if one["launched"]}
-        return any(one["key"] in fixed and as_in_a_file(one) != fixed[one["key"]] for one in given)
-
-    def _with_launched(self, drawn: Sequence[Shape]) -> list[Shape]:
-        """Restore launched missions in an edit; missing ones come first."""
         fixed = {one["key"]: one for one in self._missions if one["launched"]}
+        both = [(fixed[one["key"]], one) for one in given if one["key"] in fixed]
+        return any(differs(old, new) or bare(old) != bare(new) for old, new in both)
+
+    def _with_launched(
+        self, drawn: Sequence[Shape], trips: Mapping[str, Sequence[Shape]] = _NOTHING
+    ) -> list[Shape]:
+        """Restore launched missions in an edit, with these trips by name; missing ones come first."""
+        fixed = {
+            one["key"]: {**one, "trips": [*trips.get(name, trips_of(one))]}
+            for name, one in self._flying.items()
+        }
         known = {one["key"]: one for one in self._missions}
         merged = [
             fixed.pop(mission["key"], _as_it_ended(mission, known.get(mission["key"])))
@@ -270,6 +321,12 @@ class MissionPlan:
 
     def _shaped(self, missions: Sequence[Shape]) -> list[Shape]:
         """Add keys to missions and trips that do not come from a page."""
+        keyed = self._keyed()
+        shapes = [{**keyed(one), "trips": [*map(keyed, trips_of(one))]} for one in missions]
+        return missions_from(shapes, self._app)
+
+    def _keyed(self) -> Callable[[Shape], Shape]:
+        """Return what gives shapes keys that no other has."""
         taken = {one["key"] for mission in self._missions for one in (mission, *trips_of(mission))}
         count = 0
 
@@ -280,8 +337,7 @@ class MissionPlan:
                 key, count = f"{self.revision:x}-{count:06x}", count + 1
             return {**shape, "key": key}
 
-        shapes = [{**keyed(one), "trips": [*map(keyed, trips_of(one))]} for one in missions]
-        return missions_from(shapes, self._app)
+        return keyed
 
     def _change(self, missions: list[Shape]) -> None:
         self._missions = missions

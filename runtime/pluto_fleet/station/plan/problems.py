@@ -132,11 +132,11 @@ def as_json(problem: PlanProblem) -> Shape:
 
 def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
     """Return a mission as in a missions file, without keys and empty values."""
-    trips = [_bare(trip) for trip in trips_of(mission)]
-    bare = _bare(mission)
-    if (opens := bare.pop("opens", None)) is not None:
-        bare["window"] = [opens, bare.pop("deadline", "")]
-    return {**bare, "trip": trips}
+    trips = [bare(trip) for trip in trips_of(mission)]
+    table = bare(mission)
+    if (opens := table.pop("opens", None)) is not None:
+        table["window"] = [opens, table.pop("deadline", "")]
+    return {**table, "trip": trips}
 
 
 def _of_a_moment(missions: Sequence[Shape], problem: Problem) -> Problem:
@@ -175,7 +175,8 @@ def _of_its_height(
     return problem
 
 
-def _bare(given: Mapping[str, object]) -> dict[str, object]:
+def bare(given: Mapping[str, object]) -> dict[str, object]:
+    """Return a trip, or a mission but for its trips, as in a missions file."""
     ours = ("key", "launched", "ended", "done", "trips")
     return {
         key: value

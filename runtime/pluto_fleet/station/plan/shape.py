@@ -52,6 +52,14 @@ def missions_from(given: object, app: App) -> list[Shape]:
     return missions
 
 
+def trips_from(given: object, app: App) -> list[Shape]:
+    """Return a mission's trips in a normal form; raise `BadInput` if they do not fit the schema."""
+    elements = _list(given, "trips")
+    if len(elements) > MOST_TRIPS:
+        raise _too_many("trips", MOST_TRIPS)
+    return [_trip(one, f"trip {i}", app) for i, one in enumerate(elements, 1)]
+
+
 def check_together(missions: Sequence[Shape]) -> None:
     """Raise `BadInput` if there are too many, or two have the same key."""
     if len(missions) > MOST_MISSIONS:

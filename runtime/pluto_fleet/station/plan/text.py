@@ -7,7 +7,7 @@ from datetime import time
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import missions_of
-from ...files.missions_text import mission_table
+from ...files.missions_text import mission_table, trip_table
 from ...files.promises import KEYS
 from ...files.reading import parsed
 from ...files.toml import toml_value
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from ...app import App
     from ...shared.domain.airspace import Airspace
+    from ...shared.domain.model import Trip
 
 NAME = "missions.toml"
 """The name of a file in messages, if its sender gives none."""
@@ -48,6 +49,11 @@ def shapes_of(
         for mission, given in zip(missions, document.given, strict=True)
     ]
     return [_shape(mission, str(i), app) for i, mission in enumerate(tables, 1)]
+
+
+def trip_shape(app: App, trip: Trip) -> Shape:
+    """Return a trip as pages have it, without a key."""
+    return _trip(_unusual(trip_table(app, trip), app, Entity.TRIP), app)
 
 
 def _sparse(table: dict[str, Any], app: App) -> dict[str, Any]:

@@ -140,7 +140,7 @@ class Rehearsal:
         stand: Mapping[str, Any],
         passed: float,
     ) -> list[MissionRow]:
-        self._reasons.look(brain)
+        self._reasons.look(brain, self._question.flown)
         records = {
             name: {**_ASIDE, "promises": {}, "late": False, **record}
             for name, record in brain.standing()["missions"].items()

@@ -8,6 +8,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import replace
 
 from ..commands import Malformed
+from ..wire import Role
 from . import refusals
 from .addresses import ADDRESSES, JSON, SMALL_BODY, Address
 from .audit import Audit
@@ -97,13 +98,15 @@ class Api:
         if request.path == "/map" and self._picture is not None:
             return file_reply(self._picture, request)
         address = self._route(request)
-        if address.role == "fly" and role_of(self.guard, request) != "fly":
+        role = role_of(self.guard, request)
+        assert role is not None  # else it was refused
+        if address.role == "fly" and role != "fly":
             raise Refused(refusals.WATCHES)
         if address.do is None:
-            return await self._live.poll(request)
+            return await self._live.poll(request, role)
         if address.always:
-            return await self._done(address, request)
-        return await self._within_limits(address, request)
+            return await self._done(address, request, role)
+        return await self._within_limits(address, request, role)
 
     def _route(self, request: Request) -> Address:
         """Return the address that is asked; raise `Refused` if there is none."""
@@ -114,9 +117,9 @@ class Api:
             raise Refused(refusals.wrong_method(", ".join(methods)))
         return methods[request.method]
 
-    async def _within_limits(self, address: Address, request: Request) -> Reply:
+    async def _within_limits(self, address: Address, request: Request, role: Role) -> Reply:
         """Handle a request within the limits."""
-        if not self._rate(request).allows(request.client):
+        if not self._rate(request).allows(f"{role} {request.client}"):
             raise Refused(refusals.TOO_MANY)
         is_large = address.most_bytes > SMALL_BODY
         if self._under_way >= _MOST_UNDER_WAY or (is_large and self._large >= _MOST_LARGE):
@@ -124,12 +127,12 @@ class Api:
         self._under_way += 1
         self._large += is_large
         try:
-            return await self._done(address, request)
+            return await self._done(address, request, role)
         finally:
             self._under_way -= 1
             self._large -= is_large
 
-    async def _done(self, address: Address, request: Request) -> Reply:
+    async def _done(self, address: Address, request: Request, role: Role) -> Reply:
         """Read a request's body, and hand it to its handler."""
         assert address.do is not None
         body, given = b"", dict[str, object]()
@@ -140,8 +143,6 @@ class Api:
             body = await request.read(address.most_bytes)
             if sent == JSON:
                 given = parsed_object(body)
-        role = role_of(self.guard, request)
-        assert role is not None  # else it was refused
         return await address.do(
             Asked(
                 station=self._station,

@@ -41,7 +41,8 @@ class Audit:
 
     def done(self, request: Request, given: Mapping[str, object], status: int, said: str) -> None:
         """Log a command and its answer."""
-        entry = {"client": request.client, "do": request.path, "given": short(given)}
+        by = {"by": request.who} if request.who else {}
+        entry = {"client": request.client, **by, "do": request.path, "given": short(given)}
         self._write({**entry, "status": status, "said": said})
 
     def refused(self, request: Request, status: int, said: str) -> None:

@@ -25,7 +25,7 @@ async def command(asked: Asked) -> Reply:
         raise Malformed(f"a command needs an id: a text of at most {_LONGEST_ID} characters")
     name = asked.request.path.removeprefix("/api/")
     try:
-        status, told = 200, await asked.station.command(name, id, given)
+        status, told = 200, await asked.station.command(name, id, given, asked.request.who)
     except Malformed:
         raise
     except BadInput as error:
@@ -39,7 +39,7 @@ async def replace_plan(asked: Asked) -> Reply:
     given = dict(asked.given)
     revision, missions = _whole(given, "revision"), given.pop("missions", None)
     _nothing_else(given)
-    return await _edited(asked, _at_once(lambda: asked.station.plan.replace(revision, missions)))
+    return await _edited(asked, asked.station.edit(revision, missions))
 
 
 async def import_plan(asked: Asked) -> Reply:

@@ -105,6 +105,8 @@ def refusal(guard: Guard, request: Request, access: Access) -> Refusal | None:
     On a WebSocket the token is not checked here, as it comes with the first message.
     """
     headers = request.headers
+    if "content-length" in headers and "transfer-encoding" in headers:
+        return refusals.TWO_LENGTHS
     host = headers.get("host", "").lower()
     if not _is_ours(guard, host, request.local):
         return refusals.UNKNOWN_HOST
@@ -123,7 +125,7 @@ def refusal(guard: Guard, request: Request, access: Access) -> Refusal | None:
 
 def role_of(guard: Guard, request: Request) -> Role | None:
     """Return what the token of a request allows; None: nothing."""
-    return role_by(guard, _bearer(request.headers))
+    return role_by(guard, bearer(request.headers.get("authorization", "")))
 
 
 def role_by(guard: Guard, token: str) -> Role | None:
@@ -136,8 +138,9 @@ def role_by(guard: Guard, token: str) -> Role | None:
     return None
 
 
-def _bearer(headers: Mapping[str, str]) -> str:
-    kind, _, token = headers.get("authorization", "").partition(" ")
+def bearer(authorization: str) -> str:
+    """Return the token in a header, or an empty text."""
+    kind, _, token = authorization.partition(" ")
     return token.strip() if kind.lower() == "bearer" else ""
 
 
@@ -190,7 +193,7 @@ def _address(text: str) -> IPv4Address | IPv6Address | None:
 
 _PAGE = (
     "default-src 'none'; script-src 'self' {hashes}; style-src 'self'; img-src 'self' data: blob:;"
-    " connect-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none';"
+    " connect-src 'self'; manifest-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none';"
     " frame-ancestors 'none'"
 )
 _INLINE_SCRIPT = re.compile(rb"<script type=\"importmap\">(.*?)</script>", re.DOTALL)

@@ -12,6 +12,9 @@ from dataclasses import dataclass, field
 from math import isfinite
 from pathlib import Path
 from typing import Protocol
+from urllib.parse import unquote
+
+from ...shared.domain.text import cut_off, printable
 
 Read = Callable[[int], Awaitable[bytes]]
 """Reads a body to its end; raises `Refused` if it has more than so many bytes."""
@@ -41,6 +44,12 @@ class Request:
     client: str = ""  # the address of the connection; headers of proxies are ignored
     local: str = ""  # the address that it connected to
 
+    @property
+    def who(self) -> str:
+        """The name that a person has given themselves, sanitized; it is never trusted."""
+        name = unquote(self.headers.get(WHO, "")[:_LONGEST_HEADER], errors="replace")
+        return cut_off(printable(name.strip()), LONGEST_WHO)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reply:
@@ -53,6 +62,11 @@ class Reply:
     file: Path | None = None
     """A file to send instead of a body, and to delete then."""
 
+
+WHO = "x-pluto-who"
+"""The header with the name of a person, percent-encoded."""
+LONGEST_WHO = 40
+_LONGEST_HEADER = 1_000
 
 MISTAKES: tuple[type[Exception], ...] = (Exception,)
 """The exceptions that are caught for bugs of the station: only one request fails."""

@@ -44,9 +44,9 @@ def port_of(listener: socket.socket) -> int:
     return int(listener.getsockname()[1])
 
 
-def address(guard: Guard) -> str:
-    """Return the address to open, with the token if there is one."""
-    secret = f"#token={guard.token}" if guard.token is not None else ""
+def address(guard: Guard, token: str | None) -> str:
+    """Return the address to open, with a token if there is one."""
+    secret = f"#token={token}" if token is not None else ""
     return f"http://{_name(guard)}/{secret}"
 
 

@@ -6,15 +6,20 @@ So a page that stops reading costs nothing, and gets the newest state when it co
 from __future__ import annotations
 
 import asyncio
+import json
+from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Protocol
 
 from ..commands import Malformed
+from ..wire import Me, Role
 from . import refusals
 from .audit import Audit
 from .guard import Access, Guard, Rate, refusal, role_by
 from .http import MISTAKES, Closed, PageSocket, Reply, Request
+from .people import People, me_of
+from .places import Displaced, WaitingPlaces
 from .refusals import Refused
 from .strict_json import asked_number, parsed_object
 
@@ -22,7 +27,7 @@ LIVE = "/api/live"
 """The address for WebSockets."""
 
 _MOST_PAGES = 32
-"""The most connected pages."""
+"""The most connected pages of those who may command, and as many of those who watch."""
 _MOST_WAITING = 32
 """The most connections that have not sent anything yet."""
 _MESSAGES_A_SECOND = 20.0
@@ -49,21 +54,23 @@ class LiveUpdates:
         self, station: UpdateSource, guard: Guard, audit: Audit, clock: Callable[[], float]
     ) -> None:
         self._station, self._guard, self._audit, self._clock = station, guard, audit, clock
-        self._on = self._waiting = 0
+        self._on: Counter[Role] = Counter()
+        self._places = WaitingPlaces(_MOST_WAITING)
+        self._people = People()
         self._talks: set[asyncio.Task[None]] = set()
         self._over = False
 
-    async def poll(self, request: Request) -> Reply:
+    async def poll(self, request: Request, role: Role) -> Reply:
         """Answer a page that polls, without a WebSocket."""
         query = request.query
         counts = [asked_number(query, name) for name in ("seen", "log", "results")]
-        if self._on >= _MOST_PAGES:
+        if self._on[role] >= _MOST_PAGES:
             raise Refused(refusals.TOO_BUSY)
-        self._on += 1
+        self._on[role] += 1
         try:
             text = await self._station.newer(query.get("flight", ""), *counts)
         finally:
-            self._on -= 1
+            self._on[role] -= 1
         return Reply(status=200, body=text.encode("utf-8", "replace"))
 
     async def talk(self, page: PageSocket, request: Request) -> None:
@@ -72,7 +79,7 @@ class LiveUpdates:
         assert task is not None
         self._talks.add(task)
         try:
-            await self._admit(page, request)
+            await self._admit(page, request, task)
         except Closed:
             pass
         except asyncio.CancelledError:
@@ -91,47 +98,56 @@ class LiveUpdates:
         for task in self._talks:
             task.cancel()
 
-    async def _admit(self, page: PageSocket, request: Request) -> None:
+    async def _admit(self, page: PageSocket, request: Request, task: asyncio.Task[None]) -> None:
         """Accept a page after its first message, or close its connection with a reason."""
         why = refusal(self._guard, request, Access.LIVE)
         if why is None and request.path != LIVE:
             why = refusals.NO_SUCH_PAGE
-        if why is None and (self._over or self._waiting >= _MOST_WAITING):
+        if why is None and self._over:
             why = refusals.TOO_BUSY
         if why is not None:
             self._audit.refused(request, why.status, why.said)
             await page.refuse()
             return
         try:
-            await self._converse(page)
+            await self._converse(page, request, task)
         except _Improper as error:
             self._audit.refused(request, error.code - 4000, str(error))
             await _hang_up(page, error.code, str(error))
 
-    async def _converse(self, page: PageSocket) -> None:
-        self._waiting += 1
+    async def _converse(self, page: PageSocket, request: Request, task: asyncio.Task[None]) -> None:
         try:
-            await page.open()
-            first = await _heard(page, _FIRST_WITHIN)
-        finally:
-            self._waiting -= 1
+            with self._places.taken(task, request.client):
+                await page.open()
+                first = await _heard(page, _FIRST_WITHIN)
+        except Displaced:
+            raise _Improper(TOO_MANY, refusals.TOO_BUSY.said) from None
         token = first.get("token", "")
-        if not isinstance(token, str) or role_by(self._guard, token) is None:
+        role = role_by(self._guard, token) if isinstance(token, str) else None
+        if role is None:
             raise _Improper(NO_TOKEN, refusals.NO_TOKEN.said)
-        if self._on >= _MOST_PAGES:
+        if self._on[role] >= _MOST_PAGES:
             raise _Improper(TOO_MANY, refusals.TOO_BUSY.said)
-        self._on += 1
+        self._on[role] += 1
         try:
-            await self._tell(page, first)
+            await self._tell(page, first, role)
         finally:
-            self._on -= 1
+            self._on[role] -= 1
+            self._people.leave(page)
 
-    async def _tell(self, page: PageSocket, asked: dict[str, object]) -> None:
-        rate = Rate(_MESSAGES_A_SECOND, self._clock)
+    async def _tell(self, page: PageSocket, asked: dict[str, object], role: Role) -> None:
+        rate, told = Rate(_MESSAGES_A_SECOND, self._clock), 0
         while True:
             if not rate.allows(""):
                 raise _Improper(TOO_MANY, refusals.TOO_MANY.said)
-            await page.send(await self._station.newer(*_seen(asked)))
+            seen, me = _seen(asked)
+            if me is not None:
+                self._people.enter(page, role, me)
+            text = await self._station.newer(*seen)
+            if told != self._people.version:
+                told = self._people.version
+                text = f'{text[:-1]}, "people": {json.dumps(self._people.others(page))}}}'
+            await page.send(text)
             asked = await _heard(page, _NEXT_WITHIN)
 
 
@@ -156,11 +172,14 @@ async def _heard(page: PageSocket, within: float) -> dict[str, object]:
         raise _Improper(MALFORMED, str(error)) from None
 
 
-def _seen(asked: dict[str, object]) -> tuple[str, int, int, int]:
-    """Return the version that a page has."""
+def _seen(asked: dict[str, object]) -> tuple[tuple[str, int, int, int], Me | None]:
+    """Return the version that a page has, and what it says of itself."""
     match asked:
         case {"flight": str(flight), "seen": int(seen), "log": int(log), "results": int(results)}:
-            return flight[:_LONGEST_FLIGHT], seen, log, results
+            try:
+                return (flight[:_LONGEST_FLIGHT], seen, log, results), me_of(asked.get("me"))
+            except Malformed as error:
+                raise _Improper(MALFORMED, str(error)) from None
         case _:
             raise _Improper(MALFORMED, "a message says flight, seen, log and results")
 

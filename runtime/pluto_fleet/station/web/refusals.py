@@ -56,6 +56,10 @@ WATCHES = Refusal(
 )
 """The token is that for watching."""
 NO_SUCH_PAGE = Refusal(404, "there is nothing at this address")
+TWO_LENGTHS = Refusal(
+    400, "a request says its length once: by Content-Length, or by Transfer-Encoding", HANG_UP
+)
+"""Two lengths, of which a proxy may believe the other one than we do."""
 TOO_SLOW = Refusal(408, "the rest of that took too long to come: nothing was changed", HANG_UP)
 CUT_OFF = Refusal(400, "the connection ended before the request did: nothing was changed", HANG_UP)
 TOO_MANY = Refusal(

@@ -97,8 +97,14 @@ class ServedStation(UpdateSource, Protocol):
     def described(self) -> AppData:
         """Return the constant data of app and fleet."""
 
-    async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
-        """Carry out a command, unless it was carried out with this id before; raise `BadInput` if it cannot."""
+    async def edit(self, revision: int, missions: object, /) -> None:
+        """Replace the plan by a page's; raise `Stale` or `BadInput` if that cannot be."""
+
+    async def command(self, name: str, id: str, given: Mapping[str, object], by: str, /) -> str:
+        """Carry out a command of a person, unless it was carried out with this id before.
+
+        `by` is the person's name, or empty. Raise `BadInput` if it cannot be done.
+        """
 
     async def forecast(self, asked: PlannedStart, /) -> Forecast:
         """Return what a Start would do; raise `BadInput` if there is no forecast to make."""

@@ -9,7 +9,8 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import aclosing, contextmanager, nullcontext, suppress
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl
 
 import uvicorn
@@ -21,6 +22,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 from . import refusals
+from .guard import Guard, bearer, role_by
 from .http import Closed, Reply, Request
 from .refusals import Refused
 
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     import socket
 
     from starlette.types import ASGIApp, Receive, Scope, Send
+    from uvicorn._types import HTTPScope
     from uvicorn.protocols.http.h11_impl import RequestResponseCycle
 
     from .api import Api
@@ -69,7 +72,7 @@ async def serve(api: Api, listener: socket.socket, ready: Callable[[], object]) 
             if reply.file is not None:
                 reply.file.unlink(missing_ok=True)
 
-    server = _server(application)
+    server = _server(application, api.guard)
     serving = asyncio.create_task(server.serve([listener]))
     try:
         while not server.started and not serving.done():
@@ -89,11 +92,11 @@ def _response(reply: Reply, headers: dict[str, str]) -> Response:
     return Response(reply.body, reply.status, headers)
 
 
-def _server(application: ASGIApp) -> uvicorn.Server:
+def _server(application: ASGIApp, guard: Guard) -> uvicorn.Server:
     """Return a server without handlers of signals, logs and proxies."""
     config = uvicorn.Config(
         application,
-        http=LimitedConnection,
+        http=partial(LimitedConnection, guard),  # type: ignore[arg-type]
         ws=WebSocketsSansIOProtocol,
         lifespan="off",
         workers=1,
@@ -113,7 +116,15 @@ def _server(application: ASGIApp) -> uvicorn.Server:
 
 
 class LimitedConnection(H11Protocol):
-    """An HTTP connection that is closed when idle for too long, or when others need its place."""
+    """An HTTP connection that is closed when idle for too long, or when others need its place.
+
+    A place is kept for those who have a token: where there are too many connections, those are closed
+    first that have shown none, even while they are answered.
+    """
+
+    def __init__(self, guard: Guard, *given: Any, **named: Any) -> None:
+        super().__init__(*given, **named)
+        self._guard = guard
 
     # uvicorn itself narrows the type of asyncio's argument
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
@@ -122,9 +133,9 @@ class LimitedConnection(H11Protocol):
         others = [each for each in self.connections if isinstance(each, LimitedConnection)]
         super().connection_made(transport)
         if len(others) >= _CONNECTIONS:
-            idle = min((each for each in others if each.is_idle), key=_began, default=None)
-            if idle is not None:
-                idle.let_go()
+            least = min(others, key=_claim)
+            if least.is_idle or not least.has_token:
+                least.let_go()
         self._look_later(None, True, 0)
 
     @property
@@ -132,6 +143,14 @@ class LimitedConnection(H11Protocol):
         """Whether no request is being handled."""
         cycle: RequestResponseCycle | None = self.cycle
         return cycle is None or cycle.response_complete
+
+    @property
+    def has_token(self) -> bool:
+        """Whether its latest request had a token, or none is needed."""
+        scope: HTTPScope | None = self.scope
+        headers = [] if scope is None else [*scope["headers"]]
+        token = next((value for name, value in headers if name == b"authorization"), b"")
+        return role_by(self._guard, bearer(token.decode("latin-1"))) is not None
 
     def let_go(self) -> None:
         """Close it at once."""
@@ -154,8 +173,9 @@ class LimitedConnection(H11Protocol):
             self._look_later(self.cycle, self.is_idle, looks)
 
 
-def _began(connection: LimitedConnection) -> float:
-    return connection._began
+def _claim(connection: LimitedConnection) -> tuple[bool, bool, float]:
+    """Return how good a connection's claim to its place is."""
+    return connection.has_token, not connection.is_idle, connection._began
 
 
 @contextmanager

@@ -9,9 +9,9 @@ import { freeName, newKey } from "./keys.js";
 /** @param {PlanMission[]} missions @param {string} key */
 const has = (missions, key) => missions.some((mission) => mission.key === key);
 
-/** Change one mission. @param {string} key @param {(mission: PlanMission) => PlanMission} change @returns {Change} */
+/** Change one mission; one that flies stays as it is. @param {string} key @param {(mission: PlanMission) => PlanMission} change @returns {Change} */
 export const inMission = (key, change) => (missions) =>
-  missions.map((mission) => (mission.key === key ? change(mission) : mission));
+  missions.map((mission) => (mission.key === key && !mission.launched ? change(mission) : mission));
 
 /**
  * A copy with a field set; `undefined` takes it away.

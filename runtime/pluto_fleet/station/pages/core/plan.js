@@ -25,9 +25,13 @@ const MOST_TOLD = 3; // collisions in one message
 /** @typedef {PlanProblem & { typed?: string }} ShownProblem */
 
 export class PlanStore {
-  /** @param {(text: string) => void} refused told what the station did not take, or what collided */
-  constructor(refused) {
+  /**
+   * @param {(text: string) => void} refused told what the station did not take, or what collided
+   * @param {(before: PlanMission[], after: PlanMission[], typing: boolean) => void} [edited] told what is drawn here
+   */
+  constructor(refused, edited = () => undefined) {
     this.refused = refused;
+    this.edited = edited;
     /** @type {Signal<PlanMission[]>} */
     this.missions = signal([]);
     /** @type {Signal<ShownProblem[]>} */
@@ -173,12 +177,18 @@ export class PlanStore {
 
   /** @param {Change} change @param {boolean} [typing] more of the same is likely to come at once */
   edit(change, typing = false) {
+    this.edited(this.missions.peek(), this.make(change, typing), typing);
+  }
+
+  /** Make a change that is no step of its own: one that undoes another. @param {Change} change @param {boolean} [typing] */
+  make(change, typing = false) {
     this.pending.push(change);
     batch(() => {
       this.missions.value = change(this.missions.peek());
       this.judge();
     });
     this.later(typing ? TYPING : 0);
+    return this.missions.peek();
   }
 
   /** @param {string} mission @param {string | null} trip @param {string} field @param {Draft | null} draft */

@@ -9,10 +9,14 @@ import { tell } from "./notices.js";
 import { PlanStore } from "./plan.js";
 import { prefs } from "./prefs.js";
 import { page } from "./route.js";
+import { Undo } from "./undo.js";
 import { World } from "./world.js";
 
 /** @import { AppShape } from "../app" */
 /** @import { Signal } from "@preact/signals" */
+
+const UNDO = "pluto-undo";
+const LONGEST_UNDO = 1_000_000; // letters: browsers keep few more
 
 /** The flight as it is now. */
 export const world = new World();
@@ -20,7 +24,10 @@ export const world = new World();
 export const app = signal(null);
 /** Why the station cannot be seen: its token is missing, or it refuses. */
 export const refusal = signal(/** @type {StationError | null} */ (null));
-export const plan = new PlanStore((text) => tell(text, { bad: true }));
+/** What was drawn on this page, to be taken back. */
+export const undo = new Undo();
+export const plan = new PlanStore(
+  (text) => tell(text, { bad: true }), (before, after, typing) => undo.record(before, after, typing));
 
 /**
  * What is selected, on all pages: a mission (by the key in the plan and its name in the flight) with
@@ -70,7 +77,8 @@ export const line = new LiveLine(world, {
   restarted: describeAgain,
   denied: () => { refusal.value = new StationError("", 401); },
   me: () => ({
-    id: browser, name: prefs.name.peek(), page: page.peek(), touches: selection.peek().key ?? "",
+    id: browser, name: prefs.name.peek(), page: page.peek(),
+    touches: selection.peek().trip ?? selection.peek().key ?? "",
   }),
 });
 
@@ -108,9 +116,26 @@ async function loadPlan() {
   isLoading = false;
 }
 
+/** Keep what can be undone over a reload, of the same station. */
+function keepUndo() {
+  let server = "";
+  effect(() => {
+    if (!line.server.value) return;
+    const kept = sessionStorage.getItem(UNDO) ?? "";
+    if (!server && kept.startsWith(line.server.value)) undo.restore(kept.slice(line.server.value.length));
+    server = line.server.value;
+  });
+  effect(() => {
+    const text = undo.kept();
+    if (server && text.length < LONGEST_UNDO) sessionStorage.setItem(UNDO, server + text);
+    else if (server) sessionStorage.removeItem(UNDO);
+  });
+}
+
 /** Begin to know the station. */
 export async function connect() {
   if (!await describe()) return;
+  keepUndo();
   line.keep();
   loadPlan();
   effect(() => {

@@ -1,7 +1,55 @@
-// In the making.
+// The missions of the plan: a list, and beside it the one that is selected.
 
 import { h } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import { t } from "../core/i18n.js";
+import { wantedField } from "../core/route.js";
+import { mayFly, plan } from "../core/station.js";
+import { Button } from "../ui/button.js";
+import { Others } from "../ui/people.js";
+import { UndoButtons } from "../ui/undo.js";
+import { add } from "./commands.js";
+import { exportFile, importFile } from "./files.js";
+import { MissionList } from "./list.js";
+import { isMarking } from "./marked.js";
+import { Panel } from "./panel.js";
+import { Welcome } from "./welcome.js";
 
 export default function Page() {
-  return h("p", null, "…");
+  const page = useRef(/** @type {HTMLDivElement | null} */ (null));
+  const wanted = wantedField.value;
+  const find = (/** @type {string} */ what) => /** @type {HTMLInputElement | null | undefined} */ (page.current?.querySelector(`.mission-panel ${what}`));
+  function rename() {
+    requestAnimationFrame(() => {
+      const name = find('[data-field="name"] input');
+      name?.focus();
+      name?.select();
+    });
+  }
+  useEffect(() => {
+    if (!wanted) return;
+    requestAnimationFrame(() => { // the panel may only now be opened
+      (find(`[data-field="${wanted.field}"] :is(input, select)`) ?? find(".set-trips"))?.focus();
+      wantedField.value = null;
+    });
+  }, [wanted]);
+  const onAdd = () => {
+    add();
+    rename();
+  };
+  if (!plan.isLoaded.value) return null;
+  const isEmpty = !plan.missions.value.length;
+  return h("div", { ref: page, class: "missions" },
+    isEmpty ? h(Welcome, { onAdd }, h(UndoButtons, null)) : h("div", { class: "missions-split" },
+      h("section", { class: "card mission-side stack", "aria-label": t("missions.all") },
+        h("div", { class: "row" }, h("h2", null, t("page.missions")), h(Others, null),
+          h("span", { class: "spread row" }, mayFly.value && h(UndoButtons, null),
+            mayFly.value && h(Button, { kind: "primary", icon: "plus", onClick: onAdd }, t("missions.add")))),
+        h(MissionList, { onRename: rename }),
+        h("p", { class: "hint" }, t("missions.how-to-move")),
+        h("div", { class: "row" },
+          h(Button, { small: true, pressed: isMarking.value, onClick: () => { isMarking.value = !isMarking.peek(); } }, t("missions.select-several")),
+          mayFly.value && h(Button, { small: true, onClick: importFile }, t("missions.import")),
+          h(Button, { small: true, onClick: () => { exportFile(); } }, t("missions.export")))),
+      h("div", null, h(Panel, { wanted: wanted?.field ?? null }))));
 }

@@ -38,6 +38,10 @@ const PATHS = {
   person: "M12 12a4 4 0 100-8 4 4 0 000 8zM4 21a8 8 0 0116 0",
   photo: "M4 7h4l2-3h4l2 3h4v12H4zM12 16.5a3.5 3.5 0 100-7 3.5 3.5 0 000 7z",
   save: "M12 4v11M7 11l5 5 5-5M5 20h14",
+  select: "M4 8V4h4M16 4h4v4M20 16v4h-4M8 20H4v-4M9 9h6v6H9z",
+  row: "M4 18.5v.1M9.500 14v.1M14.500 10v.1M20 5.500v.1",
+  grid: "M5 5v.1M12 5v.1M19 5v.1M5 12v.1M12 12v.1M19 12v.1M5 19v.1M12 19v.1M19 19v.1",
+  sweep: "M4 5h14v4.700H6v4.600h12v4.700H4",
   speed: "M5 5l7 7-7 7M13 5l7 7-7 7",
 };
 /** @typedef {keyof typeof PATHS} IconName */

@@ -1,0 +1,135 @@
+// What is done with trips: added, moved, copied, deleted, written into.
+
+import { inTrips, moved, withField } from "../core/changes.js";
+import { drawTelling } from "../core/drawing.js";
+import { capital, number, place as inWords } from "../core/format.js";
+import { t } from "../core/i18n.js";
+import { newKey } from "../core/keys.js";
+import { speakOut } from "../core/notices.js";
+import { plan, selected, selection } from "../core/station.js";
+import { linked, PICK } from "./carried.js";
+import { rounded } from "./snapping.js";
+import { isLocked, markAll, marked, markOne } from "./state.js";
+
+/** @import { ActionShape, PlanTrip, Point } from "../app" */
+/** @import { Draft } from "../core/plan.js" */
+
+/** @returns {PlanTrip[]} */
+const trips = () => plan.missions.peek().find(({ key }) => key === selection.peek().key)?.trips ?? [];
+/** @param {string} key */
+const at = (key) => trips().findIndex((trip) => trip.key === key);
+
+/** What the selected mission's trips become; it finds what it changes by key, as others may have drawn meanwhile. @param {(all: PlanTrip[]) => PlanTrip[]} change */
+const inSelected = (change) => inTrips(selection.peek().key ?? "", (all) => linked(change(all)));
+
+/** @param {(all: PlanTrip[]) => PlanTrip[]} change @param {boolean} [typing] */
+const edit = (change, typing = false) => plan.edit(inSelected(change), typing);
+
+/** @param {readonly PlanTrip[]} fresh @param {number} index */
+const put = (fresh, index) => edit((all) =>
+  all.toSpliced(index, 0, ...fresh.filter(({ key }) => !all.some((one) => one.key === key))));
+
+/** Put an action at places, as new trips. @param {ActionShape} action @param {readonly Point[]} targets */
+export function add(action, targets) {
+  if (isLocked.peek() || !targets.length) return [];
+  const before = trips();
+  let items = before.filter((trip) => trip.action === PICK).length;
+  const fresh = targets.map((target) => {
+    // how heavy an item is, only people know
+    const item = action.item ? { name: items ? t("trips.item-n", { n: items + 1 }) : t("trips.item-stem") } : null;
+    items += 1;
+    return { key: newKey(), action: action.name, target: [...target], parameters: {}, item };
+  });
+  put(fresh, before.length);
+  markOne(/** @type {PlanTrip} */ (fresh.at(-1)).key);
+  speakOut(t("trips.added", { n: fresh.length, action: capital(action.name) }));
+  return fresh.map(({ key }) => key);
+}
+
+/** @param {string} key @param {(trip: PlanTrip) => PlanTrip} change @param {boolean} [typing] */
+const inTrip = (key, change, typing) =>
+  edit((all) => all.map((trip) => (trip.key === key ? change(trip) : trip)), typing);
+
+/** @param {string} key @param {string} name @param {unknown} value @param {boolean} typing */
+export const setField = (key, name, value, typing) => inTrip(key, (trip) => withField(trip, name, value), typing);
+
+/** @param {string} key @param {"item" | "parameters"} part @param {string} name @param {unknown} value @param {boolean} typing */
+export const setIn = (key, part, name, value, typing) => inTrip(key, (trip) =>
+  ({ ...trip, [part]: withField(trip[part] ?? {}, name, value) }), typing);
+
+/** Set one coordinate: others may be writing the other ones. @param {string} key @param {0 | 1 | 2} axis @param {number | undefined} value @param {boolean} typing */
+export const setAxis = (key, axis, value, typing) => inTrip(key, (trip) => {
+  const target = [...(trip.target ?? [0, 0])];
+  if (value === undefined) target.length = 2;
+  else target[axis] = value;
+  return { ...trip, target };
+}, typing);
+
+/** @param {string} key @param {string} name @param {Draft | null} draft */
+export const setDraft = (key, name, draft) => plan.draft(selection.peek().key ?? "", key, name, draft);
+
+/** Put pins elsewhere. @param {ReadonlyMap<string, Point>} targets @param {boolean} [typing] */
+export function place(targets, typing = false) {
+  if (isLocked.peek()) return;
+  for (const key of targets.keys()) ["x", "y"].forEach((name) => setDraft(key, name, null));
+  edit((all) => all.map((trip) => {
+    const target = targets.get(trip.key);
+    return target ? { ...trip, target: [...target.slice(0, 2), ...(trip.target ?? []).slice(2)] } : trip;
+  }), typing);
+  const [first] = targets.values();
+  if (first) speakOut(inWords(first));
+}
+
+/** Move the selected pins, in metres. @param {readonly string[]} keys @param {number} dx @param {number} dy */
+export function nudge(keys, dx, dy) {
+  /** @type {[string, Point][]} */
+  const targets = trips().flatMap(({ key, target }) => (target && keys.includes(key)
+    ? [[key, [rounded(target[0] + dx), rounded(target[1] + dy)]]] : []));
+  place(new Map(targets), true);
+}
+
+/** @param {string} key @param {number} to */
+export function move(key, to) {
+  if (isLocked.peek() || to < 0 || to >= trips().length) return;
+  edit((all) => moved(all, key, to));
+  speakOut(t("trips.moved", { n: to + 1 }));
+}
+
+/** Move in the order by one. @param {string} key @param {number} by */
+export const shift = (key, by) => move(key, at(key) + by);
+
+const BESIDE = 0.5; // metres between a pin and its copy
+
+/** @param {readonly string[]} keys */
+export function copy(keys) {
+  if (isLocked.peek()) return;
+  const originals = trips().filter(({ key }) => keys.includes(key));
+  const fresh = originals.map(({ name: _, ...trip }) => ({ // no two trips have one name
+    ...structuredClone(trip), key: newKey(),
+    target: trip.target && [rounded(trip.target[0] + BESIDE), rounded(trip.target[1]), ...trip.target.slice(2)],
+  }));
+  put(fresh, at(originals.at(-1)?.key ?? "") + 1);
+  markAll(fresh.map(({ key }) => key));
+}
+
+/** @param {readonly string[]} keys */
+export function remove(keys) {
+  const gone = trips().filter(({ key }) => keys.includes(key));
+  if (isLocked.peek() || !gone.length) return null;
+  const index = at(gone[0].key);
+  const said = gone.length === 1
+    ? t("trips.deleted", { n: index + 1, action: capital(gone[0].action) }) : t("trips.deleted-many", { n: gone.length });
+  drawTelling(inSelected((all) => all.filter(({ key }) => !keys.includes(key))), said);
+  const next = trips()[index] ?? trips().at(-1);
+  markOne(next?.key ?? null);
+  return next?.key ?? null;
+}
+
+/** "at 3, 8.5 metres". @param {Point} target */
+export const where = (target) => target.map((one) => number(one, { maximumFractionDigits: 3, useGrouping: false })).join(", ");
+
+/** The keys that a command on this pin is for: all that are selected, if it is one of them. @param {string} key */
+export const meant = (key) => (marked.peek().includes(key) ? marked.peek() : [key]);
+
+/** Whether there is a mission to draw in. */
+export const hasMission = () => selected.value !== null;

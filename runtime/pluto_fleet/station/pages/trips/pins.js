@@ -1,0 +1,114 @@
+// The pins on the map: dragged, moved by the arrow keys, several at once.
+
+import { h } from "preact";
+import { useRef } from "preact/hooks";
+import { capital } from "../core/format.js";
+import { t } from "../core/i18n.js";
+import { Mark, useCamera } from "../map/camera.js";
+import { copy, meant, nudge, place, remove, where } from "./commands.js";
+import { rounded, snapped } from "./snapping.js";
+import { abouts, held, isLocked, markAll, marked, markOne, places, toggle } from "./state.js";
+
+/** @import { Point } from "../app" */
+/** @import { About } from "./state.js" */
+
+export const BESIDE = 25; // pixels between pins at one place
+const SLIP = 4; // pixels that a press may slip and still be a press
+/** @type {Record<string, [number, number]>} */
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+/** @param {{ onOpen: (key: string) => void, onRemoved: (next: string | null) => void }} props */
+export const Pins = ({ onOpen, onRemoved }) => h("g", { class: "layer pins" }, abouts.value.map((about) =>
+  about.target && h(Mark, { key: about.key, x: about.target[0], y: about.target[1] },
+    h(Pin, { about, onOpen, onRemoved }))));
+
+/** What is read out of a pin. @param {About} about */
+function described({ number, trip, target, place: name, problems }) {
+  const what = [capital(trip.action), ...(trip.name ? [trip.name] : [])].join(" · ");
+  const at = [name, t("trips.at", { place: where(/** @type {Point} */ (target)) })].filter(Boolean).join(", ");
+  return [
+    t("trips.pin", { n: number, what, at }),
+    problems.length > 0 && t("trips.pin-problem", { text: problems[0].text }),
+    !isLocked.value && t("trips.pin-keys"),
+  ].filter(Boolean).join(" ");
+}
+
+/** @param {{ about: About, onOpen: (key: string) => void, onRemoved: (next: string | null) => void }} props */
+function Pin({ about, onOpen, onRemoved }) {
+  const { key, number, problems } = about;
+  const beside = about.beside * BESIDE;
+  const camera = useCamera();
+  /** Where it was taken, and how far from its middle. */
+  const taken = useRef(/** @type {{ x: number, y: number, dx: number, dy: number, keys: readonly string[], from: Map<string, Point> } | null} */ (null));
+  const isChosen = marked.value.includes(key);
+
+  /** @param {PointerEvent} event */
+  function take(event) {
+    if (event.button) return;
+    event.preventDefault();
+    const pin = /** @type {SVGGElement} */ (event.currentTarget);
+    pin.focus();
+    if (event.shiftKey || event.ctrlKey || event.metaKey) {
+      toggle(key);
+      return;
+    }
+    if (!isChosen) markOne(key);
+    if (isLocked.peek()) return;
+    const disc = /** @type {Element} */ (pin.querySelector(".disc")).getBoundingClientRect();
+    const keys = meant(key);
+    taken.current = {
+      x: event.clientX, y: event.clientY, keys,
+      dx: event.clientX - disc.left - disc.width / 2 + beside, dy: event.clientY - disc.top - disc.height / 2,
+      from: new Map(abouts.peek().flatMap((one) => (keys.includes(one.key) && one.target ? [[one.key, one.target]] : []))),
+    };
+    pin.setPointerCapture(event.pointerId);
+  }
+  /** @param {PointerEvent} event */
+  function drag(event) {
+    const now = taken.current;
+    const isPress = now && !held.peek().size && Math.hypot(event.clientX - now.x, event.clientY - now.y) < SLIP;
+    if (!now || isPress) return;
+    const at = camera.metres({ clientX: event.clientX - now.dx, clientY: event.clientY - now.dy });
+    const [x, y] = snapped(at, event.shiftKey, places.peek());
+    const [fromX, fromY] = /** @type {Point} */ (now.from.get(key));
+    held.value = new Map([...now.from].map(([one, [ax, ay]]) =>
+      [one, one === key ? [x, y] : [rounded(ax + x - fromX), rounded(ay + y - fromY)]]));
+  }
+  /** @param {boolean} isKept */
+  function letGo(isKept) {
+    if (!taken.current) return;
+    taken.current = null;
+    const targets = held.peek();
+    held.value = new Map();
+    if (isKept && targets.size) place(targets);
+  }
+  /** @param {KeyboardEvent} event */
+  function onKeyDown(event) {
+    const by = ARROWS[event.key];
+    const isCommand = event.ctrlKey || event.metaKey;
+    const step = event.shiftKey ? 1 : 0.1;
+    if (event.altKey) return;
+    if (event.key === "Escape" && taken.current) letGo(false);
+    else if (event.key === "Escape" && marked.peek().length > 1) markOne(key);
+    else if (event.key === "Enter" && !isCommand) onOpen(key);
+    else if (event.key === " ") toggle(key);
+    else if (isCommand && event.key === "a") markAll(abouts.peek().map((one) => one.key));
+    else if (isLocked.peek()) return;
+    else if (isCommand && event.key === "d") copy(meant(key));
+    else if (isCommand) return;
+    else if (by) nudge(meant(key), by[0] * step, by[1] * step);
+    else if (event.key === "Delete" || event.key === "Backspace") onRemoved(remove(meant(key)));
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+  return h("g", {
+    class: `pin ${isChosen ? "chosen" : ""} ${problems.length ? "bad" : ""}`, transform: `translate(${beside} 0)`,
+    role: "button", tabIndex: 0, "data-own": true, "data-key": key, "aria-label": described(about),
+    onFocus: () => { if (marked.peek().length < 2) markOne(key); },
+    onPointerDown: take, onPointerMove: drag, onPointerUp: () => letGo(true),
+    onPointerCancel: () => letGo(false), onLostPointerCapture: () => letGo(false), onKeyDown,
+  },
+  h("circle", { class: "halo", r: 20 }), h("circle", { class: "disc", r: 12.5 }), h("text", { y: 4.5 }, number),
+  problems.length > 0 && h("path", { class: "pin-sign", d: "M11 -20L19 -5H3ZM11 -15v5M11 -8v.5" }));
+}

@@ -1,0 +1,93 @@
+// What is going on at the map of the trips: which pins are selected, what is held, which tool is at work.
+
+import { computed, signal } from "@preact/signals";
+import { landmarks } from "../core/landmarks.js";
+import { marking } from "../core/marking.js";
+import { app, plan, selected, selection, selectKey } from "../core/station.js";
+import { whyNot } from "../map/view.js";
+import { t } from "../core/i18n.js";
+import { picks } from "./carried.js";
+import { placeAt } from "./snapping.js";
+
+/** @import { Signal } from "@preact/signals" */
+/** @import { ActionShape, PlanTrip, Point } from "../app" */
+/** @import { ShownProblem } from "../core/plan.js" */
+/** @import { At } from "../map/view.js" */
+
+/** Where pins are that are being dragged, by the keys of their trips. @type {Signal<ReadonlyMap<string, Point>>} */
+export const held = signal(new Map());
+
+/** The action that is in hand, to be put down by the next press on the map. @type {Signal<ActionShape | null>} */
+export const inHand = signal(null);
+
+/** Where the action in hand, or the one that is dragged, would be put now. @type {Signal<[number, number] | null>} */
+export const hovered = signal(null);
+
+/** @typedef {"area" | "row" | "grid" | "sweep"} Tool what a drag over the ground does, in place of moving the map */
+/** @type {Signal<Tool | null>} */
+export const tool = signal(null);
+
+/** The rectangle or the line that was drawn last, in metres. @type {Signal<{ from: At, to: At } | null>} */
+export const drawn = signal(null);
+
+/** What the tool at work would add. @type {Signal<readonly Point[]>} */
+export const pattern = signal([]);
+
+export const { marked, markOne, markAll, toggle, extendTo } = marking(
+  () => selected.value?.trips.map(({ key }) => key) ?? [], () => selection.value.trip,
+  (key) => selectKey(selection.peek().key, key));
+
+export const places = computed(() => landmarks.value?.places ?? []);
+
+/**
+ * A trip as its pin and its card show it.
+ * @typedef {object} About
+ * @property {string} key
+ * @property {PlanTrip} trip
+ * @property {number} number from 1
+ * @property {Point | null} target where it is now, also while it is dragged
+ * @property {boolean} isHeld
+ * @property {number} beside so many trips before it are at the same place
+ * @property {string} place the name of the place where it is
+ * @property {ShownProblem[]} problems
+ * @property {number | null} pickedIn the number of the trip that picks what this one puts down
+ */
+
+/** The trips of the selected mission. */
+export const abouts = computed(() => {
+  const mission = selected.value;
+  if (!mission) return [];
+  const from = picks(mission.trips);
+  /** @type {Map<string | null, ShownProblem[]>} */
+  const wrong = new Map();
+  for (const one of plan.problems.value) {
+    if (one.mission === mission.key) wrong.set(one.trip, [...(wrong.get(one.trip) ?? []), one]);
+  }
+  /** @type {Map<string, number>} */
+  const taken = new Map();
+  return mission.trips.map((trip, at) => {
+    const one = about(trip, at, wrong.get(trip.key) ?? [], from.get(trip.key));
+    const where = one.target?.slice(0, 2).map((value) => value.toFixed(1)).join(" ") ?? "";
+    const beside = taken.get(where) ?? 0;
+    taken.set(where, beside + 1);
+    return { ...one, beside };
+  });
+});
+
+/** @param {PlanTrip} trip @param {number} at @param {ShownProblem[]} wrong @param {number | undefined} pick @returns {Omit<About, "beside">} */
+function about(trip, at, wrong, pick) {
+  const drag = held.value.get(trip.key);
+  const target = drag && trip.target ? [...drag, ...trip.target.slice(2)] : trip.target;
+  const problems = wrong.filter(({ field }) => !(drag && field === "target")
+    && !(pick !== undefined && field?.startsWith("item."))); // the trip that picks it tells that
+  const here = drag && app.value ? whyNot(app.value.map, drag) : "";
+  if (here) problems.unshift({ mission: null, trip: trip.key, field: "target", text: t(here) });
+  return {
+    key: trip.key, trip, number: at + 1, target, isHeld: drag !== undefined,
+    place: target ? placeAt(target, places.value)?.name ?? "" : "",
+    problems, pickedIn: pick === undefined ? null : pick + 1,
+  };
+}
+
+/** Whether the trips of the selected mission can be changed. */
+export const isLocked = computed(() => selected.value?.launched !== false || app.value?.role === "watch");

@@ -1,0 +1,150 @@
+// A field of an app, with its label, and what is wrong with it. What is typed stays as long as one
+// types; what another page writes meanwhile is told.
+
+import { h } from "preact";
+import { useId, useRef, useState } from "preact/hooks";
+import { capital } from "../core/format.js";
+import { t } from "../core/i18n.js";
+import { isNumeric, placeholder, read, written } from "../core/typed.js";
+import { Icon } from "./icon.js";
+
+/** @import { ComponentChildren } from "preact" */
+/** @import { FieldShape, Scalar } from "../app" */
+
+/** What was typed and cannot be in the plan. @typedef {{ typed: string, why: string }} Wrong */
+/**
+ * @callback Changed
+ * @param {Scalar | undefined} value undefined: the field is empty
+ * @param {boolean} typing more of the same is likely to come at once
+ * @param {Wrong | null} wrong then there is no value
+ * @returns {void}
+ */
+/**
+ * @typedef {object} FieldProps
+ * @property {FieldShape} field
+ * @property {unknown} value as the plan has it, or as it was typed in vain
+ * @property {string} [problem]
+ * @property {boolean} [isWrong] it is marked, though its problem is told elsewhere
+ * @property {boolean} [locked]
+ * @property {string} [hint] what stands in an empty field
+ * @property {readonly string[]} [evaluators]
+ * @property {(value: unknown) => string} [wrong] why a value cannot be in the plan; empty: it can
+ * @property {(event: KeyboardEvent) => void} [onKeyDown]
+ * @property {Changed} onChange
+ */
+/** @typedef {FieldProps & { id: string, text: string }} ControlProps text: what is wrong */
+
+/** @param {FieldProps} props */
+export function Field(props) {
+  const { type, needed } = props.field;
+  const id = useId();
+  const given = { ...props, id, text: props.problem ?? "" };
+  if (type === "rounds") return framed(given, Rounds(given));
+  if (type === "bool") return framed(given, needed ? YesOrNo(given) : Tick(given));
+  if (type === "evaluator") return framed(given, Evaluator(given));
+  return h(Typed, given);
+}
+
+/** A control with its label, and what is wrong with it. @param {ControlProps} props @param {ComponentChildren} control */
+const framed = ({ field, id, text }, control) => h("div", { class: "field", "data-field": field.name },
+  h("label", { for: id }, field.label ?? capital(field.name)), control,
+  h("p", { class: "problem", id: `${id}-problem`, hidden: !text, "aria-live": "polite" },
+    h(Icon, { name: "warning" }), h("span", null, text)));
+
+/** What all controls have. @param {ControlProps} props */
+const shared = ({ id, text, isWrong, field, locked }) => ({
+  id, disabled: locked, "aria-describedby": `${id}-problem`,
+  "aria-invalid": text || isWrong ? "true" : undefined, "aria-required": field.needed ? "true" : undefined,
+});
+
+/** @param {ControlProps} props */
+function Typed(props) {
+  const { field, value, hint, wrong, onChange, onKeyDown } = props;
+  /** What stands in the field while one types, and what that was sent as. */
+  const [typed, setTyped] = useState(/** @type {string | null} */ (null));
+  const sent = useRef("");
+  const now = String(value ?? "");
+  const isForeign = typed !== null && sent.current !== now;
+  const text = isForeign ? `${t("field.foreign", { now })} ${props.text}` : props.text;
+
+  /** @param {HTMLInputElement} input @param {boolean} typing */
+  function send(input, typing) {
+    const fresh = read(field, input.value);
+    const why = input.validity.badInput ? t("field.half-a-time") : wrong?.(fresh) ?? "";
+    if (!typing && isForeign && String(fresh ?? "") === sent.current) return; // it is left: theirs stays
+    sent.current = why ? input.value : String(fresh ?? "");
+    onChange(why ? undefined : fresh, typing, why ? { typed: input.value, why } : null);
+  }
+  const all = { ...props, text };
+  return framed(all, h("input", {
+    ...shared(all), type: field.type === "time of day" ? "time" : "text", maxLength: 500,
+    autocomplete: "off", spellcheck: false, inputMode: isNumeric(field) ? "decimal" : undefined,
+    placeholder: hint || placeholder(field), value: typed ?? written(field, value), onKeyDown,
+    onInput: (/** @type {InputEvent} */ { currentTarget }) => {
+      const input = /** @type {HTMLInputElement} */ (currentTarget);
+      setTyped(input.value);
+      send(input, true);
+    },
+    onChange: (/** @type {Event} */ { currentTarget }) => {
+      send(/** @type {HTMLInputElement} */ (currentTarget), false);
+      setTyped(null);
+    },
+    onBlur: (/** @type {FocusEvent} */ { currentTarget }) => {
+      const input = /** @type {HTMLInputElement} */ (currentTarget);
+      if (input.validity.badInput) send(input, false); // browsers do not call that a change
+      setTyped(null);
+    },
+  }));
+}
+
+/** @param {ControlProps} props */
+function Rounds(props) {
+  const { value, locked, onChange } = props;
+  const isEndless = value === true;
+  const change = (/** @type {Event} */ event, /** @type {boolean} */ typing) => {
+    const { value: text } = /** @type {HTMLInputElement} */ (event.currentTarget);
+    onChange(read({ name: "", type: "int" }, text), typing, null);
+  };
+  return h("div", { class: "row rounds" },
+    h("input", {
+      ...shared(props), inputMode: "numeric", placeholder: "0", maxLength: 20, autocomplete: "off",
+      disabled: locked || isEndless, value: isEndless ? "" : String(value ?? ""),
+      onInput: (/** @type {Event} */ event) => change(event, true),
+      onChange: (/** @type {Event} */ event) => change(event, false),
+    }),
+    h("span", { class: "hint" }, t("field.more-rounds")),
+    h("label", { class: "check" }, h("input", {
+      type: "checkbox", disabled: locked, checked: isEndless,
+      onChange: () => onChange(isEndless ? undefined : true, false, null),
+    }), t("field.until-stopped")));
+}
+
+/** @param {ControlProps} props */
+function YesOrNo(props) {
+  const now = props.value === undefined ? "" : props.value ? "yes" : "no";
+  return h("select", {
+    ...shared(props), value: now, onChange: (/** @type {Event} */ event) => {
+      const { value } = /** @type {HTMLSelectElement} */ (event.currentTarget);
+      props.onChange(value ? value === "yes" : undefined, false, null);
+    },
+  }, h("option", { value: "" }, t("choose")), h("option", { value: "yes" }, t("yes")), h("option", { value: "no" }, t("no")));
+}
+
+/** @param {ControlProps} props */
+function Tick(props) {
+  const { field, value, onChange } = props;
+  const isTicked = Boolean(value ?? field.default ?? false);
+  return h("input", {
+    ...shared(props), type: "checkbox", checked: isTicked, onChange: () => onChange(!isTicked, false, null),
+  });
+}
+
+/** @param {ControlProps} props */
+function Evaluator(props) {
+  return h("select", {
+    ...shared(props), value: String(props.value ?? ""), onChange: (/** @type {Event} */ event) => {
+      props.onChange(/** @type {HTMLSelectElement} */ (event.currentTarget).value || undefined, false, null);
+    },
+  }, h("option", { value: "" }, t("field.own-evaluator")),
+  (props.evaluators ?? []).map((name) => h("option", { key: name, value: name }, capital(name))));
+}

@@ -1,0 +1,158 @@
+"""A drawn mission that flies: what a page may still change of it, and how the plan follows the flight.
+
+In the flight a trip is known by its name; one that was drawn without a name has its number as one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import count
+from typing import TYPE_CHECKING, Any
+
+from ...files.missions_text import trip_table
+from ...flight.changing import flying, left
+from ...shared.domain.errors import BadInput
+from ...shared.domain.text import quoted
+from ...shared.hooks.plain_data import trip_data, trip_of
+from .problems import bare, read
+from .shape import Shape, trips_of
+from .text import trip_shape
+
+if TYPE_CHECKING:
+    from ...app import App
+    from ...journal.fold import Record
+    from ...shared.domain.airspace import Airspace
+
+_OF_FLIGHTS = ("index", "attempt", "added", "status", "reason", "start_time", "end_time")
+"""What a flight's record has of a trip and a plan has not."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawnChange:
+    """A change of a mission that flies, as a page has drawn it."""
+
+    tables: list[Mapping[str, object]]
+    """All that is to be flown from now on, as in a missions file."""
+    trips: list[Shape]
+    """The mission's trips in the plan from now on, those that have flown first."""
+    is_one: bool
+    """Whether it changes the flight."""
+
+
+def flight_names(mission: Shape) -> dict[str, str]:
+    """Return the names of a drawn mission's trips in its flight, by their keys."""
+    return {
+        str(one["key"]): str(one.get("name") or place)
+        for place, one in enumerate(trips_of(mission), 1)
+    }
+
+
+def named(fixed: Shape, trips: Sequence[Shape]) -> list[Shape]:
+    """Return trips as drawn, each known one with its name in the flight."""
+    names = flight_names(fixed)
+    return [
+        {**one, "name": one.get("name") or names[str(one["key"])]} if one["key"] in names else one
+        for one in trips
+    ]
+
+
+def differs(fixed: Shape, drawn: Shape) -> bool:
+    """Return whether a page has drawn other trips than a mission flies."""
+    before, after = (named(fixed, trips_of(one)) for one in (fixed, drawn))
+    keys = [[one["key"] for one in trips] for trips in (before, after)]
+    return keys[0] != keys[1] or list(map(bare, before)) != list(map(bare, after))
+
+
+def drawn_change(app: App, fixed: Shape, drawn: Sequence[Shape], record: Record) -> DrawnChange:
+    """Return what a page's trips change of a mission that flies; raise `BadInput` if they are too late.
+
+    What the page has left as it was is flown as the flight has it, as the app's own code may have
+    changed that; so are trips that this has added.
+    """
+    to_do = {str(one["name"]): one for one in left(record)}
+    off = [str(one["name"]) for one in (*record["done"], *flying(record))]
+    known = {str(one["name"]): one for one in named(fixed, trips_of(fixed))}
+    given = _with_free_names(named(fixed, drawn), {*known, *to_do, *off})
+    after = {str(one["name"]): one for one in given}
+    for name in off:
+        if (name in known and name not in after) or (
+            name in after and not _same(known, after[name])
+        ):
+            what = "has been flown" if name not in map(_name, flying(record)) else "has taken off"
+            raise BadInput(
+                f"mission {quoted(str(fixed['name']))}: trip {quoted(name)} {what} meanwhile, and cannot"
+                " be changed any more: look at the mission again"
+            )
+    trips = [one for name, one in known.items() if name in off]
+    tables: list[Mapping[str, object]] = []
+    is_one = False
+    for name, trip in after.items():
+        if name in off:
+            continue
+        trips.append(trip)
+        if name in to_do and _same(known, trip):
+            tables.append(trip_table(app, trip_of(app, to_do[name])))
+        elif name in to_do or not _same(known, trip):  # else it was skipped, and stays so
+            tables.append(bare(trip))
+            is_one = True
+    others = [one for name, one in to_do.items() if name not in known]
+    tables += [trip_table(app, trip_of(app, one)) for one in others]
+    is_one |= [one["name"] for one in tables] != list(to_do)
+    return DrawnChange(tables=tables, trips=_sparsely_named(trips), is_one=is_one)
+
+
+def followed(
+    app: App, airspace: Airspace, fixed: Shape, record: Record, keyed: Callable[[Shape], Shape]
+) -> list[Shape]:
+    """Return the trips of a drawn mission as its flight has them; `keyed` gives new ones a key."""
+    known = {str(one["name"]): one for one in named(fixed, trips_of(fixed))}
+    missions, problems = read(
+        app, airspace, [{**fixed, "trips": list(known.values())}], _after(fixed)
+    )
+    drawn: Mapping[str, Any] = {}
+    if not problems:
+        drawn = {one.name: _content(trip_data(app, one)) for one in missions[0].trips}
+    gone = {str(one["name"]) for one in record["gone"]}
+    trips = []
+    for now in (*record["done"], *record["todo"]):
+        name = str(now["name"])
+        if name in known and drawn.get(name) == _content(now):
+            trips.append(known[name])
+        elif not now.get("added"):
+            new = trip_shape(app, trip_of(app, now))
+            trips.append({**new, "key": known[name]["key"]} if name in known else keyed(new))
+    skipped = [one for name, one in known.items() if name in gone and not record.get("replanned")]
+    return _sparsely_named([*trips, *skipped])
+
+
+def _content(trip: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: one for key, one in trip.items() if key not in _OF_FLIGHTS}
+
+
+def _after(mission: Shape) -> list[str]:
+    after = mission.get("after")
+    return [str(name) for name in after] if isinstance(after, list) else []
+
+
+def _same(known: Mapping[str, Shape], trip: Shape) -> bool:
+    name = str(trip["name"])
+    return name in known and bare(known[name]) == bare(trip)
+
+
+def _name(trip: Mapping[str, object]) -> str:
+    return str(trip["name"])
+
+
+def _with_free_names(trips: Sequence[Shape], taken: set[str]) -> list[Shape]:
+    used = taken | {str(one["name"]) for one in trips if one.get("name")}
+    free = (str(number) for number in count(1) if str(number) not in used)
+    return [one if one.get("name") else {**one, "name": next(free)} for one in trips]
+
+
+def _sparsely_named(trips: Sequence[Shape]) -> list[Shape]:
+    """Return trips with a name only where that is not their number anyway."""
+    return [
+        {key: one[key] for key in one if key != "name" or one[key] != str(place)}
+        for place, one in enumerate(trips, 1)
+    ]

@@ -1,0 +1,186 @@
+"""Trips that have not flown are changed while their mission is under way."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pytest
+
+from pluto_fleet.shared.domain.errors import BadInput, Failure
+from pluto_fleet.trials.invariants import violations
+
+from . import apps
+from .living import Living, enterable, names
+
+Trip = Mapping[str, object]
+
+
+def trip(name: str, x: float, **more: object) -> Trip:
+    """Return a trip as a missions file has it."""
+    return {"name": name, "action": "take_photo", "target": [x, 1.0, 1.0], **more}
+
+
+def three_trips() -> apps.Mission:
+    return apps.mission("a", apps.trip("1", 3), apps.trip("2", 5), apps.trip("3", 7))
+
+
+def change(living: Living, *trips: Trip, replaces: list[str] | None = None) -> str:
+    return living.life.control.change_trips("a", trips, replaces)
+
+
+def test_what_has_not_flown_is_flown_as_it_was_changed() -> None:
+    """Another place, another order, a new trip, and one that is gone; what flies is not touched."""
+    living = Living(enterable(), three_trips())
+    living.at(3.0, lambda: change(living, trip("3", 4), trip("new", 6), replaces=["2", "3"]))
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.completed"), "trip") == ["1", "3", "new"]
+    done = living.life.recorder.records.missions["a"]["done"]
+    assert [one["target"][0] for one in done] == [3.0, 4.0, 6.0]
+    assert living.named("trip.interrupted") == []
+    assert violations(living.events, {}) == []
+
+
+def test_a_change_goes_on_after_the_app_dies() -> None:
+    """Whether it was made in flight, or before the first drone was there."""
+    waits = apps.mission("b", apps.trip("1", 3), apps.trip("2", 4))
+    living = Living(enterable(), three_trips(), waits)
+    living.at(3.0, lambda: change(living, trip("3", 4)))
+    living.at(
+        3.0, lambda: living.life.control.change_trips("b", [trip("2", 8), trip("1", 3)], None)
+    )
+    living.crash(4.0)
+    assert living.run() == ["COMPLETED", "COMPLETED"]
+    done = [(one["mission"], one["trip"]) for one in living.named("trip.completed")]
+    assert sorted(done) == [("a", "1"), ("a", "3"), ("b", "1"), ("b", "2")]
+    assert done.index(("b", "2")) < done.index(("b", "1"))
+    assert living.life.recorder.records.missions["b"]["done"][0]["target"][0] == 8.0
+    assert violations(living.events, {}) == []
+
+
+def test_a_mission_that_waits_keeps_its_turn_if_its_next_trip_stays() -> None:
+    missions = [apps.mission(name, apps.trip("1", 3), apps.trip("2", 4)) for name in "xab"]
+    living = Living(enterable(), *missions)
+    living.at(2.0, lambda: change(living, {**trip("1", 3), "target": [3, 0.5, 1.2]}, trip("9", 5)))
+    assert living.run() == ["COMPLETED"] * 3
+    assert names(living.named("trip.launched"), "mission")[:3] == ["x", "a", "b"]
+    assert living.named("mission.resumed") == []
+    assert violations(living.events, {}) == []
+
+
+def test_a_paused_mission_goes_on_with_the_changed_trips() -> None:
+    living = Living(enterable(), three_trips())
+    living.at(3.0, lambda: living.life.control.pause("a"))
+    living.at(9.0, lambda: change(living, trip("2", 6), trip("1", 2)))
+    living.at(20.0, lambda: living.life.control.go_on("a"))
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.completed"), "trip") == ["2", "1"]
+    assert violations(living.events, {}) == []
+
+
+@pytest.mark.parametrize("crashes", [False, True])
+def test_a_delay_that_runs_becomes_another(crashes: bool) -> None:
+    mission = apps.mission("a", apps.trip("1", 3, delay=20.0))
+    living = Living(enterable(clock=True), mission)
+    living.at(5.0, lambda: change(living, trip("1", 3, delay="60 s")))
+    if crashes:
+        living.crash(8.0)
+    assert living.run() == ["COMPLETED"]
+    assert living.times("trip.launched") == [65.0]
+
+
+def test_a_trip_without_a_name_is_a_new_one() -> None:
+    living = Living(enterable(), three_trips())
+    new = {"action": "take_photo", "target": [4.0, 1.0]}
+    living.at(3.0, lambda: change(living, new, trip("3", 7)))
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.completed"), "trip") == ["1", "4", "3"]
+
+
+def test_a_trip_that_has_failed_waits_behind_others_and_keeps_its_attempts() -> None:
+    living = Living(enterable(attempts=3), three_trips())
+    living.at(3.0, lambda: living.navigation.strike("cf1", Failure.LINK))
+    living.at(9.0, lambda: change(living, trip("3", 7), trip("1", 3), replaces=["1", "2", "3"]))
+    assert living.run() == ["COMPLETED"]
+    launched = [(one["trip"], one["attempt"]) for one in living.named("trip.launched")]
+    assert launched == [("1", 1), ("3", 1), ("1", 2)]
+    assert violations(living.events, {}) == []
+
+
+def test_what_has_taken_off_or_was_flown_meanwhile_is_told_by_its_name() -> None:
+    living = Living(enterable(), three_trips())
+    living.run(3.0)
+    for replaces, trips, why in (
+        (["1", "2", "3"], [], 'mission "a": trip "1" has taken off meanwhile: look at it again'),
+        (["3", "2"], [], 'mission "a": it was changed: look at it again'),
+        (None, [trip("1", 4)], 'mission "a": trip "1" has taken off meanwhile, and cannot be'),
+    ):
+        with pytest.raises(BadInput) as refusal:
+            change(living, *trips, replaces=replaces)
+        assert str(refusal.value).startswith(why)
+    assert living.named("mission.replanned") == []
+
+
+def test_what_cannot_be_flown_is_refused_in_words_and_changes_nothing() -> None:
+    living = Living(enterable(), three_trips())
+    living.run(3.0)
+    item = {"name": "vial", "mass": "4 g"}
+    for wrong, why in (
+        (trip("4", 300), 'mission "a", trip "4": target (300, 1) is outside the map'),
+        ({**trip("4", 4), "action": "pick_item", "item": item}, "which no trip after it releases"),
+        ({**trip("4", 4), "action": "release_item", "item": item}, "which no trip before it"),
+        ({**trip("4", 4), "action": "sing"}, "sing"),
+        ({**trip("4", 4), "hue": 1}, "hue"),
+        ({"name": 3}, "name"),
+        ("4", "list of tables"),
+    ):
+        with pytest.raises(BadInput) as refusal:
+            living.life.control.change_trips("a", [trip("2", 5), wrong], None)
+        assert why in str(refusal.value), refusal.value
+    assert living.run() == ["COMPLETED"]
+    assert living.named("mission.replanned") == []
+
+
+def test_a_mission_without_a_trip_left_and_one_that_has_ended_cannot_be_changed() -> None:
+    waits = apps.mission("b", apps.trip("1", 3))
+    living = Living(enterable(), apps.mission("a", apps.trip("1", 3)), waits)
+    living.run(3.0)
+    with pytest.raises(BadInput, match=r'mission "b" would have no trip left: cancel it instead'):
+        living.life.control.change_trips("b", [], None)
+    living.life.control.change_trips("a", [], None)  # what flies is its last trip then
+    living.life.control.cancel("b")
+    with pytest.raises(BadInput, match=r'no mission "b" is under way'):
+        living.life.control.change_trips("b", [trip("1", 3)], None)
+    assert living.run() == ["COMPLETED", "CANCELLED"]
+
+
+def test_where_an_item_is_brought_can_be_changed_while_it_is_aboard() -> None:
+    living = Living(enterable(), apps.mission("a", apps.pick("p", 3), apps.release("r", 9)))
+    living.run(3.0)
+    item = living.life.recorder.records.missions["a"]["todo"][-1]["item"]
+    release = {**trip("r", 5), "action": "release_item", "item": item}
+    change(living, trip("2", 4), release)
+    assert living.run() == ["COMPLETED"]
+    assert names(living.named("trip.completed"), "trip") == ["p", "2", "r"]
+    assert violations(living.events, {}) == []
+
+
+def test_an_item_aboard_is_not_sent_farther_than_the_battery_reaches() -> None:
+    living = Living(enterable(), apps.mission("a", apps.pick("p", 3), apps.release("r", 5)))
+    living.run(3.0)
+    living.navigation.bodies["cf1"].restore(
+        {**living.navigation.bodies["cf1"].data, "charge": [0.25, 3.0, -1 / 420]}
+    )
+    item = living.life.recorder.records.missions["a"]["todo"][-1]["item"]
+    with pytest.raises(BadInput, match=r"cf1 has 25 % in its battery, and needs \d+ % for what it"):
+        change(living, {**trip("r", 18), "action": "release_item", "item": item})
+
+
+def test_an_app_of_an_older_seam_is_told_that_it_cannot(monkeypatch: pytest.MonkeyPatch) -> None:
+    living = Living(enterable(), three_trips())
+    living.run(3.0)
+    monkeypatch.setattr(living.app.brain, "SEAM", (3, 2))
+    with pytest.raises(BadInput) as refusal:
+        change(living, trip("3", 4))
+    assert str(refusal.value) == (
+        "tested speaks seam 3.2, and trips can be changed in flight from 3.3 on: compile it anew"
+    )

@@ -1,0 +1,104 @@
+"""Drones that join the fleet while missions are under way."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from pluto_fleet.gateway.settings import joining_data
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.simulation.body import simulated
+from pluto_fleet.trials.invariants import violations
+
+from . import apps
+from .living import Living, enterable, names
+
+NEW: dict[str, Any] = {"id": "cf9", "category": "scout", "home": [2.0, 8.0]}
+
+
+def long(name: str) -> apps.Mission:
+    return apps.mission(name, *(apps.trip(str(n), 3 + n) for n in range(3)))
+
+
+def join(living: Living, entry: dict[str, Any] = NEW) -> str:
+    """Have a drone join, as a flight does: the gateway has it first."""
+    life = living.life
+    fleet = life.control.fleet_with(entry)
+    joining = joining_data(simulated(living.app, fleet)[-1], None)
+    assert living.gateway.join(joining) == ""
+    return life.control.join(entry)
+
+
+def test_a_drone_that_joins_flies_what_waits() -> None:
+    living = Living(enterable(), long("a"), long("b"))
+    living.at(3.0, lambda: join(living))
+    assert living.run() == ["COMPLETED", "COMPLETED"]
+    assert {one["drone"] for one in living.named("trip.launched")} == {"cf1", "cf9"}
+    assert names(living.named("drone.joined"), "drone") == ["cf9"]
+    assert [drone.id for drone in living.life.drones] == ["cf1", "cf9"]
+    assert violations(living.events, {}) == []
+
+
+def test_a_drone_that_has_joined_is_there_in_every_later_life() -> None:
+    living = Living(enterable(), long("a"), long("b"))
+    living.at(3.0, lambda: join(living))
+    living.crash(9.0)
+    assert living.run() == ["COMPLETED", "COMPLETED"]
+    assert [drone.id for drone in living.life.drones] == ["cf1", "cf9"]
+    assert "cf9" in names(living.named("trip.completed"), "drone")
+    assert violations(living.events, {}) == []
+
+
+def test_a_drone_that_has_joined_can_be_the_one_that_carries() -> None:
+    """And its mission goes on with it, also after a pause."""
+    mission = apps.mission("a", apps.pick("p", 3), apps.release("r", 15))
+    living = Living(enterable(), long("b"), mission)
+    living.at(1.0, lambda: join(living))
+    living.at(20.0, lambda: living.life.control.pause("a"))
+    living.at(60.0, lambda: living.life.control.go_on("a"))
+    assert living.run() == ["COMPLETED", "COMPLETED"]
+    carried = [one for one in living.named("trip.completed") if one["mission"] == "a"]
+    assert names(carried, "drone") == ["cf9", "cf9"]
+    assert len(living.named("mission.paused")) == 1
+    assert violations(living.events, {}) == []
+
+
+def test_a_drone_that_cannot_join_is_told_why() -> None:
+    living = Living(enterable(), long("a"))
+    with pytest.raises(BadInput, match="the drones are just being asked where they are"):
+        join(living)
+    living.run(3.0)
+    for wrong, why in (
+        ({"id": "cf1"}, 'drone "cf1": there is another drone "cf1": names must differ'),
+        ({"category": "whale"}, 'drone "cf9": unknown category "whale"; this app has: scout'),
+        ({"home": [99.0, 1.0]}, 'drone "cf9": home (99, 1) is outside the map'),
+        ({"home": [0.5, 0.52]}, 'drone "cf9": home is where drone "cf1" has its own'),
+        ({"home": [2.0, 8.0, 1.0]}, 'drone "cf9": a drone that joins has its dock on the ground'),
+        ({"home": [1.0]}, 'drone "cf9": home'),
+        ({"wings": 2}, 'drone "cf9": unknown key "wings"'),
+        ({"id": 7}, "drone 2: id 7"),
+    ):
+        with pytest.raises(BadInput) as refusal:
+            join(living, {**NEW, **wrong})
+        assert str(refusal.value).startswith(why), refusal.value
+    assert living.run() == ["COMPLETED"]
+    assert living.named("drone.joined") == []
+
+
+def test_what_is_no_drone_does_not_break_a_gateway() -> None:
+    living = Living(enterable(), long("a"))
+    living.run(3.0)
+    assert living.gateway.join({"drone": 7}).startswith("that is no drone: KeyError")
+    assert living.gateway.join({"drone": {"id": "x"}, "real": None}).startswith("that is no drone")
+
+
+def test_an_older_app_is_told_that_no_drone_can_join_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    living = Living(enterable(), long("a"))
+    living.run(3.0)
+    monkeypatch.setattr(living.app.brain, "SEAM", (3, 2))
+    with pytest.raises(BadInput) as refusal:
+        join(living)
+    assert str(refusal.value) == (
+        "tested speaks seam 3.2, and drones can join from 3.3 on: compile it anew"
+    )

@@ -1,0 +1,122 @@
+"""Each kind of alert arises from what the pages are shown, says why, and ends with its reason."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pluto_fleet.station.attention.causes import (
+    Cause,
+    of_batteries,
+    of_drones,
+    of_missions,
+    of_results,
+    of_waiting,
+)
+from pluto_fleet.station.attention.waits import LONG, Waits
+
+from .lists import Listed, drone, mission, result
+
+LOW, CHARGED = drone("cf3", "LOW", ready_in=250.0), drone("cf3", "FREE")
+
+
+@pytest.mark.parametrize(
+    ("causes", "none", "told"),
+    [
+        (
+            of_drones([drone("cf1", "LOST", "its link was lost")], ()),
+            of_drones([drone("cf1", "FREE")], ()),
+            {"kind": "lost", "urgent": True, "drone": "cf1", "x": 1.0, "y": 2.0},
+        ),
+        (
+            of_drones([drone("cf1", "LOST", "cf1 hit a wall")], ["cf1"]),
+            of_drones([drone("cf1", "UNKNOWN")], ["cf1"]),
+            {"kind": "crashed", "urgent": True, "drone": "cf1"},
+        ),
+        (
+            of_batteries([LOW], True),
+            of_batteries([CHARGED], True),
+            {"kind": "battery", "urgent": False, "drone": "cf3"},
+        ),
+        (
+            of_missions([mission("N", "UNCERTAIN", "Did it let go?", answers=["done"])]),
+            of_missions([mission("N", "RUNNING")]),
+            {"kind": "uncertain", "urgent": True, "mission": "N", "x": 3.0, "y": 4.0},
+        ),
+        (
+            of_missions([mission("N", "FAILED", "no drone can do it", at="end")]),
+            of_missions([mission("N", "UNEXECUTED")]),
+            {"kind": "failed", "urgent": False, "mission": "N"},
+        ),
+        (
+            of_missions([mission("N", late=True)]),
+            of_missions([mission("N", "COMPLETED", late=True, at="end")]),
+            {"kind": "late", "mission": "N"},
+        ),
+        ([of_waiting(9, [LOW], 0.5)], [], {"kind": "waiting", "mission": None, "drone": None}),
+    ],
+    ids=["lost", "crashed", "battery", "uncertain", "failed", "late", "waiting"],
+)
+def test_an_alert_lasts_as_long_as_its_reason(
+    causes: Iterable[Cause], none: Iterable[Cause], told: dict[str, Any], tmp_path: Path
+) -> None:
+    listed = Listed(tmp_path / "attention.json")
+    assert listed.look([]) == []
+    [alert] = listed.look(causes)
+    assert told.items() <= alert.items()
+    assert (alert["since_at"], alert["by"], alert["over"]) == (2000, None, False)
+    assert alert["said"]["key"] == f"alert.{told['kind']}" and alert["said"]["text"]
+    assert listed.look(none) == []
+
+
+def test_a_finding_lasts_until_a_person_knows_of_it(tmp_path: Path) -> None:
+    listed = Listed(tmp_path / "attention.json")
+    found = [result(4, "bloom", "pest")]
+    [alert] = listed.look(of_results(found))
+    assert (alert["kind"], alert["x"], alert["y"], alert["drone"]) == ("finding", 5.0, 6.0, "cf1")
+    assert alert["said"]["text"] == 'bloom, pest: found by "North" at Bed 3'
+    assert alert["said"]["facts"]["tags"] == ["bloom", "pest"]
+    listed.attention.acknowledge(alert["id"], "Ana")
+    assert listed.look(of_results(found)) == []
+    assert listed.look(of_results([*found, result(5, "bloom")]))[0]["said"]["facts"]["number"] == 5
+
+
+def test_why_all_wait_is_said_in_total() -> None:
+    drones = [drone(f"cf{n}", "LOW", ready_in=250.0 + n) for n in range(27)]
+    drones += [drone("cf30", "BUSY"), drone("cf31", "LOST"), drone("cf32", "CHARGING")]
+    cause = of_waiting(109, drones, 0.5)
+    assert cause is not None
+    assert cause.said["text"] == (
+        "109 missions wait: 27 drones are below 50 %, the first is ready in about 4 min,"
+        " 1 charging, 1 lost, 1 flying"
+    )
+    facts = {"missions": 109, "low": 27, "takes": 0.5, "ready_in": 250.0, "lost": 1, "flying": 1}
+    assert facts.items() <= cause.said["facts"].items()
+    assert of_waiting(109, [drone("cf1", "BUSY"), drone("cf2", "FREE")], None) is None
+
+
+def test_a_battery_that_does_not_charge_says_where_to_look() -> None:
+    [cause] = of_batteries([drone("cf3", "LOW")], True)
+    assert cause.said["text"] == (
+        "the battery of cf3 is too low for what waits; it does not charge:"
+        " look whether it stands in its dock"
+    )
+    [cause] = of_batteries([drone(f"cf{n}", "LOW", ready_in=30.0) for n in range(5)], True)
+    assert cause.said["text"] == (
+        "the batteries of cf0, cf1, cf2 and 2 more are too low for what waits;"
+        " the first is ready in about 30 s"
+    )
+    assert list(of_batteries([drone("cf3", "LOW")], False)) == []
+
+
+def test_one_waits_for_long_in_the_time_of_its_flight() -> None:
+    waits = Waits()
+    waiting = [mission(name, wait="waits for a drone (2 flying)") for name in "ab"]
+    assert waits.look(waiting[:1], 10.0) == 0 and waits.any
+    assert waits.look(waiting, 9.0 + LONG) == 0
+    assert waits.look(waiting, 10.0 + LONG) == 2
+    assert waits.look([mission("a"), waiting[1]], 11.0 + LONG) == 0
+    assert waits.look([mission("a"), mission("b", wait="paused")], 12.0) == 0 and not waits.any
