@@ -24,7 +24,7 @@ const OWN_KEYS = "input, select, textarea, svg.floor-picture, [role=tablist], [r
 
 /** @param {string} flight */
 const partsOf = (flight) => (/** @type {number} */ from) =>
-  get(`/api/flights/replay?flight=${encodeURIComponent(flight)}&from=${from}`, PATIENCE);
+  get(`/api/flights/replay?flight=${encodeURIComponent(flight)}&start=${from}`, PATIENCE);
 
 /**
  * The replay of a flight by its id, or of a rehearsal: `rehearsal-…`.

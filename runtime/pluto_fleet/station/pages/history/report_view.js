@@ -26,7 +26,7 @@ export function ReportView({ flight }) {
   const query = `?flight=${encodeURIComponent(flight)}`;
   const report = /** @type {Asked<FlightReport>} */ (useAsked(`/api/flights/report${query}`));
   const results = /** @type {Asked<Result[]>} */ (useAsked(`/api/results.json${query}`));
-  const replay = /** @type {Asked<Replay>} */ (useAsked(`/api/flights/replay${query}&from=0`));
+  const replay = /** @type {Asked<Replay>} */ (useAsked(`/api/flights/replay${query}&start=0`));
   const model = useMemo(() => {
     const world = new World();
     world.results.replace(results.data ?? []);
