@@ -9,25 +9,28 @@ import { world } from "./station.js";
 
 /** @import { MapData } from "../wire" */
 
+const AGAIN = 3000; // ms
+
 export const landmarks = signal(/** @type {MapData | null} */ (null));
 
-let isLoading = false;
-async function load() {
-  if (isLoading) return;
-  isLoading = true;
+let asked = -1; // the revision that was asked for last
+/** @param {number} revision */
+async function load(revision) {
+  if (asked === revision) return;
+  asked = revision;
   try {
     landmarks.value = await get("/api/map");
   } catch (error) {
-    if (!(error instanceof StationError)) throw error; // asked again with the next message
+    if (!(error instanceof StationError)) throw error;
+    setTimeout(() => { asked = -1; }, AGAIN);
   }
-  isLoading = false;
 }
 
 /** Know the map as it is, and as others change it. */
 export function followMap() {
   effect(() => {
     const { known, map } = world.state.value;
-    if (known && (landmarks.peek() === null || landmarks.peek()?.revision !== map)) load();
+    if (known && landmarks.peek()?.revision !== map) load(map);
   });
 }
 

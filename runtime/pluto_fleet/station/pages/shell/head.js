@@ -30,6 +30,7 @@ export function Head() {
     h("h1", { class: "title" }, app.value?.title ?? "Pluto"),
     h(Pages, null),
     h(Standing, null),
+    h(Liveness, null),
     h(Why, null),
     h("div", { class: "fly", role: "group", "aria-label": t("start.group") },
       h(AttentionButton, null), h(StartButtons, null), h(Stops, null)));
@@ -43,11 +44,16 @@ const Pages = () => h(Tabs, {
 function Standing() {
   const { known, phase, time } = world.state.value;
   const [kind, icon] = PHASES[phase];
-  const { sim = false, speed = 1 } = app.value ?? {};
   return h("div", { class: "standing" },
     h("span", { role: "status" }, known
       ? h(Chip, { kind, icon }, t(`phase.${phase}`)) : h(Chip, { icon: "wait" }, t("phase.unknown"))),
-    (isFlying(phase) || time > 0) && h("span", { class: "num" }, clock(time)),
+    (isFlying(phase) || time > 0) && h("span", { class: "num" }, clock(time)));
+}
+
+/** Whether what is seen is simulated, saved, and of now. */
+function Liveness() {
+  const { sim = false, speed = 1 } = app.value ?? {};
+  return h("div", { class: "liveness" },
     sim && h(Chip, null, speed === 1 ? t("simulated") : t("simulated.at", { speed })),
     plan.trouble.value && h(Chip, { kind: "warn" }, t("plan.unsaved")),
     h(Age, null));

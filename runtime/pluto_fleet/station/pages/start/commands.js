@@ -71,11 +71,17 @@ export const mayStop = computed(() => {
   return mayFly.value && (!known || line.isLost.value || isFlying(phase));
 });
 
+/** A text, and the shorter one that is shown instead where there is little room. @param {{ text: string, short: string }} props */
+const Wide = ({ text, short }) => [
+  h("span", { key: "text", class: "wide-only" }, text), h("span", { key: "short", class: "narrow-only" }, short)];
+
 export function Stops() {
   const disabled = !mayStop.value;
   return h("div", { class: "stops", role: "group", "aria-label": t("stops") },
-    h(Button, { kind: "danger", icon: "home", disabled, onClick: () => { stop("rtl"); } }, t("stop.home")),
-    h(Button, { kind: "danger", icon: "land", disabled, onClick: () => { stop("land"); } }, t("stop.land")));
+    h(Button, { kind: "danger", icon: "home", disabled, label: t("stop.home"), onClick: () => { stop("rtl"); } },
+      h(Wide, { text: t("stop.home"), short: t("stop.home-short") })),
+    h(Button, { kind: "danger", icon: "land", disabled, label: t("stop.land"), onClick: () => { stop("land"); } },
+      h(Wide, { text: t("stop.land"), short: t("stop.land-short") })));
 }
 
 export function StartButtons() {

@@ -239,6 +239,8 @@ export default {
   "put-away": "Put away",
   "stop.home": "Stop: fly home",
   "stop.land": "Stop: land now",
+  "stop.home-short": "Fly home",
+  "stop.land-short": "Land now",
   "stop.trying": "Stop has not reached the station yet: trying again. If it is urgent, use the drones' own switches.",
   "stop.failed": "Stop did not reach the station. If it is urgent, use the drones' own switches.",
 

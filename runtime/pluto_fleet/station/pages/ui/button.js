@@ -14,6 +14,7 @@ import { Icon } from "./icon.js";
  * @property {IconName} [icon]
  * @property {boolean} [small]
  * @property {string} [title]
+ * @property {string} [label] its name, where that is longer than what it shows
  * @property {boolean} [disabled]
  * @property {string | null} [why] why it cannot be pressed: it can be reached, and says so
  * @property {(event: MouseEvent) => void} [onClick]
@@ -26,11 +27,11 @@ import { Icon } from "./icon.js";
 
 /** @param {ButtonProps} props */
 export function Button({
-  kind = "", icon, small, title, disabled, why, onClick, type = "button", class: more = "", pressed,
+  kind = "", icon, small, title, label, disabled, why, onClick, type = "button", class: more = "", pressed,
   expanded, children,
 }) {
   return h("button", {
-    type, title, disabled, class: `button ${kind} ${small ? "small" : ""} ${more}`,
+    type, title, disabled, "aria-label": label, class: `button ${kind} ${small ? "small" : ""} ${more}`,
     "aria-disabled": why ? "true" : undefined, "aria-pressed": pressed, "aria-expanded": expanded,
     onClick: why ? undefined : onClick,
   }, icon && h(Icon, { name: icon }), children && h("span", null, children));
