@@ -33,7 +33,10 @@ A_STEP = 30_000
 
 expect.set_options(timeout=A_STEP)
 
-APPS = ("drugs_distribution", "alfalfa", "drugs_distribution_retry", "night_ward")
+APPS = (
+    *("drugs_distribution", "alfalfa", "drugs_distribution_retry", "night_ward"),
+    *("aerial_mapping", "pm10"),
+)
 
 
 class Serve(Protocol):

@@ -115,6 +115,13 @@ test("of two instants that were asked for, the later asked one is shown", async 
   assert.deepEqual(shown(replayer.world), expected(65));
 });
 
+test("a part that does not hold what was asked for is told, and not asked for again and again", async () => {
+  const { fetchPart } = station(30);
+  const replayer = new Replayer(new World(), () => fetchPart(0));
+  await replayer.open();
+  await assert.rejects(replayer.seek(95), /from 90 s on/);
+});
+
 test("a recording of nothing shows nothing, and waits for nothing", async () => {
   const empty = { flight: "f", begun_at: null, recorded: false, said: "", seconds: 0, frames: [], next: null, log: [], results: [], alerts: [], batteries: {} };
   const replayer = new Replayer(new World(), async () => empty);

@@ -122,6 +122,7 @@ export class Replayer {
     while (!this.show(t)) {
       from = Math.max(from, this.reached(from));
       await this.fetch(from);
+      if (!this.having(from)) throw new Error(`the part from ${from} s on does not hold that instant`);
       if (asked !== this.asked) return false;
     }
     return true;

@@ -46,7 +46,7 @@ const Clock = ({ playback, seconds }) => h("span", { class: "num replay-clock" }
 function Slider({ playback, seconds }) {
   const time = playback.time.value;
   return h("input", {
-    type: "range", class: "scrubber", min: 0, max: seconds, step: 0.1, value: time, "aria-label": t("history.time"),
+    type: "range", class: "scrubber", min: 0, max: seconds, step: 0.001, value: time, "aria-label": t("history.time"),
     "aria-valuetext": t("history.time-of", { time: clock(time), all: clock(seconds) }),
     onInput: (/** @type {Event} */ { currentTarget }) =>
       playback.set(Number(/** @type {HTMLInputElement} */ (currentTarget).value)),

@@ -6,11 +6,14 @@ import { t } from "../core/i18n.js";
 import { pictureAt } from "../map/ground.js";
 import { Button, IconButton } from "../ui/button.js";
 import { placeOf } from "./layers.js";
+import { revealBeside } from "./reveal.js";
 import { sharpnessWords, tagWords, valueWords, whatWords } from "./words.js";
 
 /** @import { Result } from "../wire" */
 /** @import { Camera } from "../map/camera.js" */
 /** @import { ResultsModel } from "./model.js" */
+
+const CLOSE = 80; // pixels a metre, at which a photo is seen
 
 /** What is known of a result, as pairs of a name and its words. @param {Result} result @returns {[string, string][]} */
 export function facts(result) {
@@ -56,6 +59,6 @@ export function ResultCard({ model, camera, onConsole, consoleWords }) {
     h(Facts, { result }),
     h("div", { class: "row" },
       photo && h(Button, { small: true, icon: "photo", onClick: () => { model.opened.value = result.number; } }, t("results.open-photo")),
-      point && h(Button, { small: true, icon: "map", onClick: () => camera.reveal(point[0], point[1], 60) }, t("results.show-on-map")),
+      point && h(Button, { small: true, icon: "map", onClick: () => revealBeside(camera, point[0], point[1], CLOSE) }, t("results.show-on-map")),
       h(Button, { small: true, icon: "list", onClick: () => onConsole(result) }, consoleWords)));
 }

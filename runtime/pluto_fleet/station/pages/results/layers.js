@@ -76,7 +76,8 @@ export function shownLayers(layers, results) {
     for (const id of result.layers) byLayer.get(id)?.push(result);
   }
   return layers.flatMap((layer) => {
-    const mine = byLayer.get(layer.id) ?? [];
+    const all = byLayer.get(layer.id) ?? [];
+    const mine = layer.kind === "findings" ? all.filter(({ tags }) => tags.length) : all;
     const isNumbers = layer.kind === "heat" || layer.kind === "values";
     if (!isNumbers || layer.quantity !== null) return [shown(layer, mine)];
     const isRest = layers.some(({ action, id }) => action === layer.action && id !== layer.id);

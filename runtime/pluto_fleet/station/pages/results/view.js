@@ -22,6 +22,7 @@ import { ResultsModel } from "./model.js";
 import { PhotoLayer } from "./photo_layer.js";
 import { PhotosTab, Viewer } from "./photos_tab.js";
 import { MapLabels, PinLayer } from "./pin_layer.js";
+import { revealBeside } from "./reveal.js";
 import { TableTab } from "./table_tab.js";
 import { VerdictsTab } from "./verdicts_tab.js";
 import { layerWords, placeWords, valueWords, whatWords, withUnit } from "./words.js";
@@ -52,7 +53,7 @@ export function ResultsView({ world, flight, onConsole, consoleWords }) {
   const choose = (number, near) => {
     model.chosen.value = number;
     const place = placeOf(/** @type {Result} */ (model.find(number)));
-    if (near && place) camera.reveal(place[0], place[1]);
+    if (near && place) revealBeside(camera, place[0], place[1]);
   };
   return h("div", { class: `results ${tab === "table" && !isEmpty ? "wide-rail" : ""}` }, h(MapSplit, {
     stage: [
