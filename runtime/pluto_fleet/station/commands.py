@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..flight.mishaps import KINDS
+from ..jobs.job import MISHAPS
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 
@@ -63,8 +63,8 @@ def checked(name: str, given: Mapping[str, object]) -> dict[str, object]:
         raise Malformed(f"{name} needs missions: the keys of missions of the plan, or null")
     if name == "stop" and arguments["how"] not in HOWS:
         raise Malformed('stop needs how: "rtl", all fly home first, or "land", where they are')
-    if name == "mishap" and arguments["kind"] not in KINDS:
-        raise Malformed(f"mishap needs kind: one of {', '.join(KINDS)}")
+    if name == "mishap" and arguments["kind"] not in MISHAPS:
+        raise Malformed(f"mishap needs kind: one of {', '.join(MISHAPS)}")
     priority = arguments.get("priority")
     if isinstance(priority, int) and abs(priority) > LARGEST:
         raise Malformed(f"a priority is no more than {LARGEST}")

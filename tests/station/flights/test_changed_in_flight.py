@@ -86,7 +86,12 @@ def test_the_same_can_be_commanded_once(serve: Serve) -> None:
     _, mission = drawn(station)
     b, c = mission["trips"][1:]
     trips = [{**c, "target": [14.0, 8.5]}, b]
-    asked = {"id": "the-same", "mission": FIRST, "trips": trips, "replaces": ["B", "C"]}
+    asked: dict[str, object] = {
+        "id": "the-same",
+        "mission": FIRST,
+        "trips": trips,
+        "replaces": ["B", "C"],
+    }
     first, again = (station.post("/api/change-trips", asked) for _ in range(2))
     assert first == again == (200, {"said": '"Mission 1": what has not flown is changed'})
     assert [one["name"] for one in drawn(station)[1]["trips"]] == ["A", "C", "B"]
@@ -143,3 +148,17 @@ def test_a_crash_and_a_question_are_rehearsed(serve: Serve) -> None:
     until(lambda: drone(station, other)["status"] == "LOST", "it is lost")
     assert refused(station, "mishap", drone=other, kind="rain")[0] == 400
     assert [one["kind"] for one in events(station, "drone.mishap")] == ["uncertain", "crash"]
+
+
+def test_a_crazyflie_that_is_flown_as_a_real_one_joins(serve: Serve) -> None:
+    """Simulated down to its radio: it is connected like any other; mishaps are not for it."""
+    station = flying(serve("drugs_distribution", "--crtp-sim", "2"))
+    category = station.get("/api/app")["drones"][0]["category"]
+    why = refused(station, "mishap", drone="cf1", kind="crash")[1]
+    assert why == "mishaps happen to drones that --sim simulates, and to no others"
+    tell(station, "join", drone="cf9", category=category, home=[10.0, 4.0])
+    joins = ("OFFLINE", "RECOVERING")
+    until(lambda: drone(station, "cf9")["status"] not in joins, "cf9 is connected")
+    assert drone(station, "cf9")["status"] in ("FREE", "BUSY")
+    tell(station, "stop", how="land")
+    comes_to(station, "stopped")

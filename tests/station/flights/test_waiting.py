@@ -30,7 +30,7 @@ def far(name: str, **more: Any) -> apps.Mission:
 def looking(fleet: Living) -> WaitReasons:
     """Return the reasons at the beginning of a sample."""
     waiting = WaitReasons(fleet.app, fleet.fleet, lambda: 0.0)
-    waiting.look(fleet.life.brain)
+    waiting.look(fleet.life.brain, fleet.fleet)
     return waiting
 
 
@@ -98,6 +98,6 @@ def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
     fleet = living(*[far(f"m{n}") for n in range(3 * MISSIONS_A_LOOK)], low=0.25)
     waiting, missions, seen = looking(fleet), fleet.life.records.missions.items(), list[int]()
     for _ in range(4):
-        waiting.look(fleet.life.brain)
+        waiting.look(fleet.life.brain, fleet.fleet)
         seen.append(sum(bool(waiting.why(name, one["todo"])) for name, one in missions))
     assert seen == [MISSIONS_A_LOOK, 2 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK]

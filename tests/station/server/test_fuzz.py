@@ -104,6 +104,9 @@ class WithAPlan:
     def described(self) -> Mapping[str, object]:
         return self.rest.described
 
+    async def edit(self, revision: int, missions: object, /) -> None:
+        self.plan.replace(revision, missions)
+
     async def command(self, name: str, id: str, given: Mapping[str, object], /) -> str:
         return await self.rest.command(name, id, given)
 
