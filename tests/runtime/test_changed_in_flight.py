@@ -217,6 +217,7 @@ def test_whatever_is_changed_each_trip_that_is_left_is_flown_once(strikes: list[
                 dead.append(float(when))
         else:
             living.at(when, partial(strike, what, chance))
+    living.at(200.0, lambda: goes_on(living))  # if the app was dead before
     assert living.run() == ["COMPLETED", "COMPLETED"]
     done = names([one for one in living.named("trip.completed") if one["mission"] == "a"], "trip")
     assert len(done) == len(set(done))

@@ -16,6 +16,7 @@ from .feed import VersionedRows
 from .session import phase_of
 
 if TYPE_CHECKING:
+    from ..files.fleet import FleetFile
     from .between_flights import FleetHistory
     from .plan.plan import MissionPlan
     from .session import FlightSession
@@ -34,6 +35,7 @@ class StationState(Protocol):
     """The data of a station that pages show."""
 
     described: dict[str, object]
+    fleet: FleetFile
     session: FlightSession | None
     plan: MissionPlan
     history: FleetHistory
@@ -117,6 +119,7 @@ class Updates:
                 "phase": phase_of(session).value,
                 "journal": str(session.journal) if session is not None else None,
                 "plan": self._station.plan.revision,
+                "fleet": len(self._station.fleet.drones),
                 "said": (session.trouble if session is not None else "")
                 or self._station.plan.trouble,
                 "how": how.value if how is not None else None,

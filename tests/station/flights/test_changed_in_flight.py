@@ -108,9 +108,11 @@ def test_a_drone_joins_and_stays(serve: Serve) -> None:
     """In the fleet that the pages show, in the journal that is resumed, and in the next flight."""
     station = flying(serve("drugs_distribution", *SLOW))
     cf9 = {"drone": "cf9", "category": "scout", "home": [10.0, 4.0]}
-    category = station.get("/api/app")["drones"][0]["category"]
+    drones = station.get("/api/app")["drones"]
+    category = drones[0]["category"]
     cf9["category"] = category
     assert tell(station, "join", **cf9) == "cf9 joins the fleet"
+    until(lambda: station.now()["state"]["fleet"] == len(drones) + 1, "the pages are told")
     shown = {"id": "cf9", "category": category, "home": [10.0, 4.0, 0.0]}
     assert station.get("/api/app")["drones"][-1] == shown
     until(lambda: drone(station, "cf9")["status"] != "OFFLINE", "cf9 is asked how it is")
