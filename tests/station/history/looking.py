@@ -6,7 +6,7 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any
 
-from tests.station.browser.serving import PATIENCE, Station, until
+from tests.station.browser.serving import Station, until
 
 ENDS = ("over", "stopped", "interrupted")
 
