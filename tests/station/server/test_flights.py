@@ -30,16 +30,17 @@ def test_a_flight_that_is_not_there_is_not_found(path: str) -> None:
 
 
 def test_files_of_a_flight_are_downloaded() -> None:
-    """The console and the results without an id are those of the flight of now."""
+    """The console and the results without an id, or an empty one, are those of the flight of now."""
     ask = asked()
     for path, body in (("/api/flights/mcap", b"one"), ("/api/console.txt", b"one")):
         reply = ask("GET", path, flight="one")
         assert (reply.status, reply.body) == (200, body)
         assert dict(reply.headers)["Content-Disposition"].startswith("attachment")
     assert ask("GET", "/api/console.txt").body != b"one"
+    assert ask("GET", "/api/console.txt", flight="").body != b"one"
 
 
-@pytest.mark.parametrize("start", ["-1", "nan", "inf", "x", "", "1" * 99, "٣"])
+@pytest.mark.parametrize("start", ["-1", "nan", "inf", "x", "1" * 99, "٣"])
 def test_a_time_that_is_none_is_refused(start: str) -> None:
     reply = asked()("GET", "/api/flights/replay", b"", None, flight="one", **{"from": start})
     assert reply.status == 400
@@ -49,6 +50,8 @@ def test_a_time_that_is_none_is_refused(start: str) -> None:
 def test_a_part_is_asked_for_by_its_time() -> None:
     reply = asked()("GET", "/api/flights/replay", b"", None, flight="one", **{"from": "12.5"})
     assert json.loads(reply.body)["from"] == 12.5
+    first = asked()("GET", "/api/flights/replay", b"", None, flight="one", **{"from": ""})
+    assert json.loads(first.body)["from"] == 0.0
 
 
 def test_lists_need_no_id() -> None:

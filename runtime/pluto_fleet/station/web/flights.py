@@ -59,7 +59,7 @@ class ServedFlights(Protocol):
 
 def is_of_flights(path: str, query: Mapping[str, str]) -> bool:
     """Whether a request is about flights of the past."""
-    return path in ADDRESSES or (path in ALSO and "flight" in query)
+    return path in ADDRESSES or (path in ALSO and query.get("flight", "") != "")
 
 
 async def read_flights(flights: ServedFlights, path: str, query: Mapping[str, str]) -> Reply:
@@ -99,7 +99,7 @@ def _download(reply: Reply, name: str) -> Reply:
 
 
 def _seconds(query: Mapping[str, str]) -> float:
-    text = query.get("from", "0")
+    text = query.get("from") or "0"
     try:
         seconds = float(text) if len(text) <= _LONGEST_NUMBER and text.isascii() else -1.0
     except ValueError:
