@@ -122,6 +122,7 @@ async def _serve(
             station.leave()
             await leaves
             await server
+        await station.recorded()
 
 
 def _guard(options: Options, config: StationConfig, port: int) -> Guard:

@@ -31,6 +31,10 @@ class VersionedRows:
         self._rows[name] = number, row, json.dumps(row)
         return True
 
+    def rows(self) -> list[Any]:
+        """Return all rows; one that has not changed is the same object as before."""
+        return [row for _, row, _ in self._rows.values()]
+
     def since(self, number: int) -> Iterator[str]:
         """Yield the rows that have changed after a version."""
         return (text for changed, _, text in self._rows.values() if changed > number)

@@ -25,6 +25,8 @@ from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
 from .between_flights import IdleDrones
 from .feed import UNITS, Feed, VersionedRows
+from .history.folder import recording_of
+from .history.recorder import Recorder
 from .plan.missing import settled
 from .plan.shape import BROKEN_OFF
 from .wait_reasons import WaitReasons
@@ -101,6 +103,10 @@ class FlightSession:
         self._idle = IdleDrones(flight.fleet.drones, flight.journal)
         self._waiting = WaitReasons(flight.app, flight.fleet, time.monotonic)
         self._left_at = 0.0
+        self.recorder: Recorder | None = None
+        """Records what pages are shown, from its begin on until its end."""
+        self._said = 0
+        """The lines of the console that are in no journal."""
         self._read_at: int | None = None
         """The journal's modification time when it was last read."""
 
@@ -162,8 +168,24 @@ class FlightSession:
     def begin(self, store: Store, known: Recovered | None) -> None:
         """Run it, from its beginning or from its records."""
         self.end, self.trouble, self.stops = None, "", Stops()
+        self._record()
         self.task = asyncio.create_task(self._live(store, known))
         self.task.add_done_callback(lambda _: self._ended())
+
+    def _record(self) -> None:
+        """Begin to record what is shown, or go on with it."""
+        loop = asyncio.get_running_loop()
+
+        def troubled(text: str) -> None:
+            with suppress(RuntimeError):  # the loop is closed: the station has ended
+                loop.call_soon_threadsafe(self._say, text)
+
+        self.recorder = Recorder(
+            recording_of(self.journal),
+            begun_at=round(time.time() * 1000),
+            speed=self.flight.speed,
+            troubled=troubled,
+        )
 
     async def _live(self, store: Store, known: Recovered | None) -> None:
         observer = FlightObserver(tell=self._hear, say=self._say, born=self._born, patient=True)
@@ -206,6 +228,10 @@ class FlightSession:
         self._say(text)
 
     def _say(self, text: str, kind: str = "bad") -> None:
+        if self.recorder is not None:
+            line = {"time": self.now, "text": text, "kind": kind}
+            self.recorder.tell(line, after=self.feed.log.last - self._said)
+        self._said += 1
         self.feed.say(self.now, text, kind)
 
     @property

@@ -28,6 +28,7 @@ from ..shared.domain.text import counted
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
+from .history.past import PastFlights
 from .plan.promised import broken, promised
 from .preflight.start import StartForecasts
 from .session import FlightSession, Phase, phase_of
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..app import App
+    from ..flight.fly import Recovered
     from ..shared.domain.model import Mission
     from .config import StationConfig
     from .plan.plan import MissionPlan
@@ -48,6 +50,9 @@ ANSWERS_KEPT = 1_000
 
 GATEWAY_ANSWERS_WITHIN = 5.0
 """The time-out of a gateway without a brain, in seconds."""
+
+RECORDED_WITHIN = 5.0
+"""Seconds that its end waits for a recording to be written."""
 
 LOOK_EVERY = 0.1
 """The polling interval of its end, in seconds."""
@@ -66,10 +71,14 @@ class Station:
         self._leaving = False
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._updates = Updates(self)
+        self._watching: asyncio.Future[None] | None = None
+        """Samples the flight while it lives."""
         self._one_at_a_time = asyncio.Lock()
         self.history = FleetHistory(app, config)
         """The drones' states while there is no flight."""
         self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
+        self.past = PastFlights(app, config, self._ours)
+        """The flights of the past."""
         self._before: Path | None = None
         """The folder of the last discarded flight's gateway, whose drones may still be landing."""
 
@@ -82,6 +91,10 @@ class Station:
     def phase(self) -> Phase:
         """The present phase."""
         return phase_of(self.session)
+
+    def _ours(self) -> Path | None:
+        """Return the journal that is written here, or may be at any moment."""
+        return self.session.journal if self.session is not None else None
 
     def begin(self, going_on: bool = False) -> None:
         """Show the unfinished flight of an earlier station or of `fly`, if any."""
@@ -263,7 +276,7 @@ class Station:
         known = Records()
         known.take(begun)
         self.session = FlightSession(flight, self._over, self._updates.hurry, known)
-        self.session.begin(store, None)
+        self._begin(self.session, store, None)
 
     def resume(self) -> str:
         """Resume a flight that was stopped or interrupted."""
@@ -275,8 +288,13 @@ class Station:
         taken = reopen(self._app, journal)
         clear_stop(taken.store.path)
         self.session.flight = taken.flight(self._config.speed)
-        self.session.begin(taken.store, taken.known)
+        self._begin(self.session, taken.store, taken.known)
         return "going on where it was"
+
+    def _begin(self, session: FlightSession, store: Store, known: Recovered | None) -> None:
+        """Let a flight begin, or go on, and be recorded."""
+        session.begin(store, known)
+        self._watching = asyncio.ensure_future(self._updates.watch(session))
 
     async def _discard(self) -> str:
         if self.phase not in (Phase.STOPPED, Phase.INTERRUPTED) or self.session is None:
@@ -377,6 +395,14 @@ class Station:
             self.history.leave(self.session.journal, self.session.records)
         if self._leaving:
             self.leaves.set()
+        if self.session is not None:  # at last, so that an error of the display keeps nothing back
+            self._updates.close(self.session)
+
+    async def recorded(self) -> None:
+        """Wait until what was shown of the last flight is recorded, but not for a disk that hangs."""
+        recorder = self.session.recorder if self.session is not None else None
+        if recorder is not None:
+            await asyncio.to_thread(recorder.wait, RECORDED_WITHIN)
 
     # What pages show
 

@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Protocol
 
 from .feed import VersionedRows
+from .history.recorder import Sample
 from .session import phase_of
 
 if TYPE_CHECKING:
@@ -30,6 +31,10 @@ ANSWER_WITHIN = 1.0
 """Seconds after which a page is answered even without changes."""
 
 
+RECORD_EVERY = 0.25
+"""The sampling interval in seconds of a flight at which no page looks."""
+
+
 class StationState(Protocol):
     """The data of a station that pages show."""
 
@@ -45,6 +50,8 @@ class Updates:
     def __init__(self, station: StationState) -> None:
         self._station = station
         self._number, self._state = 0, ""
+        self._now = 0.0
+        """The flight's time at the last sample, which is when all of it was so."""
         self.drones = VersionedRows()
         """The drones' rows while there is no flight."""
         self._tick: asyncio.Future[None] | None = None
@@ -74,6 +81,20 @@ class Updates:
             self._timer = loop.call_at(self._ticked_at + LOOK_EVERY, self._look)
         await asyncio.shield(self._tick)
 
+    async def watch(self, session: FlightSession) -> None:
+        """Sample a flight until it ends, so that it is recorded, whether or not a page looks."""
+        while session.lives:
+            await self._next_tick()
+            await asyncio.sleep(RECORD_EVERY)
+
+    def close(self, session: FlightSession) -> None:
+        """Sample once more a flight that has ended, and end its recording."""
+        try:
+            self._note_what_is_new()
+        finally:
+            if session.recorder is not None:
+                session.recorder.end()
+
     def hurry(self) -> None:
         """Sample soon: there is new telemetry.
 
@@ -99,6 +120,7 @@ class Updates:
     def _note_what_is_new(self) -> None:
         number = self._number + 1
         session, state = self._station.session, self._state_now()
+        self._now = round(session.now, 3) if session is not None else 0.0
         changed = state != self._state
         self._state = state
         if session is not None:
@@ -108,6 +130,15 @@ class Updates:
                 changed |= self.drones.put(str(row["id"]), row, number)
         if changed:
             self._number = number
+        if changed and session is not None and session.recorder is not None:
+            session.recorder.show(
+                Sample(
+                    t=self._now,
+                    state=json.loads(self._state),
+                    missions=session.missions.rows(),
+                    drones=session.drones.rows(),
+                )
+            )
 
     def _state_now(self) -> str:
         session = self._station.session
@@ -130,7 +161,7 @@ class Updates:
             "n": str(self._number),
             "made": str(round(time.time() * 1000)),
             "flight": json.dumps(session.id if session is not None else ""),
-            "state": f'{{"time": {session.now if session else 0.0:.3f}, {self._state[1:]}',
+            "state": f'{{"time": {self._now:.3f}, {self._state[1:]}',
             "missions": _listed(session.missions.since(seen) if session else ()),
             "drones": _listed((session or self).drones.since(seen)),
             "log": _listed(session.feed.log.since(log) if session else ()),

@@ -228,16 +228,22 @@ class Me(TypedDict):
     touches: str
 
 
+FlightEnd = Literal["flying", "stopped", "interrupted", "over", "unknown"]
+"""How a flight stands by its journal; unknown: that cannot be read, or not to its end."""
+
+
 class FlightSummary(TypedDict):
     """A flight of the past, by its journal."""
 
     id: str
-    begun_at: int
+    begun_at: int | None
+    """None: its journal cannot be read."""
     ended_at: int | None
     seconds: float
     by: str | None
-    simulated: bool
-    end: Phase
+    """Who started it, if that is known."""
+    simulated: bool | None
+    end: FlightEnd
     missions: int
     completed: int
     failed: int
@@ -248,6 +254,8 @@ class FlightSummary(TypedDict):
     lost: list[str]
     recorded: bool
     """Whether what the pages showed was recorded, so that the replay is what was seen."""
+    said: str
+    """What is wrong with its journal; empty: nothing."""
 
 
 class Frame(TypedDict):
@@ -257,13 +265,18 @@ class Frame(TypedDict):
     state: State
     missions: list[MissionRow]
     drones: list[DroneRow]
+    alerts: list[Alert]
 
 
 class Replay(TypedDict):
     """A part of a recording, from a keyframe on."""
 
     flight: str
-    begun_at: int
+    begun_at: int | None
+    recorded: bool
+    """Whether these frames are what was seen; else they are made of the journal's events."""
+    said: str
+    """What is missing, or not known; empty: nothing."""
     seconds: float
     """The length of the whole recording."""
     frames: list[Frame]
@@ -287,6 +300,97 @@ class DroneHours(TypedDict):
     cycles: float
     """Full charges, by what its battery gave."""
     lost: int
+    unmeasured: int
+    """Flights, among those, of which its hours and cycles are not known."""
+
+
+class ReportTrip(TypedDict):
+    """A trip in a report, as it was flown last."""
+
+    name: str
+    action: str
+    status: str
+    drone: str | None
+    attempts: int
+    began: float | None
+    ended: float | None
+    why: str
+
+
+class ReportMission(TypedDict):
+    """A mission in a report."""
+
+    name: str
+    status: str
+    why: str
+    began: float | None
+    """When its first trip was launched."""
+    ended: float | None
+    due: float | None
+    late: bool
+    rounds: int
+    trips: list[ReportTrip]
+
+
+class ReportResults(TypedDict):
+    """All results of one kind; the three numbers are there where each value is one."""
+
+    action: str | None
+    kind: str
+    quantity: str | None
+    unit: str | None
+    count: int
+    lowest: float | None
+    mean: float | None
+    highest: float | None
+
+
+class ReportDrone(TypedDict):
+    """What a drone did in a flight; None: that was not measured."""
+
+    id: str
+    trips: int
+    launched: int
+    hours: float | None
+    first_battery: float | None
+    lowest_battery: float | None
+    last_battery: float | None
+    lost: int
+
+
+class Incident(TypedDict):
+    """Something that did not go as planned, or that was found."""
+
+    time: float
+    kind: Literal["lost", "failed", "uncertain", "held", "late", "finding", "stopped"]
+    mission: str | None
+    drone: str | None
+    text: str
+
+
+class ReportCommand(TypedDict):
+    """What somebody commanded."""
+
+    time: float | None
+    """In the flight; None: only the station's log has it."""
+    at: int | None
+    command: str
+    given: dict[str, Scalar | None]
+    by: str | None
+    client: str | None
+    """The address from which it came."""
+    said: str
+
+
+class FlightReport(TypedDict):
+    """What is to be said of a flight on paper."""
+
+    flight: FlightSummary
+    missions: list[ReportMission]
+    results: list[ReportResults]
+    drones: list[ReportDrone]
+    incidents: list[Incident]
+    commands: list[ReportCommand]
 
 
 class Readiness(TypedDict):

@@ -58,21 +58,23 @@ def members(file: BinaryIO, begins: int = 0) -> Iterator[Member]:
         begins = ends
 
 
-def whole_part(path: Path) -> tuple[int | None, list[bytes]]:
-    """Return how many bytes of a file to keep, and the lines of a last member that was cut off.
+def kept(path: Path) -> tuple[int | None, list[bytes], list[bytes]]:
+    """Return how many bytes of a file to keep, the lines to write anew, and the last lines of both.
 
-    The number is None if there is no such file.
+    Those to write anew are of a last member that was cut off. The number is None if there is no
+    such file.
     """
     try:
         with path.open("rb") as file:
-            ends = 0
+            ends, last = 0, list[bytes]()
             for member in members(file):
+                last = member.lines or last
                 if member.torn:
-                    return member.begins, [line + b"\n" for line in member.lines]
+                    return member.begins, [line + b"\n" for line in member.lines], last
                 ends = member.ends
-            return ends, []
+            return ends, [], last
     except FileNotFoundError:
-        return None, []
+        return None, [], []
 
 
 def _lines(text: bytearray) -> list[bytes]:

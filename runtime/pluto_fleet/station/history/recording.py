@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import json
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from .members import GZIP, whole_part
+from .members import GZIP, kept
 
 SUFFIX = ".recording"
 """The end of a recording's name; that of a flight is beside its journal."""
@@ -70,9 +70,13 @@ class Recording:
         self._pending: list[bytes] = []
         self._key_at = self._line_at = 0.0
         self._member: Any = None
+        self._is_whole = True
+        """Whether all could be written until now."""
+        self._keyed = False
+        """Whether this member has its keyframe."""
         self._raw = 0
         """Bytes of lines in this member."""
-        size, rest = whole_part(path)
+        size, rest, last = kept(path)
         self._file = path.open("r+b" if size is not None else "xb")
         try:
             self._file.truncate(size or 0)
@@ -82,6 +86,7 @@ class Recording:
             if not self.size and not rest:
                 self._pending.append(_line({"recording": VERSION, "begun_at": begun_at}))
             self._pending += rest
+            self._line_at = _time_of(last)
             self._end_member()
             self.flush()
         except BaseException:
@@ -100,7 +105,9 @@ class Recording:
 
         What has not changed costs nothing, least of all where a row is the same object as before;
         what only moves is left out if it was written just now. Rows must not change afterwards.
+        A time before the last one counts as that: what is shown later is replayed later.
         """
+        t = max(t, self._line_at)
         rows = {
             "missions": {str(row["name"]): row for row in missions},
             "drones": {str(row["id"]): row for row in drones},
@@ -109,11 +116,11 @@ class Recording:
         stands = {name: value for name, value in state.items() if name != "time"}
         due = t - self._key_at >= self._keyframe_every or self._raw > LARGEST_MEMBER
         gone = any(self._rows[kind].keys() - rows[kind].keys() for kind in self._rows)
-        if self._member is None or due or gone or t < self._line_at:
+        if not self._keyed or due or gone:
             self._end_member()
             whole = {kind: [*named.values()] for kind, named in rows.items()}
             self._add({"t": t, "key": True, "state": stands, **whole})
-            self._key_at = t
+            self._key_at, self._keyed = t, True
         else:
             line, moves = self._changes(stands, rows)
             if not line or (moves and t - self._line_at < self._moves_every):
@@ -179,7 +186,7 @@ class Recording:
             self._member = zlib.compressobj(6, zlib.DEFLATED, GZIP)
         if self._member is not None:
             self._put(self._compressed() + self._member.flush(zlib.Z_FINISH))
-        self._member, self._raw = None, 0
+        self._member, self._keyed, self._raw = None, False, 0
 
     def _compressed(self) -> bytes:
         text = b"".join(self._pending)
@@ -188,11 +195,15 @@ class Recording:
         return packed
 
     def _put(self, packed: bytes) -> None:
+        whole, self._is_whole = self._is_whole, False
+        if not whole:
+            return  # what is missing before it would make it unreadable
         if self._largest is not None and self.size + len(packed) > self._largest:
             raise OSError(0, f"it has {self._largest // 2**20} MiB, which is the most")
         self._file.write(packed)
         self._file.flush()
         self.size += len(packed)
+        self._is_whole = True
 
 
 def change_of(before: Row | None, row: Row) -> dict[str, Any]:
@@ -218,3 +229,12 @@ def changed(before: Row | None, change: Row) -> dict[str, Any]:
 
 def _line(data: Row) -> bytes:
     return json.dumps(data, separators=(",", ":"), default=str).encode("ascii") + b"\n"
+
+
+def _time_of(lines: Sequence[bytes]) -> float:
+    """Return the time of the last of these lines that has one."""
+    for line in reversed(lines):
+        data = json.loads(line)
+        if "t" in data:
+            return float(data["t"])
+    return 0.0

@@ -15,7 +15,7 @@ from ..commands import NEEDS, Malformed
 from ..plan.plan import Stale
 from ..preflight.start import PlannedStart
 from ..wire import Forecast
-from . import refusals
+from . import flights, refusals
 from .audit import Audit
 from .forecasts import forecast
 from .guard import Access, Guard, Rate, refusal, with_safe_headers
@@ -36,6 +36,7 @@ ADDRESSES: Mapping[str, tuple[str, ...]] = {
     "/api/console.txt": ("GET",),
     "/api/results.json": ("GET",),
     "/api/preflight": ("POST",),
+    **flights.ADDRESSES,
     **{f"/api/{command}": ("POST",) for command in NEEDS},
 }
 _LONGEST_ID = 64
@@ -78,6 +79,10 @@ class ServedStation(UpdateSource, Protocol):
         """The floor plan."""
 
     @property
+    def past(self) -> flights.ServedFlights:
+        """The flights of the past."""
+
+    @property
     def described(self) -> Mapping[str, object]:
         """Return the constant data of app and fleet."""
 
@@ -94,8 +99,10 @@ class ServedStation(UpdateSource, Protocol):
         """Return the results."""
 
 
-async def read(station: ServedStation, path: str) -> Reply:
+async def read(station: ServedStation, path: str, query: Mapping[str, str]) -> Reply:
     """Handle a request that changes nothing."""
+    if flights.is_of_flights(path, query):
+        return await flights.read_flights(station.past, path, query)
     match path:
         case "/api/app":
             return json_reply(200, station.described)
@@ -297,7 +304,7 @@ class Api:
         self._under_way += 1
         try:
             if request.method == "GET":
-                return await read(self._station, request.path)
+                return await read(self._station, request.path, request.query)
             return await change(self._station, self._audit, request)
         finally:
             self._under_way -= 1

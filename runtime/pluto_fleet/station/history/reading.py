@@ -1,0 +1,84 @@
+"""Reading the journal of a flight, also of the one that this process writes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ...journal import errors
+from ...journal.database import connect, last_row
+from ...journal.errors import TROUBLE
+from ...journal.fold import Records
+from ...journal.reader import Reader, rows_between
+
+BROKEN = (LookupError, TypeError, ValueError, AttributeError)
+"""What an event raises that is not as this version knows it."""
+
+Event = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Instant:
+    """The events of one row of a journal."""
+
+    wall: float
+    """When it was written, in seconds since 1970."""
+    epoch: int
+    """How often the journal had been opened by then."""
+    events: list[Event]
+
+
+@dataclass(slots=True)
+class JournalText:
+    """A journal that is read from its beginning."""
+
+    path: Path
+    ours: bool
+    """Whether this process writes it, or may begin to at any moment.
+
+    Then it is opened by SQLite alone: any other way to open the file, once closed, would take away
+    the locks by which SQLite keeps other programs from it.
+    """
+    damaged: str = ""
+    """What is wrong with it, after all that can be read; empty: nothing."""
+    records: Records = field(default_factory=Records)
+    """What is so after the instant that was read last."""
+
+    def instants(self) -> Iterator[Instant]:
+        """Yield its rows, the header first, after each has been taken into the records."""
+        for wall, epoch, text in self._ours() if self.ours else self._others():
+            try:
+                events = json.loads(text)
+                for event in events:
+                    self.records.take(event)
+                    if event["event"] == "trip.completed":
+                        event["did"] = self.records.flown_last(event["mission"])
+            except BROKEN as error:
+                self.damaged = (
+                    f"{self.path}: an event is not as this version knows it:"
+                    f" {type(error).__name__}: {error}"
+                )
+                return
+            yield Instant(wall, epoch, events)
+
+    def _others(self) -> Iterator[tuple[float, int, str]]:
+        with closing(Reader(self.path)) as reader:
+            for row in reader.rows():
+                yield row.wall, row.epoch, row.text
+            self.damaged = reader.damaged or ""
+
+    def _ours(self) -> Iterator[tuple[float, int, str]]:
+        try:
+            with closing(connect(self.path, "mode=ro")) as database:
+                read = rows_between(database, 0, last_row(database))
+                for row in read.rows:
+                    yield row.wall, row.epoch, row.text
+        except TROUBLE as error:
+            self.damaged = str(errors.refused(self.path, error))
+            return
+        if read.damaged is not None:
+            self.damaged = str(errors.damaged(self.path, read.damaged))

@@ -1,0 +1,221 @@
+"""A recording gives back what was shown at any instant, and no damage makes it show anything else."""
+
+from __future__ import annotations
+
+import gzip
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from pluto_fleet.station.history.frames import Shown
+from pluto_fleet.station.history.recorded import Recorded
+from pluto_fleet.station.history.recorder import Recorder, Sample
+from pluto_fleet.station.history.recording import MOVES_EVERY, Recording
+
+Scene = dict[str, Any]
+
+level = st.sampled_from([0.1, 0.5, 1.0])
+drone = st.fixed_dictionaries(
+    {"id": st.sampled_from(["cf1", "cf2"]), "status": st.sampled_from(["FREE", "BUSY"])},
+    optional={"battery": level, "x": level, "ready_in": level},
+)
+mission = st.fixed_dictionaries(
+    {"name": st.just("A"), "status": st.sampled_from(["RUNNING", "FAILED"]), "at": st.just(["w"])}
+)
+scene = st.fixed_dictionaries(
+    {
+        "state": st.fixed_dictionaries({"phase": st.sampled_from(["flying", "over"])}),
+        "missions": st.lists(mission, max_size=1),
+        "drones": st.lists(drone, max_size=2, unique_by=lambda row: str(row["id"])),
+    }
+)
+shown = st.lists(scene, min_size=1, max_size=12)
+
+
+def file_of(folder: Path) -> Path:
+    """Return a file that is not there."""
+    path = folder / "a.recording"
+    path.unlink(missing_ok=True)
+    return path
+
+
+def write(recording: Recording, scenes: Sequence[Scene], begin: int = 0) -> None:
+    """Show these scenes, a minute each, so that there are several keyframes."""
+    for number, one in enumerate(scenes, start=begin):
+        recording.write(number * 20.0, one["state"], one["missions"], one["drones"])
+
+
+def scene_at(recorded: Recorded, t: float) -> Scene:
+    """Return what a replay shows."""
+    now = Shown()
+    now.take_frame(next(recorded.frames(t)))
+    rows = {kind: now.rows[kind] for kind in ("missions", "drones")}
+    return {"state": {k: v for k, v in now.state.items() if k != "time"}, **rows}
+
+
+def named(scene: Scene) -> Scene:
+    """Return a scene with its rows by their names."""
+    missions = {row["name"]: row for row in scene["missions"]}
+    return {**scene, "missions": missions, "drones": {row["id"]: row for row in scene["drones"]}}
+
+
+def check(recorded: Recorded, scenes: Sequence[Scene]) -> None:
+    """Hold each instant of a replay to what was shown then, also those in between."""
+    for number, one in enumerate(scenes):
+        for later in (0.0, 19.0):
+            assert scene_at(recorded, number * 20.0 + later) == named(one)
+
+
+slow = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=40)
+
+
+@slow
+@given(scenes=shown)
+def test_each_instant_is_replayed_as_it_was_shown(tmp_path: Path, scenes: list[Scene]) -> None:
+    """Rows that come, go, and gain and lose fields, too."""
+    path = file_of(tmp_path)
+    recording = Recording(path, begun_at=1)
+    write(recording, scenes)
+    recording.finish()
+    check(Recorded(path), scenes)
+
+
+@slow
+@given(scenes=shown, more=shown, data=st.data())
+def test_what_was_cut_off_is_the_end_and_it_can_be_gone_on_with(
+    tmp_path: Path, scenes: list[Scene], more: list[Scene], data: st.DataObject
+) -> None:
+    """As after a kill, at any byte: what is read is what was shown, up to some instant."""
+    path = file_of(tmp_path)
+    recording = Recording(path, begun_at=1)
+    for number, one in enumerate(scenes):
+        write(recording, [one], number)
+        recording.flush()
+    recording.finish()
+    whole = path.read_bytes()
+    path.write_bytes(whole[: data.draw(st.integers(0, len(whole)))])
+    recorded = Recorded(path)
+    left = 0 if recorded.begins is None else round(recorded.seconds / 20.0) + 1
+    check(recorded, scenes[:left])
+    again = Recording(path, begun_at=1)
+    write(again, more, left)
+    again.finish()
+    check(Recorded(path), scenes[:left] + more)
+
+
+@slow
+@given(scenes=shown, data=st.data())
+def test_a_bit_that_was_flipped_is_noticed(
+    tmp_path: Path, scenes: list[Scene], data: st.DataObject
+) -> None:
+    """What cannot be read is left out, and nothing else is ever shown."""
+    path = file_of(tmp_path)
+    recording = Recording(path, begun_at=1)
+    write(recording, scenes)
+    recording.finish()
+    damaged = bytearray(path.read_bytes())
+    damaged[data.draw(st.integers(0, len(damaged) - 1))] ^= 1 << data.draw(st.integers(0, 7))
+    path.write_bytes(damaged)
+    recorded = Recorded(path)
+    frames = list(recorded.frames(0.0))
+    for frame in frames:
+        assert scene_at(recorded, frame["t"]) in map(named, scenes)
+
+
+def test_a_reader_that_was_there_before_sees_what_is_added(tmp_path: Path) -> None:
+    path = file_of(tmp_path)
+    recording = Recording(path, begun_at=7)
+    recording.write(0.0, {"phase": "flying"}, [], [{"id": "cf1", "battery": 1.0}])
+    recording.flush()
+    recorded = Recorded(path)
+    for t in range(1, 100):
+        recording.write(float(t), {"phase": "flying"}, [], [{"id": "cf1", "battery": 1 - t / 100}])
+        recording.tell({"text": str(t)}, after=t)
+        recording.flush()
+        if t % 7 == 0:
+            recorded.refresh()
+            assert recorded.seconds == t
+    recording.finish()
+    recorded.refresh()
+    assert recorded.begun_at == 7
+    assert [line["text"] for line, _ in recorded.said] == [str(t) for t in range(1, 100)]
+    assert recorded.batteries == Recorded(path).batteries
+    assert recorded.batteries["cf1"][0] == [0.0, 1.0]
+
+
+def test_any_program_reads_it_with_gzip(tmp_path: Path) -> None:
+    path = file_of(tmp_path)
+    recording = Recording(path, begun_at=7)
+    recording.write(0.0, {"phase": "flying"}, [], [{"id": "cf1", "x": 1.0}])
+    recording.write(1.0, {"phase": "flying"}, [], [{"id": "cf1", "x": 2.0}])
+    recording.finish()
+    head, key, moved = map(json.loads, gzip.decompress(path.read_bytes()).splitlines())
+    assert head == {"recording": 1, "begun_at": 7}
+    assert key["key"] is True
+    assert moved == {"t": 1.0, "drones": {"cf1": {"x": 2.0}}}
+
+
+def test_what_only_moves_is_kept_four_times_a_second(tmp_path: Path) -> None:
+    """What else changes is kept at once, with where everything is then."""
+    path = file_of(tmp_path)
+    recording = Recording(path, begun_at=0)
+    for tick in range(100):
+        status = "BUSY" if tick < 50 else "RETURNING"
+        row = {"id": "cf1", "x": float(tick), "status": status}
+        recording.write(tick * 0.1, {"phase": "flying"}, [], [row])
+    recording.finish()
+    recorded = Recorded(path)
+    frames = list(recorded.frames(0.0))
+    assert len(frames) <= 10 / MOVES_EVERY + 1
+    assert any(frame["t"] == 5.0 for frame in frames)
+    assert scene_at(recorded, 5.05)["drones"] == {
+        "cf1": {"id": "cf1", "x": 50.0, "status": "RETURNING"}
+    }
+
+
+def test_a_disk_that_takes_nothing_ends_the_recording_with_a_sentence(tmp_path: Path) -> None:
+    """Whoever gives it more does not notice."""
+    said: list[str] = []
+    recorder = Recorder(tmp_path, begun_at=0, speed=1.0, troubled=said.append)
+    assert recorder.wait(60.0)
+    for t in range(1_000):
+        recorder.show(Sample(t=float(t), state={}, missions=[], drones=[]))
+        recorder.tell({"text": "x"}, after=0)
+    recorder.end()
+    [sentence] = said
+    assert sentence.startswith("this flight is not recorded any more")
+    assert str(tmp_path) in sentence
+
+
+def test_a_recording_that_becomes_too_large_ends_and_can_be_read(tmp_path: Path) -> None:
+    path = file_of(tmp_path)
+    recording = Recording(path, begun_at=0, largest=4_000)
+    with pytest.raises(OSError, match="which is the most"):
+        for t in range(10_000):
+            recording.write(float(t), {"phase": "flying", "said": str(t * 7919)}, [], [])
+            recording.flush()
+    recording.finish()
+    recorded = Recorded(path)
+    assert path.stat().st_size <= 4_000
+    assert recorded.seconds > 0
+
+
+def test_a_recorder_that_is_ended_has_written_all_that_it_was_given(tmp_path: Path) -> None:
+    path = file_of(tmp_path)
+    said: list[str] = []
+    recorder = Recorder(path, begun_at=0, speed=1.0, troubled=said.append)
+    for t in range(50):
+        recorder.show(Sample(t=float(t), state={"phase": str(t)}, missions=[], drones=[]))
+    recorder.tell({"text": "the end"}, after=3)
+    recorder.end()
+    assert recorder.wait(60.0)
+    recorder.show(Sample(t=99.0, state={"phase": "later"}, missions=[], drones=[]))
+    recorded = Recorded(path)
+    assert not said
+    assert recorded.seconds == 49.0
+    assert list(recorded.said) == [({"text": "the end"}, 3)]
