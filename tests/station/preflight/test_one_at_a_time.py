@@ -137,7 +137,7 @@ def test_it_is_given_up_when_its_client_goes_away(tmp_path: Path) -> None:
 def test_one_that_has_flown_nothing_in_time_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(running, "WITHIN", 0.0)
+    monkeypatch.setattr(running, "FIRST_WITHIN", 0.0)
 
     async def cut_off() -> None:
         with pytest.raises(BadInput, match="not even one run of this plan was flown within"):

@@ -31,6 +31,9 @@ ENOUGH = 2.0
 PATIENCE = 4.0
 """Seconds after which none does either, on a machine that is busy with other things."""
 
+LONGEST = 12.0
+"""Seconds after which no further run begins, however many there are: the median is yet to be rehearsed."""
+
 SHORTEST = 0.25
 """Seconds between two looks at a rehearsal, at least."""
 
@@ -136,8 +139,11 @@ def _seeds(question: Question) -> Iterator[int]:
     """Yield seeds until enough has been flown."""
     since = time.monotonic()
     for place in range(question.runs or MOST):
-        long = time.process_time() > ENOUGH or time.monotonic() - since > PATIENCE
-        if question.runs is None and place >= FEWEST and place % 2 and long:
+        passed = time.monotonic() - since
+        if place and passed > LONGEST:
+            return
+        enough = time.process_time() > ENOUGH or passed > PATIENCE
+        if question.runs is None and place >= FEWEST and place % 2 and enough:
             return
         yield question.seed + place
 
