@@ -1,7 +1,7 @@
 """One task in a forked copy of this process, beside a running event loop.
 
 The copy has a low priority, so that nothing waits for it here, and sends what it finds piece by
-piece. Cancelling what reads it ends it at once, whatever it does.
+piece. Cancelling the reader ends it at once, in the middle of its task.
 """
 
 from __future__ import annotations

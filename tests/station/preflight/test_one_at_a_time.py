@@ -150,7 +150,7 @@ def test_one_that_has_flown_nothing_in_time_is_refused(
 def test_what_goes_wrong_in_a_copy_is_raised_here_and_its_death_is_told() -> None:
     async def found(code: int | None) -> list[int]:
         def work() -> Iterator[int]:
-            print("nobody reads this")
+            print("it is not printed")
             yield 1
             if code is None:
                 raise LookupError("of a hook")

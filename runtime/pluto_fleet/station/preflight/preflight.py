@@ -1,4 +1,4 @@
-"""Forecasting a Start beside whatever flies: one at a time, the newest wins, and none holds a Stop up."""
+"""Forecasting a Start beside a flight: one at a time, the newest wins, and none holds a Stop up."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ class StartForecasts:
         history: FleetHistory,
         refuse: Callable[[], object],
     ) -> None:
-        """`refuse` raises `BadInput` if a Start would be refused, whatever the plan says."""
+        """`refuse` raises `BadInput` if a Start of any plan would be refused."""
         self._app = moving(app, config.fleet.motion)
         self._config, self._plan, self._history, self._refuse = config, plan, history, refuse
         self.preflight = Preflight(config.own_folder)

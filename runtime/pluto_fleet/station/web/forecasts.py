@@ -13,7 +13,7 @@ from ..wire import Forecast
 from .http import Reply, Request, json_reply, said
 
 GONE = Reply(status=499)
-"""What nobody reads any more."""
+"""The answer to a client that has gone away."""
 
 
 class Forecasting(Protocol):
