@@ -29,35 +29,38 @@ class Page:
     views: list[View] = field(default_factory=list)
     log: list[Any] = field(default_factory=list)
     results: list[Any] = field(default_factory=list)
+    _flight: str = ""
+    _seen: int = 0
+    _missions: dict[str, Any] = field(default_factory=dict)
+    _drones: dict[str, Any] = field(default_factory=dict)
 
-    def look_until_its_end(self) -> str:
-        """Look until the flight has ended; return its name."""
-        seen: dict[str, Any] = {"flight": "", "seen": 0}
-        missions: dict[str, Any] = {}
-        drones: dict[str, Any] = {}
-        state: dict[str, Any] = {}
+    def look(self, instants: int | None = None) -> str:
+        """Look until the flight has ended, or at so many instants; return its id."""
 
-        def is_over() -> bool:
-            nonlocal state
-            asked = f"flight={seen['flight']}&seen={seen['seen']}"
-            given = self.station.get(
-                f"/api/live?{asked}&log={len(self.log)}&results={len(self.results)}"
-            )
-            seen.update(flight=given["flight"], seen=given.get("version", given.get("n")))
-            missions.update((row["name"], row) for row in given["missions"])
-            drones.update((row["id"], row) for row in given["drones"])
-            self.log += given["log"]
-            self.results += given["results"]
-            state = given["state"]
-            self.views.append(
-                View(
-                    t=state.pop("time"),
-                    state=state,
-                    missions=deepcopy(missions),
-                    drones=deepcopy(drones),
-                )
-            )
-            return state["phase"] in ENDS
+        def is_enough() -> bool:
+            is_over = self._look_once()["phase"] in ENDS
+            return is_over or len({view.t for view in self.views}) == instants
 
-        until(is_over, "the flight has ended")
-        return str(seen["flight"])
+        until(is_enough, "the flight has ended")
+        return self._flight.removesuffix(".journal")
+
+    def _look_once(self) -> dict[str, Any]:
+        """Take what has changed, as a page does; return the state of the station."""
+        asked = f"flight={self._flight}&seen={self._seen}"
+        given = self.station.get(
+            f"/api/live?{asked}&log={len(self.log)}&results={len(self.results)}"
+        )
+        self._flight, self._seen = given["flight"], given["version" if "version" in given else "n"]
+        self._missions.update((row["name"], row) for row in given["missions"])
+        self._drones.update((row["id"], row) for row in given["drones"])
+        self.log += given["log"]
+        self.results += given["results"]
+        state: dict[str, Any] = given["state"]
+        now = View(
+            t=state.pop("time"),
+            state=state,
+            missions=deepcopy(self._missions),
+            drones=deepcopy(self._drones),
+        )
+        self.views.append(now)
+        return state

@@ -64,10 +64,42 @@ class APlan:
 
 
 @dataclass
+class ThePast:
+    """One flight of the past, which is named `one`."""
+
+    def flights(self) -> object:
+        return [{"id": "one"}]
+
+    def hours(self) -> object:
+        return [{"id": "cf1"}]
+
+    def replay(self, id: str, start: float, /) -> object:
+        return {"flight": self._known(id), "from": start}
+
+    def report(self, id: str, /) -> object:
+        return {"flight": self._known(id)}
+
+    def mcap(self, id: str, /) -> bytes:
+        return self._known(id).encode()
+
+    def console(self, id: str, /) -> str:
+        return self._known(id)
+
+    def results(self, id: str, /) -> object:
+        return [self._known(id)]
+
+    def _known(self, id: str) -> str:
+        if id != "one":
+            raise BadInput(f"there is no flight {id!r} here")
+        return id
+
+
+@dataclass
 class AStation:
     """A station at which everything can be done, or goes wrong."""
 
     plan: APlan = field(default_factory=APlan)
+    past: ThePast = field(default_factory=ThePast)
     image: Path | None = None
     done: list[tuple[str, Mapping[str, object]]] = field(default_factory=list)
     wrong: Exception | None = None

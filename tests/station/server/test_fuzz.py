@@ -25,7 +25,7 @@ from pluto_fleet.station.wire import Forecast
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, a_plan
 
-from .asking import HOST, OURS, AStation
+from .asking import HOST, OURS, AStation, ThePast
 from .serving import Served, served, status
 
 METHODS = st.sampled_from(["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH", "\x00", ""])
@@ -99,6 +99,7 @@ class WithAPlan:
 
     plan: MissionPlan = field(default_factory=a_plan)
     rest: AStation = field(default_factory=AStation)
+    past: ThePast = field(default_factory=ThePast)
 
     image: Path | None = None
 
