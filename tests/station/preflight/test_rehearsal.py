@@ -59,3 +59,11 @@ def test_only_the_newest_are_kept_and_none_of_what_was_given_up(tmp_path: Path) 
     ]
     there = {path.stem for path in (tmp_path / "rehearsals").iterdir()}
     assert there == set(made[-KEPT:])
+
+
+def test_a_rehearsal_that_cannot_be_written_takes_nothing_from_the_forecast(tmp_path: Path) -> None:
+    (tmp_path / "rehearsals").write_text("no folder")
+    forecast = answer(question(photos("mission-one", 1)), tmp_path)
+    assert forecast["rehearsal"] is None
+    assert forecast["median"] is not None
+    assert [one["key"] for one in forecast["assumed"]] == ["preflight.no-rehearsal"]

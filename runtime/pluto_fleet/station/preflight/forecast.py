@@ -160,9 +160,9 @@ def _assumed(question: Question, rehearsed: Rehearsed | None) -> list[Words]:
             " it will take longer than they say"
         )
         found.append(words("not-apart", text))
-    if rehearsed is not None and not rehearsed.recorded:
-        text = "no run can be rehearsed: hooks.py remembers earlier runs, and flies another"
-        found.append(words("not-the-same", text))
+    if rehearsed is not None and rehearsed.trouble:
+        text = f"there is no rehearsal: {rehearsed.trouble}"
+        found.append(words("no-rehearsal", text, why=rehearsed.trouble))
     return found
 
 

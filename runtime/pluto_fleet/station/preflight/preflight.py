@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import secrets
 from collections.abc import Callable, Sequence
-from contextlib import aclosing
+from contextlib import aclosing, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -106,7 +106,6 @@ class Preflight:
         self, question: Question, keys: Sequence[str], problems: list[Words]
     ) -> Forecast:
         id = f"rehearsal-{secrets.token_hex(8)}"
-        self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         path = self._folder / f"{id}{SUFFIX}"
         kept = False
         try:
@@ -130,9 +129,10 @@ class Preflight:
                 problems,
             )
         finally:
-            if not kept:
-                path.unlink(missing_ok=True)
-            self._tidy()
+            with suppress(OSError):  # what stays is deleted after another forecast
+                if not kept:
+                    path.unlink(missing_ok=True)
+                self._tidy()
 
     async def _flown(self, question: Question, path: Path) -> _Flown:
         """Return what is found in time: nothing more if the first run takes too long."""
