@@ -42,15 +42,15 @@ def test_files_of_a_flight_are_downloaded() -> None:
 
 @pytest.mark.parametrize("start", ["-1", "nan", "inf", "x", "1" * 99, "٣"])
 def test_a_time_that_is_none_is_refused(start: str) -> None:
-    reply = asked()("GET", "/api/flights/replay", b"", None, flight="one", **{"start": start})
+    reply = asked()("GET", "/api/flights/replay", b"", None, flight="one", start=start)
     assert reply.status == 400
     assert "from must be a number of seconds" in said(reply)
 
 
 def test_a_part_is_asked_for_by_its_time() -> None:
-    reply = asked()("GET", "/api/flights/replay", b"", None, flight="one", **{"start": "12.5"})
+    reply = asked()("GET", "/api/flights/replay", b"", None, flight="one", start="12.5")
     assert json.loads(reply.body)["start"] == 12.5
-    first = asked()("GET", "/api/flights/replay", b"", None, flight="one", **{"start": ""})
+    first = asked()("GET", "/api/flights/replay", b"", None, flight="one", start="")
     assert json.loads(first.body)["start"] == 0.0
 
 
