@@ -37,6 +37,7 @@ class Shown:
     def __init__(self) -> None:
         self.described: dict[str, object] = {"server": "x"}
         self.session: Any = Unseen()
+        self.fleet = FLEET
         self.plan = MissionPlan(APP, FLEET, None)
         self.history: Any = Nothing()
 
