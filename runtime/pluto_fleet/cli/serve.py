@@ -151,9 +151,9 @@ def _config(app: App, options: Options) -> StationConfig:
     fleet, text = load_fleet(app, options)
     folder = options.folder or place.folder_of(app.name)
     image = None
-    if options.fleet and fleet.image:
+    if options.fleet and fleet.landmarks.picture:
         try:
-            image = floor_plan(options.fleet.parent, fleet.image)
+            image = floor_plan(options.fleet.parent, fleet.landmarks.picture.file)
         except BadInput as error:
             raise BadInput(f"{options.fleet}: {error}") from None
     return StationConfig(

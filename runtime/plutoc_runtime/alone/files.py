@@ -39,6 +39,7 @@ _KEY = re.compile(rf"{_PART}({_NEXT}{{{MOST}}})?{_NEXT}*+")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 _REAL = "navigation:any? localization:any?"  # what only real flights need
+_SHOWN = "image:any? north:any? places:any? zones:any?"  # what only the library shows
 # Keys of a mission that the library reads, and what it needs for them.
 _LIBRARY = {"deadline": "", "window": "", "after": "", "each": "", "area": "[areas]"}
 
@@ -128,7 +129,7 @@ def _tables(table: dict[str, Any], who: str, header: str, *, needed: bool = Fals
 
 def _airspace(data: Any, who: str) -> Airspace:
     plain, areas = Airspace(), list[Any]()
-    schema = "size:size? image:any? cruise_height:HEIGHT? ceiling:HEIGHT? no_fly:areas?"
+    schema = f"size:size? cruise_height:HEIGHT? ceiling:HEIGHT? no_fly:areas? {_SHOWN}"
     given = _table(data, who, schema)
     for place, area in enumerate(given.get("no_fly", ()), 1):
         try:
