@@ -10,6 +10,7 @@ from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.motion import motion_of
 from ..shared.domain.values import MOTION
 from .fleet import CRAZYFLIE, OWN
+from .landmarks_text import landmark_tables
 from .toml import toml_text
 
 if TYPE_CHECKING:
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from ..shared.domain.motion import Motion
     from .drones import DroneEntry
     from .fleet import FleetFile
-    from .landmarks import Landmarks
 
 
 def fleet_text(fleet: FleetFile) -> str:
@@ -30,7 +30,8 @@ def fleet_text(fleet: FleetFile) -> str:
     }
     if airspace.no_fly:
         of_map["no_fly"] = [[_floats(corner) for corner in area] for area in airspace.no_fly]
-    of_map |= landmarks_data(fleet.landmarks)
+    shown = {"north": float(fleet.landmarks.north), **landmark_tables(fleet.landmarks)}
+    of_map |= {key: value for key, value in shown.items() if value}
     behaviour: dict[str, Any] = {
         "after_trip": fleet.after_trip.value,
         "apart": float(fleet.apart),
@@ -55,17 +56,6 @@ def motion_data(motion: Motion) -> dict[str, Any]:
     data, usual = asdict(motion), asdict(motion_of({"legs": motion.legs}))
     usual["legs"] = CRAZYFLIE_MOTION.legs
     return {key: data[key] for key in MOTION if data[key] != usual[key]}
-
-
-def landmarks_data(landmarks: Landmarks) -> dict[str, Any]:
-    """Return what a map shows as the keys of `[map]`, without its picture and what goes without saying."""
-    places = [{"name": one.name, "at": _floats(one.at)} for one in landmarks.places]
-    zones = [
-        {"name": one.name, "corners": [_floats(corner) for corner in one.corners]}
-        for one in landmarks.zones
-    ]
-    data = {"north": float(landmarks.north), "places": places, "zones": zones}
-    return {key: value for key, value in data.items() if value}
 
 
 def _drone(drone: DroneEntry) -> dict[str, Any]:

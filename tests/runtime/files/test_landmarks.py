@@ -12,11 +12,13 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.files.fleet import FleetFile, load_fleet
+from pluto_fleet.files.fleet import FleetFile, fleet_of, load_fleet
 from pluto_fleet.files.fleet_text import fleet_text
 from pluto_fleet.files.landmarks import Landmarks, NamedPlace, Picture, Zone
+from pluto_fleet.files.landmarks_text import with_landmarks
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.outline import crossing
+from pluto_fleet.files.reading import parsed
 from pluto_fleet.shared.alone import files
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.runtime.files.an_app import APP
@@ -161,3 +163,153 @@ def test_what_crosses_itself_is_what_another_program_says_does(
     """On a coarse grid, where corners often lie on edges."""
     shape = shapely.Polygon(corners)
     assert (crossing(corners) is None) == (shape.is_valid and not math.isclose(shape.area, 0.0))
+
+
+# Writing them
+
+COMMENTED = """\
+# Our ward.
+[map]   # of the second floor
+size = [20.0, 12.0]  # measured
+image = "ward.svg"  # by the architect
+no_fly = [
+  [[8, 0], [9, 0], [9, 5], [8, 5]],  # the lift
+]
+
+# Beds.
+[[map.places]]
+name = "A"  # by the window
+at = [1, 1]
+
+# by the door
+[[map.places]]
+at = [2, 1]
+name = "B"
+
+# What is more
+[[map.zones]]
+name = "Z"
+corners = [[1, 1], [2, 1], [2, 2]]
+
+# Our drones.
+[[drone]]
+id = "a"   # the old one
+home = [1, 1]
+category = "scout"
+"""
+LISTED = f"""\
+[map]
+places = [{{ name = "A", at = [1, 1] }}]  # all
+[map.image]
+file = "ward.svg"  # by the architect
+{DRONE}"""
+TEXTS = [COMMENTED, LISTED, DRONE, "# ours\n" + DRONE.rstrip(), COMMENTED.replace("\n", "\r\n")]
+SPOTS = st.lists(st.floats(0, 10).map(lambda x: round(x, 3)), min_size=2, max_size=3).map(tuple)
+NAMES = st.sampled_from(["A", "B", "Z", "Bed 3", 'é "\\ # x', "[map]"])
+ZONES = st.builds(
+    lambda name, x: Zone(name=f"{name}!", corners=((x, 0.0), (x + 1.0, 0.0), (x, 1.0))),
+    NAMES,
+    st.integers(0, 9).map(float),
+)
+LANDMARKS = st.builds(
+    Landmarks,
+    places=st.lists(
+        st.builds(NamedPlace, name=NAMES, at=SPOTS), max_size=4, unique_by=lambda one: one.name
+    ).map(tuple),
+    zones=st.lists(ZONES, max_size=3, unique_by=lambda one: one.name).map(tuple),
+    north=st.integers(-360, 360).map(float),
+    picture=st.none()
+    | st.builds(
+        Picture,
+        file=st.sampled_from(["ward.svg", "new.png"]),
+        at=st.just((1.0, 2.0)),
+        size=st.sampled_from([(20.0, 12.0), (20.0, 20.0), (3.0, 4.0)]),
+        turn=st.sampled_from([0.0, 90.0]),
+    ),
+)
+
+
+def of_text(text: str) -> FleetFile:
+    return fleet_of(parsed("fleet.toml", text), APP)
+
+
+@settings(max_examples=60, derandomize=True, deadline=None)
+@given(text=st.sampled_from(TEXTS), drawn=st.lists(LANDMARKS, min_size=1, max_size=3))
+def test_what_is_written_is_read_and_all_else_stays(text: str, drawn: list[Landmarks]) -> None:
+    """Whatever is drawn, once or several times: its comments, its order, and its line ends."""
+    for landmarks in drawn:
+        before = of_text(text)
+        written = with_landmarks(text, before.landmarks, landmarks, before.airspace.size)
+        after = of_text(written)
+        for key in ("north", "picture"):
+            assert getattr(after.landmarks, key) == getattr(landmarks, key)
+        for key in ("places", "zones"):  # known ones keep their order, new ones follow
+            assert set(getattr(after.landmarks, key)) == set(getattr(landmarks, key))
+        assert shown_alike(before) == shown_alike(after)
+        assert outside(written) == outside(text)
+        assert with_landmarks(written, after.landmarks, after.landmarks, (20, 12)) == written
+        text = written
+
+
+def shown_alike(team: FleetFile) -> object:
+    return replace(
+        team, landmarks=Landmarks(), drones=tuple(replace(one, line=0) for one in team.drones)
+    )
+
+
+def outside(text: str) -> list[str]:
+    """Return the lines with a comment of their own, and those of drones."""
+    lines = text.split("\n")
+    of_drones = lines.index("[[drone]]" + "\r" * text.count("\r\n", 0, 20))
+    return [
+        line
+        for n, line in enumerate(lines)
+        if line.startswith("#") or of_drones <= n < of_drones + 4
+    ]
+
+
+def test_a_new_place_comes_behind_the_others_and_before_what_follows() -> None:
+    """What is not changed keeps its comments, and its way of writing."""
+    was = of_text(COMMENTED).landmarks
+    drawn = replace(
+        was,
+        places=(replace(was.places[1], at=(3.0, 1.0)), NamedPlace(name="C", at=(4.0, 1.0, 0.5))),
+        north=45.0,
+    )
+    assert with_landmarks(COMMENTED, was, drawn, (20.0, 12.0)) == COMMENTED.replace(
+        """\
+]
+
+# Beds.
+[[map.places]]
+name = "A"  # by the window
+at = [1, 1]
+
+# by the door
+[[map.places]]
+at = [2, 1]
+name = "B"
+""",
+        """\
+]
+north = 45.0
+
+# Beds.
+
+# by the door
+[[map.places]]
+at = [3.0, 1.0]
+name = "B"
+
+[[map.places]]
+name = "C"
+at = [4.0, 1.0, 0.5]
+""",
+    )
+
+
+def test_a_map_without_a_header_of_its_own_is_not_touched() -> None:
+    """It is said what to write."""
+    text = f"map.size = [20, 20]\n{DRONE}"
+    with pytest.raises(BadInput, match=r"write the line \[map\] above its keys"):
+        with_landmarks(text, Landmarks(), Landmarks(north=3.0), (20.0, 20.0))
