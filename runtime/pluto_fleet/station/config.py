@@ -12,6 +12,7 @@ from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.quantities import QUANTITIES, Type, units_of
 from .graph.picture import app_graph, laid_out
+from .map.drawn import WITHOUT_A_FLEET_FILE
 
 if TYPE_CHECKING:
     from ..app import App
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
     from .graph.picture import Graph
+    from .map.drawn import DrawnMap
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,8 +32,8 @@ class StationConfig:
     """The folder of journals; the station's own files are in its subfolder `station`."""
     fleet: FleetFile
     fleet_text: str | None = None
-    image: Path | None = None
-    """The floor plan."""
+    fleet_path: Path | None = None
+    """The fleet file, if there is one."""
     sim: bool = True
     crtp_sim: int | None = None
     """The number of simulated Crazyflies that are flown as real ones, or None."""
@@ -39,6 +41,11 @@ class StationConfig:
     faults: Mapping[str, float]
     speed: float | None = None
     """The speed of time; None: real time, or as before."""
+
+    @property
+    def map_path(self) -> Path:
+        """The file into which is written what is drawn on the map."""
+        return self.fleet_path or self.own_folder / WITHOUT_A_FLEET_FILE
 
     @property
     def own_folder(self) -> Path:
@@ -49,8 +56,8 @@ class StationConfig:
 Shape = dict[str, object]
 
 
-def described(app: App, config: StationConfig) -> Shape:
-    """Return the constant data of app and fleet, with the fields and actions that this app has."""
+def described(app: App, config: StationConfig, drawn: DrawnMap) -> Shape:
+    """Return the data of app, fleet and map, with the fields and actions that this app has."""
     graph, space = app_graph(app), config.fleet.airspace
     return {
         "name": app.name,
@@ -73,7 +80,8 @@ def described(app: App, config: StationConfig) -> Shape:
             "cruise_height": space.cruise_height,
             "ceiling": space.ceiling,
             "no_fly": [[list(corner) for corner in area] for area in space.no_fly],
-            "image": "/map" if config.image is not None else None,
+            "image": drawn.address if drawn.image is not None else None,
+            "drawn": drawn.data(),
         },
         "retries": _retries(graph),
         "rounds": any(field.type is FieldType.ROUNDS for field in app.fields),

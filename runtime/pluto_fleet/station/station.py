@@ -28,6 +28,7 @@ from ..shared.domain.text import counted
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
+from .map.drawn import DrawnMap
 from .plan.promised import broken, promised
 from .session import FlightSession, Phase, phase_of
 from .updates import Updates
@@ -55,7 +56,11 @@ class Station:
 
     def __init__(self, app: App, config: StationConfig, plan: MissionPlan) -> None:
         self._app, self._config, self.plan = app, config, plan
-        self.described = described(app, config) | {"server": secrets.token_hex(8)}
+        self.map = DrawnMap(config.fleet.airspace, config.map_path)
+        self.map.changed = self._map_changed
+        self.plan.landmarks = self.map.landmarks
+        self._server = {"server": secrets.token_hex(8)}
+        self.described = described(app, config, self.map) | self._server
         self.session: FlightSession | None = None
         """The current or last flight."""
         self.leaves = asyncio.Event()
@@ -72,7 +77,12 @@ class Station:
     @property
     def image(self) -> Path | None:
         """The floor plan."""
-        return self._config.image
+        return self.map.image
+
+    def _map_changed(self) -> None:
+        """Give all pages the new map, and its names to plans that are taken in."""
+        self.described = described(self._app, self._config, self.map) | self._server
+        self.plan.landmarks = self.map.landmarks
 
     @property
     def phase(self) -> Phase:

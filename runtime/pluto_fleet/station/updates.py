@@ -17,6 +17,7 @@ from .session import phase_of
 
 if TYPE_CHECKING:
     from .between_flights import FleetHistory
+    from .map.drawn import DrawnMap
     from .plan.plan import MissionPlan
     from .session import FlightSession
 
@@ -36,6 +37,7 @@ class StationState(Protocol):
     described: dict[str, object]
     session: FlightSession | None
     plan: MissionPlan
+    map: DrawnMap
     history: FleetHistory
 
 
@@ -117,6 +119,7 @@ class Updates:
                 "phase": phase_of(session).value,
                 "journal": str(session.journal) if session is not None else None,
                 "plan": self._station.plan.revision,
+                "map": self._station.map.revision,
                 "said": (session.trouble if session is not None else "")
                 or self._station.plan.trouble,
                 "how": how.value if how is not None else None,

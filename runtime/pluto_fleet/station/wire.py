@@ -355,6 +355,8 @@ class MapData(TypedDict):
     """Degrees by which north is turned from up, clockwise."""
     image: Picture | None
     writable: bool
+    said: str
+    """Why nothing that is drawn can be kept; empty: it can."""
 
 
 class Picture(TypedDict):

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import json
+from pathlib import Path
 from typing import Any
 
+from pluto_fleet.station.map.drawn import DrawnMap
 from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.updates import Updates
 from tests.runtime.files.an_app import APP
@@ -38,6 +40,7 @@ class Shown:
         self.described: dict[str, object] = {"server": "x"}
         self.session: Any = Unseen()
         self.plan = MissionPlan(APP, FLEET, None)
+        self.map = DrawnMap(FLEET.airspace, Path("nowhere.toml"))
         self.history: Any = Nothing()
 
 

@@ -45,6 +45,8 @@ class MissionPlan:
         self, app: App, fleet: FleetFile, keep: Path | None, now: Callable[[], float] = time.time
     ) -> None:
         self._app, self._fleet, self._keep = app, fleet, keep
+        self.landmarks = fleet.landmarks
+        """What a missions file may name: places and zones of the map."""
         kept = on_disk.read(keep, app) if keep else on_disk.KeptPlan()
         self.trouble = kept.said
         """Why the plan could not be stored, for pages; empty: it was."""
@@ -92,13 +94,16 @@ class MissionPlan:
     ) -> None:
         """Replace the missions that were not launched by those of a file; `folder`: where it lies."""
         self._check_current(revision)
-        self._take(shapes_of(text, self._app, self._fleet.airspace, file, folder), revision)
+        self._take(self._shapes(text, file, folder), revision)
 
     async def import_file(self, text: str, revision: object, file: str = NAME) -> None:
         """Do the same in a thread, as reading a large file takes seconds."""
         self._check_current(revision)
-        given = await to_thread(shapes_of, text, self._app, self._fleet.airspace, file)
+        given = await to_thread(self._shapes, text, file)
         self._take(given, revision)
+
+    def _shapes(self, text: str, file: str, folder: Path | None = None) -> list[Shape]:
+        return shapes_of(text, self._app, self._fleet.airspace, self.landmarks, file, folder)
 
     def _take(self, read: Sequence[Shape], revision: object) -> None:
         self._check_current(revision)

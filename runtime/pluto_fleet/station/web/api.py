@@ -7,6 +7,7 @@ import time
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Protocol
 
 from ...shared.domain.errors import BadInput
@@ -14,16 +15,17 @@ from ...shared.domain.text import cut_off, printable
 from ..commands import NEEDS, Malformed
 from ..plan.plan import Stale
 from . import refusals
+from .addresses import Addresses, answered
 from .audit import Audit
 from .guard import Access, Guard, Rate, refusal, with_safe_headers
 from .http import MISTAKES, PageSocket, Reply, Request, json_reply, text_reply
 from .http import said as in_words
 from .live import LIVE, LiveUpdates, UpdateSource
 from .refusals import Refusal, Refused
-from .static import file_reply, pages, picture
+from .static import StaticFile, file_reply, pages, picture
 from .strict_json import asked_number, parsed_object
 
-ADDRESSES: Mapping[str, tuple[str, ...]] = {
+ADDRESSES: dict[str, tuple[str, ...]] = {
     "/api/app": ("GET",),
     "/api/live": ("GET",),
     "/api/plan": ("GET", "PUT"),
@@ -202,7 +204,7 @@ ALWAYS = ("/api/stop", "/api/cut-motors")
 """The commands that bring drones down, which are exempt from all limits."""
 
 _COMMANDS_A_SECOND, _EDITS_A_SECOND, _READS_A_SECOND = 20.0, 20.0, 100.0
-"""Rates per second for each client; edits of the plan do not count as commands."""
+"""Rates per second for each client; edits of plan and map do not count as commands."""
 _MOST_UNDER_WAY = 64
 """The most concurrent requests, without Stops."""
 _WRONG_TOKEN_WAITS = 0.5
@@ -221,14 +223,17 @@ class Api:
         station: ServedStation,
         guard: Guard,
         audit: Audit,
+        also: Addresses = MappingProxyType({}),
         *,
         clock: Callable[[], float] = time.monotonic,
         pause: Pause = asyncio.sleep,
     ) -> None:
+        """`also` are further addresses."""
         self.guard = guard
+        self._also = also
         self._station, self._audit, self._pause = station, audit, pause
         self._pages = pages()
-        self._picture = picture(station.image) if station.image is not None else None
+        self._picture = picture(station.image)
         self._commands, self._edits = Rate(_COMMANDS_A_SECOND, clock), Rate(_EDITS_A_SECOND, clock)
         self._reads = Rate(_READS_A_SECOND, clock)
         self._live = LiveUpdates(station, guard, audit, clock)
@@ -270,12 +275,18 @@ class Api:
             raise Refused(why)
         if access is Access.PAGE and request.path in self._pages:
             return file_reply(self._pages[request.path], request)
-        if request.path == "/map" and self._picture is not None:
-            return file_reply(self._picture, request)
-        _route(request)
+        if request.path == "/map" and (held := self._floor_plan()) is not None:
+            return file_reply(held, request)
+        _route(request, ADDRESSES | {path: tuple(one) for path, one in self._also.items()})
         if request.path == LIVE:
             return await self._live.poll(request)
         return await self._within_limits(request)
+
+    def _floor_plan(self) -> StaticFile | None:
+        """Return the floor plan, read once: another one has another name."""
+        if self._picture[0] != self._station.image:
+            self._picture = picture(self._station.image)
+        return self._picture[1]
 
     async def _within_limits(self, request: Request) -> Reply:
         """Handle a request within the limits, from which commands that bring drones down are exempt."""
@@ -287,6 +298,8 @@ class Api:
             raise Refused(refusals.TOO_BUSY)
         self._under_way += 1
         try:
+            if request.path in self._also:
+                return await answered(self._also[request.path], request, self._audit)
             if request.method == "GET":
                 return await read(self._station, request.path)
             return await change(self._station, self._audit, request)
@@ -296,7 +309,8 @@ class Api:
     def _rate(self, request: Request) -> Rate:
         if request.method == "GET":
             return self._reads
-        return self._edits if request.path.startswith("/api/plan") else self._commands
+        is_edit = request.path in self._also or request.path.startswith("/api/plan")
+        return self._edits if is_edit else self._commands
 
     async def _slow_down(self) -> None:
         """Delay the refusal of a wrong token, against guessing."""
@@ -316,9 +330,9 @@ def _asking(request: Request) -> Access:
     return Access.READ if reads else Access.PAGE
 
 
-def _route(request: Request) -> None:
-    """Return the route of a request; raise `Refused` if there is none."""
-    allowed = ADDRESSES.get(request.path)
+def _route(request: Request, addresses: Mapping[str, tuple[str, ...]]) -> None:
+    """Raise `Refused` if there is nothing at an address, or not for this method."""
+    allowed = addresses.get(request.path)
     if allowed is None:
         raise Refused(refusals.NO_SUCH_PAGE)
     if request.method not in allowed:

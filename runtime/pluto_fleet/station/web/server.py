@@ -22,6 +22,7 @@ from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIO
 
 from . import refusals
 from .http import Closed, Request
+from .map_addresses import LARGEST_BODIES
 from .refusals import Refused
 
 if TYPE_CHECKING:
@@ -36,7 +37,8 @@ _LARGEST_BODY = 1024 * 1024
 _LARGEST_MESSAGE = 64 * 1024
 _LARGEST_HEAD = 16 * 1024
 """The largest body, WebSocket message and head of a request, in bytes."""
-_BODY_WITHIN = 10.0
+_BODY_WITHIN, _PICTURE_WITHIN = 10.0, 60.0
+"""Seconds for a body, and for one that may be larger."""
 _FIELDS = 16
 _LONGEST_REASON = 120
 """The longest reason in a close frame, in bytes."""
@@ -199,7 +201,7 @@ def _request(scope: Scope, receive: Receive) -> Request:
         path=scope["path"],
         query=_query(scope),
         headers=headers,
-        read=lambda: _body(headers, scope, receive),
+        read=lambda: _body(headers, scope, receive, LARGEST_BODIES.get(scope["path"])),
         client=_host(scope.get("client")),
         local=_host(scope.get("server")),
     )
@@ -226,21 +228,24 @@ def _host(end: object) -> str:
     return str(end[0]) if isinstance(end, (tuple, list)) and end else ""
 
 
-async def _body(headers: Mapping[str, str], scope: Scope, receive: Receive) -> bytes:
-    """Read a body to its end; raise `Refused` if it is too long."""
+async def _body(
+    headers: Mapping[str, str], scope: Scope, receive: Receive, larger: int | None
+) -> bytes:
+    """Read a body to its end; raise `Refused` if it is too long. `larger`: what it may be here, if more."""
+    largest, within = larger or _LARGEST_BODY, _PICTURE_WITHIN if larger else _BODY_WITHIN
     length = headers.get("content-length", "0")
-    if not length.isdecimal() or len(length) > 12 or int(length) > _LARGEST_BODY:
-        raise Refused(refusals.too_long(_LARGEST_BODY))
+    if not length.isdecimal() or len(length) > 12 or int(length) > largest:
+        raise Refused(refusals.too_long(largest))
     body = bytearray()
     try:
         async with (
-            asyncio.timeout(_BODY_WITHIN),
+            asyncio.timeout(within),
             aclosing(StarletteRequest(scope, receive).stream()) as stream,
         ):
             async for chunk in stream:
                 body += chunk
-                if len(body) > _LARGEST_BODY:
-                    raise Refused(refusals.too_long(_LARGEST_BODY))
+                if len(body) > largest:
+                    raise Refused(refusals.too_long(largest))
     except TimeoutError:
         raise Refused(refusals.TOO_SLOW) from None
     except _GONE:
