@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import dropwhile
 from typing import TYPE_CHECKING, Any
 
 from ..shared.domain.errors import BadInput
@@ -134,7 +135,10 @@ def _change_sections(
     for part in sections:
         name = part.get("name")
         if name not in wanted:
-            part.lines, part.rest = [], part.rest if any(map(str.strip, part.rest)) else []
+            before = parts[parts.index(part) - 1].rest
+            part.lines = []
+            if before and _is_blank(before[-1]):
+                part.rest = [*dropwhile(_is_blank, part.rest)]
         elif wanted[name] != known[name]:
             part.put(wanted[name])
         after = part
@@ -174,6 +178,10 @@ def _under(document: Any, path: TomlPath) -> Any:
     for step in path:
         document = document[0 if isinstance(step, int) else step]
     return document
+
+
+def _is_blank(line: str) -> bool:
+    return not line.strip()
 
 
 def _floats(numbers: Sequence[float]) -> list[float]:

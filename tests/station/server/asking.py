@@ -11,6 +11,7 @@ from typing import Any
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import Stale
+from pluto_fleet.station.web.addresses import Addresses
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
@@ -150,8 +151,13 @@ def request(
     )
 
 
-def asked(station: AStation | None = None, file: Path | None = None, **guard: Any) -> Asked:
-    """Serve a station without a web server."""
+def asked(
+    station: AStation | None = None,
+    file: Path | None = None,
+    also: Addresses | None = None,
+    **guard: Any,
+) -> Asked:
+    """Serve a station without a web server; `also`: further addresses."""
     station = station or AStation()
     times, paused = [0.0], list[float]()
 
@@ -165,6 +171,7 @@ def asked(station: AStation | None = None, file: Path | None = None, **guard: An
         station,
         Guard(**{"host": "127.0.0.1", "port": 8765, **guard}),
         Audit(file, now=lambda: 0.0, clock=clock),
+        also or {},
         clock=clock,
         pause=pause,
     )
