@@ -135,7 +135,9 @@ def _change_sections(
     for part in sections:
         name = part.get("name")
         if name not in wanted:
-            before = parts[parts.index(part) - 1].rest
+            before = [
+                line for one in parts[: parts.index(part)] for line in (*one.lines, *one.rest)
+            ]
             part.lines = []
             if before and _is_blank(before[-1]):
                 part.rest = [*dropwhile(_is_blank, part.rest)]
