@@ -39,19 +39,19 @@ class APlan:
     def data(self) -> Mapping[str, object]:
         return {"revision": self.revision, "missions": self.missions, "problems": []}
 
-    def replace(self, revision: int, missions: object) -> None:
+    def replace(self, revision: int, missions: object, by: str = "") -> None:
         if revision != self.revision:
             raise Stale("it has been changed meanwhile")
         if not isinstance(missions, list):
             raise BadInput("missions is no list")
         self.missions, self.revision = missions, revision + 1
 
-    async def import_file(self, text: str, revision: int, file: str) -> None:
+    async def import_file(self, text: str, revision: int, file: str, by: str = "") -> None:
         if "=" not in text:
             raise BadInput(f"{file}:1: expected =")
         self.replace(revision, [text])
 
-    def example(self, revision: int) -> None:
+    def example(self, revision: int, by: str = "") -> None:
         self.replace(revision, ["an example"])
 
     async def examined(self) -> None:

@@ -15,9 +15,10 @@ from ...shared.domain.text import counted, printable, quoted
 from ...shared.domain.values import shown
 from . import kept as on_disk
 from .example import example_missions
+from .history import PlanHistory, Step
 from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, read
 from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
-from .text import NAME, shapes_of, text_of
+from .text import NAME, renamed, shapes_of, text_of
 
 if TYPE_CHECKING:
     from ...app import App
@@ -52,6 +53,7 @@ class MissionPlan:
         """Why the plan could not be stored, for pages; empty: it was."""
         # From the clock: a revision must be unique, even if a plan could not be stored.
         self.revision = max(kept.revision + 1, round(now() * 1000))
+        self.history = PlanHistory()
         self._missions = list(kept.missions)
         self._unread = read(app, fleet.airspace, self._missions)[1]
         self._flyability = FlyabilityCache(app, fleet)
@@ -80,45 +82,72 @@ class MissionPlan:
 
     # Changes by pages
 
-    def replace(self, revision: object, missions: object) -> None:
-        """Replace the plan by a page's; raise `Stale` if that was made on an old revision."""
+    def replace(self, revision: object, missions: object, by: str = "") -> None:
+        """Replace the plan by a page's; raise `Stale` if that was made on an old revision.
+
+        `by`: which browser it was, whose change it is to undo.
+        """
         given = missions_from(missions, self._app)
         drawn = self._with_launched(given)
         if drawn != self._missions or self._overrules(given):
             self._check_current(revision)
         if drawn != self._missions:  # an identical plan is no conflict
-            self._change(drawn)
+            self._change(drawn, by)
+
+    def step_back(self, revision: object, by: str, step: Step) -> None:
+        """Undo the last change of a browser, or redo what it has undone; changes of others stay.
+
+        Raises `BadInput` if there is none, others have changed the same since, or it flies.
+        """
+        self._check_current(revision)
+        missions = self.history.without_last(by, step, self._missions)
+        after = {one["key"]: one for one in missions}
+        for one in self._missions:
+            if one["launched"] and after.get(one["key"]) != one:
+                raise BadInput(
+                    f"mission {quoted(str(one['name']))} flies: it cannot be changed now"
+                )
+        self._change(self._with_launched(missions), by, step)
 
     def import_toml(
         self, text: str, revision: object, file: str = NAME, folder: Path | None = None
     ) -> None:
         """Replace the missions that were not launched by those of a file; `folder`: where it lies."""
         self._check_current(revision)
-        self._take(self._shapes(text, file, folder), revision)
+        self.take(self._shapes(text, file, folder), revision)
 
-    async def import_file(self, text: str, revision: object, file: str = NAME) -> None:
+    async def import_file(
+        self, text: str, revision: object, file: str = NAME, by: str = ""
+    ) -> None:
         """Do the same in a thread, as reading a large file takes seconds."""
         self._check_current(revision)
         given = await to_thread(self._shapes, text, file)
-        self._take(given, revision)
+        self.take(given, revision, by)
 
     def _shapes(self, text: str, file: str, folder: Path | None = None) -> list[Shape]:
         return shapes_of(text, self._app, self._fleet.airspace, self.landmarks, file, folder)
 
-    def _take(self, read: Sequence[Shape], revision: object) -> None:
+    def take(self, read: Sequence[Shape], revision: object, by: str = "") -> None:
+        """Replace the missions that were not launched by these, which have no keys."""
         self._check_current(revision)
         given = self._shaped(read)
         # a plan that was exported during the flight has those missions, too
         flying = [as_in_a_file(one) for one in self._missions if one["launched"]]
         new = [mission for mission in given if as_in_a_file(mission) not in flying]
-        self._change(self._with_launched(new))
+        self._change(self._with_launched(new), by)
 
-    def example(self, revision: object) -> None:
+    def add(self, read: Sequence[Shape], revision: object, by: str = "") -> None:
+        """Add these missions, which have no keys, under names that no other has."""
+        self._check_current(revision)
+        names = [str(mission["name"]) for mission in self._missions]
+        self._change([*self._missions, *self._shaped(renamed(read, names))], by)
+
+    def example(self, revision: object, by: str = "") -> None:
         """Add example missions that this app and fleet can fly."""
         self._check_current(revision)
         names = [str(mission["name"]) for mission in self._missions]
         added = example_missions(self._app, self._fleet, names)
-        self._change([*self._missions, *self._shaped(added)])
+        self._change([*self._missions, *self._shaped(added)], by)
 
     # Flights
 
@@ -263,10 +292,15 @@ class MissionPlan:
         shapes = [{**keyed(one), "trips": [*map(keyed, trips_of(one))]} for one in missions]
         return missions_from(shapes, self._app)
 
-    def _change(self, missions: list[Shape]) -> None:
-        self._missions = missions
+    def _change(self, missions: list[Shape], by: str = "", step: Step = Step.EDIT) -> None:
+        known = {one["key"]: one for one in self._missions}
+        missions = [  # what has not changed is kept once, however many revisions are
+            known[one["key"]] if known.get(one["key"]) == one else one for one in missions
+        ]
         self._unread = read(self._app, self._fleet.airspace, missions)[1]
         self.revision += 1
+        self.history.note(self.revision, self._missions, missions, by, step)
+        self._missions = missions
         if self._keep is None:
             return
         try:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from datetime import time
+from itertools import chain, count
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import missions_of
@@ -54,6 +55,25 @@ def shapes_of(
         for mission, given in zip(missions, document.given, strict=True)
     ]
     return [_shape(mission, str(i), app, landmarks) for i, mission in enumerate(tables, 1)]
+
+
+def renamed(missions: Sequence[Shape], taken: Collection[str]) -> list[Shape]:
+    """Return missions under names that are not taken, such as "North field 2", by which others come after them."""
+    names, new = {*taken}, dict[str, str]()
+    for mission in missions:
+        name = str(mission["name"])
+        counted = (f"{name} {number}" for number in count(2))
+        new[name] = next(one for one in chain([name], counted) if one not in names)
+        names.add(new[name])
+    return [_with_names(mission, new) for mission in missions]
+
+
+def _with_names(mission: Shape, new: Mapping[str, str]) -> Shape:
+    found = {**mission, "name": new[str(mission["name"])]}
+    match mission.get("after"):
+        case list(after):
+            found["after"] = [new.get(str(name), name) for name in after]
+    return found
 
 
 def _sparse(table: dict[str, Any], app: App) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from ...shared.domain.text import cut_off, printable
 from ..commands import NEEDS, Malformed
 from ..plan.plan import Stale
 from . import refusals
-from .addresses import Addresses, answered
+from .addresses import Addresses, answered, me
 from .audit import Audit
 from .guard import Access, Guard, Rate, refusal, with_safe_headers
 from .http import MISTAKES, PageSocket, Reply, Request, json_reply, text_reply
@@ -43,7 +43,10 @@ _JSON, _TOML = "application/json", "application/toml"
 
 
 class ServedPlan(Protocol):
-    """The plan; each change names the revision that it was made on, and raises `Stale` if that is old."""
+    """The plan; each change names the revision that it was made on, and raises `Stale` if that is old.
+
+    `by` is the browser that makes it.
+    """
 
     def data(self) -> Mapping[str, object]:
         """Return the plan with its known problems."""
@@ -51,13 +54,13 @@ class ServedPlan(Protocol):
     async def examined(self) -> None:
         """Wait until all its problems are known."""
 
-    def replace(self, revision: int, missions: object) -> None:
+    def replace(self, revision: int, missions: object, by: str) -> None:
         """Replace its missions."""
 
-    async def import_file(self, text: str, revision: int, file: str) -> None:
+    async def import_file(self, text: str, revision: int, file: str, by: str) -> None:
         """Replace its missions by those of a file, whose name is used in messages."""
 
-    def example(self, revision: int) -> None:
+    def example(self, revision: int, by: str) -> None:
         """Add an example."""
 
     def export_toml(self) -> str:
@@ -117,20 +120,21 @@ async def change(station: ServedStation, audit: Audit, request: Request) -> Repl
         raise Refused(refusals.wrong_type(wanted))
     body = await request.read()
     plan = station.plan
+    by = me(request) if request.path.startswith("/api/plan") else ""
     match request.path:
         case "/api/plan":
             given = parsed_object(body)
             revision, missions = _whole(given, "revision"), given.pop("missions", None)
             _nothing_else(given)
-            edit = _at_once(lambda: plan.replace(revision, missions))
+            edit = _at_once(lambda: plan.replace(revision, missions, by))
         case "/api/plan/import":
             revision, text = asked_number(request.query, "revision"), _text(body)
-            edit = plan.import_file(text, revision, _file(request.query))
+            edit = plan.import_file(text, revision, _file(request.query), by)
         case "/api/plan/example":
             given = parsed_object(body)
             revision = _whole(given, "revision")
             _nothing_else(given)
-            edit = _at_once(lambda: plan.example(revision))
+            edit = _at_once(lambda: plan.example(revision, by))
         case path:
             given = parsed_object(body)
             return await _commanded(station, audit, request, path.removeprefix("/api/"), given)
