@@ -29,6 +29,8 @@ from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
 from .map.drawn import DrawnMap
+from .map.ways import DrawnWays
+from .plan.library import PlanLibrary
 from .plan.promised import broken, promised
 from .session import FlightSession, Phase, phase_of
 from .updates import Updates
@@ -59,6 +61,8 @@ class Station:
         self.map = DrawnMap(config.fleet.airspace, config.map_path)
         self.map.changed = self._map_changed
         self.plan.landmarks = self.map.landmarks
+        self.ways = DrawnWays(config.fleet.airspace)
+        self.library = PlanLibrary(config.own_folder / "plans", self._looked_at)
         self._server = {"server": secrets.token_hex(8)}
         self.described = described(app, config, self.map) | self._server
         self.session: FlightSession | None = None
@@ -88,6 +92,11 @@ class Station:
     def phase(self) -> Phase:
         """The present phase."""
         return phase_of(self.session)
+
+    def _looked_at(self, text: str, file: str) -> tuple[int, str]:
+        """Return how many missions a kept plan has, and what is to be done before it can fly."""
+        missions, said = self.plan.saved(text, file)
+        return len(missions), said
 
     def begin(self, going_on: bool = False) -> None:
         """Show the unfinished flight of an earlier station or of `fly`, if any."""

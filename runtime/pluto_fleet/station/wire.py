@@ -368,3 +368,64 @@ class Picture(TypedDict):
     width: float
     height: float
     turn: float
+
+
+class SavedPlan(TypedDict):
+    """A plan, or a template, that is kept under a name."""
+
+    name: str
+    saved_at: int
+    by: str
+    missions: int | None
+    """How many it has; None: it cannot be read."""
+    template: bool
+    said: str
+    """What is wrong with it, or still to be done before it can fly; empty: nothing."""
+
+
+class TrashedPlan(TypedDict):
+    """A plan that was deleted, and can be restored."""
+
+    id: str
+    name: str
+    deleted_at: int
+
+
+class SavedPlans(TypedDict):
+    """All plans that are kept under names, and what was deleted of them."""
+
+    plans: list[SavedPlan]
+    trash: list[TrashedPlan]
+
+
+class PlanChange(TypedDict):
+    """A change of the plan, of the last 200."""
+
+    revision: int
+    by: str
+    """The browser that made it; empty: the station."""
+    step: Literal["edit", "undo", "redo"]
+
+
+class PlanChanges(TypedDict):
+    """The last changes of the plan, and what the browser that asks can take back."""
+
+    changes: list[PlanChange]
+    undo: bool
+    redo: bool
+
+
+class Swept(TypedDict):
+    """How an area is flown over: the targets of its trips, in their order."""
+
+    targets: list[Point]
+    metres: float
+    """The way from the first to the last."""
+    forbidden: float
+    """The share of the area that may not be flown over."""
+
+
+class Ways(TypedDict):
+    """The way of each pair of places, both ends included; None: there is none."""
+
+    ways: list[list[Point] | None]

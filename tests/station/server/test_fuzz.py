@@ -20,6 +20,9 @@ from pluto_fleet.station.web.api import ADDRESSES, Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
+from pluto_fleet.station.web.map_addresses import map_addresses
+from pluto_fleet.station.web.of_station import station_addresses
+from pluto_fleet.station.web.plan_addresses import plan_addresses
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, a_plan
 
@@ -27,7 +30,10 @@ from .asking import HOST, OURS, AStation
 from .serving import Served, served, status
 
 METHODS = st.sampled_from(["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH", "\x00", ""])
-ADDRESS = st.sampled_from([*ADDRESSES, "/", "/map", "/pages/main.js", "/pages/index.html"])
+FURTHER = [*map_addresses(None, None), *plan_addresses(None, None)]  # type: ignore[arg-type]
+ADDRESS = st.sampled_from(
+    [*ADDRESSES, *FURTHER, "/", "/map", "/pages/main.js", "/pages/index.html"]
+)
 PATHS = st.one_of(
     ADDRESS,
     st.builds(lambda one, other: one + other, ADDRESS, st.text(max_size=8)),
@@ -46,6 +52,12 @@ ALMOST = st.fixed_dictionaries(
         "missions": st.lists(JSON, max_size=3) | JSON,
         "how": st.sampled_from(["rtl", "land"]) | JSON,
         "mission": JSON,
+        "name": st.sampled_from(["A", "../x"]) | JSON,
+        "places": st.lists(st.fixed_dictionaries({"name": st.text(max_size=3), "x": JSON})) | JSON,
+        "image": JSON,
+        "ways": st.lists(st.lists(st.lists(st.floats(0, 20), min_size=2, max_size=3))) | JSON,
+        "polygon": JSON,
+        "spacing": st.sampled_from([1, "2 m"]) | JSON,
     },
 )
 BODIES = st.one_of(
@@ -54,7 +66,17 @@ BODIES = st.one_of(
     st.text(max_size=40).map(lambda text: text.encode("utf-8", "surrogatepass")),
 )
 NAMES = ["host", "origin", "x-pluto", "content-type", "authorization", "sec-fetch-site"]
-VALUES = ["", HOST, f"http://{HOST}", "1", "application/json", "application/toml", "null", "none"]
+VALUES = [
+    "",
+    HOST,
+    f"http://{HOST}",
+    "1",
+    "application/json",
+    "application/toml",
+    "null",
+    "none",
+    "image/png",
+]
 HEADERS = st.one_of(
     st.just(OURS),
     st.dictionaries(
@@ -66,7 +88,7 @@ HEADERS = st.one_of(
     ),
 )
 QUERIES = st.dictionaries(
-    st.sampled_from(["flight", "seen", "log", "results", "revision", "token"]),
+    st.sampled_from(["flight", "seen", "log", "results", "revision", "token", "name"]),
     st.text(max_size=8) | st.integers(-3, 10**20).map(str),
     max_size=4,
 )
@@ -164,7 +186,9 @@ def test_no_request_finds_a_mistake(asked: list[Request], token: str | None) -> 
 def test_no_request_finds_a_mistake_of_the_station_behind(asked: list[Request]) -> None:
     with TemporaryDirectory() as folder:
         station = a_station(Path(folder))
-        api = Api(station, Guard(host="127.0.0.1", port=8765), Audit(None), pause=no_pause)
+        also = station_addresses(station)
+        guard = Guard(host="127.0.0.1", port=8765)
+        api = Api(station, guard, Audit(None), also, pause=no_pause)
 
         async def scene() -> None:
             for request in asked:

@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.station.map.ways import DrawnWays
 from pluto_fleet.station.web.http import Reply
 from pluto_fleet.station.web.map_addresses import map_addresses
 from tests.station.map.test_drawn import BED, SVG, text, ward
@@ -23,7 +25,7 @@ def asking(folder: Path) -> Asked:
     """Return a station that serves the map of a fleet file."""
     drawn = ward(folder)
     station = AStation()
-    ask = asked(station, also=map_addresses(drawn))
+    ask = asked(station, also=map_addresses(drawn, DrawnWays(Airspace(size=(20.0, 12.0)))))
     drawn.changed = lambda: setattr(station, "image", drawn.image)
     station.image = drawn.image
     return ask

@@ -19,6 +19,7 @@ from .history import PlanHistory, Step
 from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, read
 from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
 from .text import NAME, renamed, shapes_of, text_of
+from .unfinished import unfinished_shapes
 
 if TYPE_CHECKING:
     from ...app import App
@@ -135,6 +136,18 @@ class MissionPlan:
         flying = [as_in_a_file(one) for one in self._missions if one["launched"]]
         new = [mission for mission in given if as_in_a_file(mission) not in flying]
         self._change(self._with_launched(new), by)
+
+    def saved(self, text: str, file: str) -> tuple[list[Shape], str]:
+        """Return the missions of a plan that was kept, without keys, and what still has to be done to fly it.
+
+        Raises `BadInput` if it is no plan. It changes nothing, and may run in a thread.
+        """
+        try:
+            return self._shapes(text, file), ""
+        except BadInput as error:
+            shapes = unfinished_shapes(text, self._app, file)
+            self._shaped(shapes)
+            return shapes, str(error)
 
     def add(self, read: Sequence[Shape], revision: object, by: str = "") -> None:
         """Add these missions, which have no keys, under names that no other has."""

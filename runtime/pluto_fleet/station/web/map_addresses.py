@@ -7,19 +7,20 @@ from typing import TYPE_CHECKING
 
 from ..map.drawn import StaleMap
 from ..map.pictures import LARGEST, PICTURES
-from .addresses import Addresses, check_type, json_body, taken
+from .addresses import Addresses, check_type, json_body, nothing_else, taken
 from .http import Reply, Request, json_reply
 from .strict_json import asked_number
 
 if TYPE_CHECKING:
     from ..map.drawn import DrawnMap
+    from ..map.ways import DrawnWays
 
 IMAGE = "/api/map/image"
 LARGEST_BODIES = {IMAGE: LARGEST}
 """The largest bodies in bytes, by the addresses at which they are larger than others."""
 
 
-def map_addresses(drawn: DrawnMap) -> Addresses:
+def map_addresses(drawn: DrawnMap, ways: DrawnWays) -> Addresses:
     """Return the addresses of a map."""
 
     async def show(_: Request) -> Reply:
@@ -36,7 +37,21 @@ def map_addresses(drawn: DrawnMap) -> Addresses:
         content = await request.read()
         return await _changed(drawn, lambda: drawn.take_picture(revision, name, content))
 
-    return {"/api/map": {"GET": show, "PUT": change}, IMAGE: {"PUT": take_picture}}
+    async def find_ways(request: Request) -> Reply:
+        given = await json_body(request)
+        pairs = given.pop("ways", None)
+        nothing_else(given)
+        return json_reply(200, await ways.ways(pairs))
+
+    async def sweep(request: Request) -> Reply:
+        return json_reply(200, await ways.sweep(await json_body(request)))
+
+    return {
+        "/api/map": {"GET": show, "PUT": change},
+        IMAGE: {"PUT": take_picture},
+        "/api/ways": {"POST": find_ways},
+        "/api/plan/sweep": {"POST": sweep},
+    }
 
 
 async def _changed(drawn: DrawnMap, change: Callable[[], Coroutine[object, object, None]]) -> Reply:
