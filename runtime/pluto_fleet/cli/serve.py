@@ -30,7 +30,6 @@ from ..station.web.api import Api
 from ..station.web.audit import Audit
 from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
-from ..station.web.of_station import station_addresses
 from .interrupts import Interrupts
 from .plans import load_fleet
 from .preflight import OR_SIMULATED, check_real
@@ -98,8 +97,7 @@ async def _serve(
     interrupts.loop = asyncio.get_running_loop()
     with listening(options.host, _port(options, config)) as listener:
         guard = _guard(options, config, port_of(listener))
-        audit = Audit(config.own_folder / "audit.log")
-        api = Api(station, guard, audit, station_addresses(station))
+        api = Api(station, guard, Audit(config.own_folder / "audit.log"), station)
         station.begin(options.going_on)
         if options.going_on and station.phase is Phase.INTERRUPTED:
             station.resume()

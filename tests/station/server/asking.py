@@ -11,9 +11,9 @@ from typing import Any
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import Stale
-from pluto_fleet.station.web.addresses import Addresses
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
+from pluto_fleet.station.web.further import DrawnStation
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
 
@@ -154,10 +154,10 @@ def request(
 def asked(
     station: AStation | None = None,
     file: Path | None = None,
-    also: Addresses | None = None,
+    drawn: DrawnStation | None = None,
     **guard: Any,
 ) -> Asked:
-    """Serve a station without a web server; `also`: further addresses."""
+    """Serve a station without a web server; `drawn`: as further addresses need it."""
     station = station or AStation()
     times, paused = [0.0], list[float]()
 
@@ -171,7 +171,7 @@ def asked(
         station,
         Guard(**{"host": "127.0.0.1", "port": 8765, **guard}),
         Audit(file, now=lambda: 0.0, clock=clock),
-        also or {},
+        drawn,
         clock=clock,
         pause=pause,
     )

@@ -16,13 +16,10 @@ from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.session import Phase
 from pluto_fleet.station.station import Station
-from pluto_fleet.station.web.api import ADDRESSES, Api
+from pluto_fleet.station.web.api import ALL_ADDRESSES, Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
-from pluto_fleet.station.web.map_addresses import map_addresses
-from pluto_fleet.station.web.of_station import station_addresses
-from pluto_fleet.station.web.plan_addresses import plan_addresses
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import FLEET, a_plan
 
@@ -30,10 +27,7 @@ from .asking import HOST, OURS, AStation
 from .serving import Served, served, status
 
 METHODS = st.sampled_from(["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH", "\x00", ""])
-FURTHER = [*map_addresses(None, None), *plan_addresses(None, None)]  # type: ignore[arg-type]
-ADDRESS = st.sampled_from(
-    [*ADDRESSES, *FURTHER, "/", "/map", "/pages/main.js", "/pages/index.html"]
-)
+ADDRESS = st.sampled_from([*ALL_ADDRESSES, "/", "/map", "/pages/main.js", "/pages/index.html"])
 PATHS = st.one_of(
     ADDRESS,
     st.builds(lambda one, other: one + other, ADDRESS, st.text(max_size=8)),
@@ -186,9 +180,8 @@ def test_no_request_finds_a_mistake(asked: list[Request], token: str | None) -> 
 def test_no_request_finds_a_mistake_of_the_station_behind(asked: list[Request]) -> None:
     with TemporaryDirectory() as folder:
         station = a_station(Path(folder))
-        also = station_addresses(station)
         guard = Guard(host="127.0.0.1", port=8765)
-        api = Api(station, guard, Audit(None), also, pause=no_pause)
+        api = Api(station, guard, Audit(None), station, pause=no_pause)
 
         async def scene() -> None:
             for request in asked:

@@ -11,7 +11,6 @@ import pytest
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.station.map.ways import DrawnWays
 from pluto_fleet.station.web.http import Reply
-from pluto_fleet.station.web.map_addresses import map_addresses
 from tests.station.map.test_drawn import BED, SVG, text, ward
 
 from .asking import Asked, AStation, asked, said, without
@@ -23,12 +22,11 @@ def of(reply: Reply) -> Any:
 
 def asking(folder: Path) -> Asked:
     """Return a station that serves the map of a fleet file."""
-    drawn = ward(folder)
-    station = AStation()
-    ask = asked(station, also=map_addresses(drawn, DrawnWays(Airspace(size=(20.0, 12.0)))))
-    drawn.changed = lambda: setattr(station, "image", drawn.image)
-    station.image = drawn.image
-    return ask
+    station: Any = AStation()
+    station.map, station.ways = ward(folder), DrawnWays(Airspace(size=(20.0, 12.0)))
+    station.map.changed = lambda: setattr(station, "image", station.map.image)
+    station.map.changed()
+    return asked(station, drawn=station)
 
 
 def test_a_page_draws_and_gets_the_newest(tmp_path: Path) -> None:

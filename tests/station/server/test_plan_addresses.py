@@ -6,9 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from pluto_fleet.station.web.addresses import ME
+from pluto_fleet.station.web.further import ME
 from pluto_fleet.station.web.http import Reply
-from pluto_fleet.station.web.plan_addresses import plan_addresses
 from tests.station.plan.drawing import a_plan, mission
 from tests.station.plan.test_library import library
 
@@ -23,8 +22,8 @@ def asking(folder: Path) -> Asked:
     """Return a station with a real plan, and its library."""
     plan = a_plan()
     station: Any = AStation()
-    station.plan = plan
-    return asked(station, also=plan_addresses(plan, library(folder, plan)))
+    station.plan, station.library = plan, library(folder, plan)
+    return asked(station, drawn=station)
 
 
 def by(me: str) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import re
 import time
@@ -16,7 +17,7 @@ from ...shared.domain.text import cut_off, printable, quoted
 from ..whole_file import write_whole
 
 if TYPE_CHECKING:
-    from ..wire import SavedPlan, TrashedPlan
+    from ..wire import SavedPlan, SavedPlans, TrashedPlan
 
 SUFFIX, TRASH = ".toml", "trash"
 MOST, MOST_IN_TRASH = 500, 100
@@ -42,8 +43,14 @@ class PlanLibrary:
     def __init__(self, folder: Path, read: Read, now: Callable[[], float] = time.time) -> None:
         self._folder, self._trash = folder, folder / TRASH
         self._read, self._now = read, now
+        self.one_at_a_time = asyncio.Lock()
+        """To be held while a thread does any of this."""
         self._known: dict[Path, tuple[object, SavedPlan]] = {}
         """What was found in files that have not changed since."""
+
+    def everything(self) -> SavedPlans:
+        """Return all plans, and what is in the trash."""
+        return {"plans": self.plans(), "trash": self.trash()}
 
     def plans(self) -> list[SavedPlan]:
         """Return all plans, also those that cannot be read, with what is wrong; the newest first."""

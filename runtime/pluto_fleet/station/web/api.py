@@ -7,7 +7,6 @@ import time
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from dataclasses import replace
 from pathlib import Path
-from types import MappingProxyType
 from typing import Protocol
 
 from ...shared.domain.errors import BadInput
@@ -15,8 +14,9 @@ from ...shared.domain.text import cut_off, printable
 from ..commands import NEEDS, Malformed
 from ..plan.plan import Stale
 from . import refusals
-from .addresses import Addresses, answered, me
 from .audit import Audit
+from .further import DrawnStation, answered, browser
+from .further_addresses import FURTHER
 from .guard import Access, Guard, Rate, refusal, with_safe_headers
 from .http import MISTAKES, PageSocket, Reply, Request, json_reply, text_reply
 from .http import said as in_words
@@ -36,6 +36,7 @@ ADDRESSES: dict[str, tuple[str, ...]] = {
     "/api/results.json": ("GET",),
     **{f"/api/{command}": ("POST",) for command in NEEDS},
 }
+ALL_ADDRESSES = ADDRESSES | {path: tuple(methods) for path, methods in FURTHER.items()}
 _LONGEST_ID = 64
 _LONGEST_NAME = 80
 _NAME = "missions.toml"
@@ -120,7 +121,7 @@ async def change(station: ServedStation, audit: Audit, request: Request) -> Repl
         raise Refused(refusals.wrong_type(wanted))
     body = await request.read()
     plan = station.plan
-    by = me(request) if request.path.startswith("/api/plan") else ""
+    by = browser(request) if request.path.startswith("/api/plan") else ""
     match request.path:
         case "/api/plan":
             given = parsed_object(body)
@@ -227,14 +228,14 @@ class Api:
         station: ServedStation,
         guard: Guard,
         audit: Audit,
-        also: Addresses = MappingProxyType({}),
+        drawn: DrawnStation | None = None,
         *,
         clock: Callable[[], float] = time.monotonic,
         pause: Pause = asyncio.sleep,
     ) -> None:
-        """`also` are further addresses."""
+        """`drawn` is the station as further addresses need it; None: there are none."""
         self.guard = guard
-        self._also = also
+        self._drawn = drawn
         self._station, self._audit, self._pause = station, audit, pause
         self._pages = pages()
         self._picture = picture(station.image)
@@ -281,7 +282,7 @@ class Api:
             return file_reply(self._pages[request.path], request)
         if request.path == "/map" and (held := self._floor_plan()) is not None:
             return file_reply(held, request)
-        _route(request, ADDRESSES | {path: tuple(one) for path, one in self._also.items()})
+        _route(request, ADDRESSES if self._drawn is None else ALL_ADDRESSES)
         if request.path == LIVE:
             return await self._live.poll(request)
         return await self._within_limits(request)
@@ -302,8 +303,9 @@ class Api:
             raise Refused(refusals.TOO_BUSY)
         self._under_way += 1
         try:
-            if request.path in self._also:
-                return await answered(self._also[request.path], request, self._audit)
+            if request.path in FURTHER and self._drawn is not None:
+                address = FURTHER[request.path][request.method]
+                return await answered(address, self._drawn, self._audit, request)
             if request.method == "GET":
                 return await read(self._station, request.path)
             return await change(self._station, self._audit, request)
@@ -313,7 +315,7 @@ class Api:
     def _rate(self, request: Request) -> Rate:
         if request.method == "GET":
             return self._reads
-        is_edit = request.path in self._also or request.path.startswith("/api/plan")
+        is_edit = request.path in FURTHER or request.path.startswith("/api/plan")
         return self._edits if is_edit else self._commands
 
     async def _slow_down(self) -> None:

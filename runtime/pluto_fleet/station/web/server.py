@@ -21,8 +21,8 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 from . import refusals
+from .further_addresses import LARGEST_BODIES
 from .http import Closed, Request
-from .map_addresses import LARGEST_BODIES
 from .refusals import Refused
 
 if TYPE_CHECKING:

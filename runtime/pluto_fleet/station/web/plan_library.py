@@ -1,0 +1,109 @@
+"""The handlers that take changes of the plan back, and keep plans under names."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+
+from ..plan.history import Step
+from ..plan.plan import Stale
+from .further import Asked, browser, changed, nothing_else, taken
+from .http import Reply, json_reply
+
+
+async def undo(asked: Asked) -> Reply:
+    """Take back the last change of the browser that asks."""
+    return await _step(asked, Step.UNDO)
+
+
+async def redo(asked: Asked) -> Reply:
+    """Make the change again that the browser that asks has taken back last."""
+    return await _step(asked, Step.REDO)
+
+
+async def plan_changes(asked: Asked) -> Reply:
+    """Return the last changes of the plan."""
+    history, by = asked.station.plan.history, browser(asked.request)
+    can = {step.value: history.can(by, step) for step in (Step.UNDO, Step.REDO)}
+    return json_reply(200, {"changes": history.changes, **can})
+
+
+async def saved_plans(asked: Asked) -> Reply:
+    """Return all plans that are kept."""
+    return json_reply(200, await _everything(asked))
+
+
+async def save_plan(asked: Asked) -> Reply:
+    """Keep the plan under a name."""
+    given, library = dict(asked.given), asked.station.library
+    by, template = str(taken(given, "by", str, "")), taken(given, "template", bool, False) is True
+    replace = taken(given, "replace", bool, False) is True
+    nothing_else(given)
+    name, text = asked.request.query.get("name", ""), asked.station.plan.export_toml()
+    return await _kept(
+        asked, lambda: library.save(name, text, by, template=template, replace=replace)
+    )
+
+
+async def delete_plan(asked: Asked) -> Reply:
+    """Put a plan into the trash."""
+    name = asked.request.query.get("name", "")
+    return await _kept(asked, lambda: asked.station.library.delete(name))
+
+
+async def restore_plan(asked: Asked) -> Reply:
+    """Take a plan out of the trash."""
+    given = dict(asked.given)
+    id = str(taken(given, "id", str))
+    nothing_else(given)
+    return await _kept(asked, lambda: asked.station.library.restore(id))
+
+
+async def open_plan(asked: Asked) -> Reply:
+    """Take a plan that was kept in place of what has not been started, or beside it."""
+    given, plan = dict(asked.given), asked.station.plan
+    name, revision = str(taken(given, "name", str)), taken(given, "revision", int)
+    adds, by = taken(given, "add", bool, False) is True, browser(asked.request)
+    nothing_else(given)
+
+    async def change() -> None:
+        text = await asyncio.to_thread(asked.station.library.text, name)
+        shapes, _ = await asyncio.to_thread(plan.saved, text, name)
+        (plan.add if adds else plan.take)(shapes, revision, by)
+
+    return await _edited(asked, change)
+
+
+async def _step(asked: Asked, step: Step) -> Reply:
+    given = dict(asked.given)
+    revision, by = taken(given, "revision", int), browser(asked.request)
+    nothing_else(given)
+
+    async def change() -> None:
+        asked.station.plan.step_back(revision, by, step)
+
+    return await _edited(asked, change)
+
+
+async def _edited(asked: Asked, change: Callable[[], Awaitable[object]]) -> Reply:
+    plan = asked.station.plan
+
+    async def newest() -> object:
+        await plan.examined()
+        return plan.data()
+
+    return await changed(asked, change, newest, Stale)
+
+
+async def _kept(asked: Asked, change: Callable[[], None]) -> Reply:
+    async def in_a_thread() -> None:
+        async with asked.station.library.one_at_a_time:
+            await asyncio.to_thread(change)
+
+    return await changed(asked, in_a_thread, lambda: _everything(asked), Stale)
+
+
+async def _everything(asked: Asked) -> object:
+    library = asked.station.library
+    async with library.one_at_a_time:
+        return await asyncio.to_thread(library.everything)
