@@ -429,3 +429,70 @@ class Ways(TypedDict):
     """The way of each pair of places, both ends included; None: there is none."""
 
     ways: list[list[Point] | None]
+
+
+class MapEdit(TypedDict):
+    """What a page has drawn on the map: PUT /api/map. What it does not send stays."""
+
+    revision: int
+    places: NotRequired[list[Place]]
+    zones: NotRequired[list[Zone]]
+    north: NotRequired[float]
+    image: NotRequired[Laid | None]
+    """Where the floor plan lies; null: there is to be none."""
+
+
+class Laid(TypedDict):
+    """Where the floor plan is to lie."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    turn: NotRequired[float]
+
+
+class WaysAsked(TypedDict):
+    """Pairs of places, at most 500, whose ways are asked for: POST /api/ways."""
+
+    ways: list[list[Point]]
+
+
+class AreaAsked(TypedDict):
+    """An area that is to be swept, as `[[mission.area]]` has it: POST /api/plan/sweep."""
+
+    polygon: list[Point]
+    spacing: str | float
+    height: NotRequired[str | float]
+    before: NotRequired[Point]
+    """From where the drones come; without it the sweep begins wherever it is shortest."""
+
+
+class StepAsked(TypedDict):
+    """POST /api/plan/undo and /api/plan/redo, with the header X-Pluto-Me."""
+
+    revision: int
+
+
+class PlanSaved(TypedDict):
+    """How the plan is to be kept: PUT /api/plans?name=…"""
+
+    by: NotRequired[str]
+    template: NotRequired[bool]
+    replace: NotRequired[bool]
+    """Whether one that has the name already goes to the trash."""
+
+
+class PlanOpened(TypedDict):
+    """Which plan is to be opened: POST /api/plans/open."""
+
+    name: str
+    revision: int
+    add: NotRequired[bool]
+    """Beside what is drawn, and not in place of what has not been started."""
+
+
+class PlanRestored(TypedDict):
+    """What is to be taken out of the trash: POST /api/plans/restore."""
+
+    id: str

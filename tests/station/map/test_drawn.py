@@ -68,6 +68,7 @@ def test_what_is_drawn_stands_in_the_fleet_file(tmp_path: Path) -> None:
         '[[map.zones]]\nname = "Ward"\ncorners = [[0.0, 0.0], [5.0, 0.0], [5.0, 5.0]]\n',
     )
     assert heard == [data["revision"]] == [1]
+    assert (drawn.name_of((2.2, 3.3)), drawn.name_of((4.0, 2.0))) == ("Bed 2", "Ward")
     change(drawn, places=[BED], zones=[], north=0)
     assert text(tmp_path) == FLEET
     assert load_fleet(tmp_path / "fleet.toml", APP).landmarks == drawn.landmarks

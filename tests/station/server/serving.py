@@ -14,6 +14,7 @@ from websockets.typing import Origin
 
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
+from pluto_fleet.station.web.further import DrawnStation
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.listening import listening, port_of
 from pluto_fleet.station.web.server import serve
@@ -99,12 +100,14 @@ def status(answer: bytes) -> int:
 
 
 @asynccontextmanager
-async def served(file: Path | None = None, **guard: Any) -> AsyncIterator[Served]:
+async def served(
+    file: Path | None = None, drawn: DrawnStation | None = None, **guard: Any
+) -> AsyncIterator[Served]:
     """Serve a station on a port that is free."""
     station = AStation()
     with listening("127.0.0.1", 0) as listener:
         port = port_of(listener)
-        api = Api(station, Guard(host="127.0.0.1", port=port, **guard), Audit(file))
+        api = Api(station, Guard(host="127.0.0.1", port=port, **guard), Audit(file), drawn)
         ready = asyncio.Event()
         serving = asyncio.create_task(serve(api, listener, ready.set))
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from pathlib import Path
 from typing import Any
@@ -9,11 +10,14 @@ from typing import Any
 import pytest
 
 from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.station.map.pictures import LARGEST
 from pluto_fleet.station.map.ways import DrawnWays
+from pluto_fleet.station.web.further_addresses import FLOOR_PLAN
 from pluto_fleet.station.web.http import Reply
 from tests.station.map.test_drawn import BED, SVG, text, ward
 
 from .asking import Asked, AStation, asked, said, without
+from .serving import served, status
 
 
 def of(reply: Reply) -> Any:
@@ -77,3 +81,22 @@ def test_another_site_draws_nothing(tmp_path: Path) -> None:
     for headers in (without("x-pluto"), without(origin="http://evil.example")):
         assert ask("PUT", "/api/map", {"revision": 0, "north": 3}, headers).status == 403
     assert ask("DELETE", "/api/map").status == 405
+
+
+def test_a_floor_plan_may_be_larger_than_other_bodies(tmp_path: Path) -> None:
+    """Up to its own limit, beyond which nothing is read."""
+    png = b"\x89PNG\r\n\x1a\n" + b"x" * (2 << 20)
+
+    async def scene() -> None:
+        station: Any = AStation()
+        station.map = ward(tmp_path)
+        async with served(drawn=station) as there:
+            for length, answer in ((len(png), 200), (LARGEST + 1, 413)):
+                put = there.request(
+                    "PUT", FLOOR_PLAN, Content_Length=str(length), Content_Type="image/png"
+                )
+                sent = png if length == len(png) else b""
+                assert status(await there.say(put, sent)) == answer
+        assert station.map.image.read_bytes() == png
+
+    asyncio.run(scene())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from ...files.landmarks import Picture
 from ...shared.domain.errors import BadInput, PlutoError
+from ..places import name_of
 from ..whole_file import write_whole
 from .file import MapFile
 from .pictures import floor_plan, safe_name
@@ -77,6 +78,10 @@ class DrawnMap:
     def address(self) -> str:
         """The address of the floor plan, another for each picture."""
         return f"{ADDRESS}?v={sha256(str(self.image).encode()).hexdigest()[:12]}"
+
+    def name_of(self, point: Sequence[float]) -> str | None:
+        """Return what a point is called: by the nearest named place, or the zone that it is in."""
+        return name_of(self.landmarks, point)
 
     async def change(self, revision: object, given: Mapping[str, object]) -> None:
         """Take what a page has drawn; what it does not send stays.

@@ -122,5 +122,5 @@ async def changed(
         raise
     except BadInput as error:
         status, said = impossible, str(error)
-    asked.audit.done(asked.request, dict(asked.request.query), status, said)
+    asked.audit.done(asked.request, {**asked.request.query, **asked.given}, status, said)
     return in_words(status, said) if said else json_reply(status, await newest())
