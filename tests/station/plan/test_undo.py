@@ -65,7 +65,7 @@ def test_two_draw_on_one_mission() -> None:
     undo(plan, A)
     [one] = missions(plan)
     assert (one["name"], len(one["trips"])) == ("mission-one", 2)
-    with pytest.raises(BadInput, match='mission "mission-one" was changed by somebody else since'):
+    with pytest.raises(BadInput, match='mission "mission-one" was changed by another person since'):
         undo(plan, A)
     assert missions(plan) == [one]
 
@@ -77,7 +77,7 @@ def test_the_same_written_again_by_another_is_theirs() -> None:
     draw(plan, A, mission(name="second"))
     draw(plan, B, mission(name="third"))
     draw(plan, B, mission(name="second"))
-    with pytest.raises(BadInput, match="by somebody else"):
+    with pytest.raises(BadInput, match="by another person"):
         undo(plan, A)
     assert names(plan) == ["second"]
 
@@ -93,7 +93,7 @@ def test_moves_are_taken_back_beside_what_others_add() -> None:
     assert names(plan) == ["mission-one", "mission-two", "mission-six"]
     redo(plan, A)
     draw(plan, B, *missions(plan)[::-1])
-    with pytest.raises(BadInput, match="the order of the missions was changed by somebody else"):
+    with pytest.raises(BadInput, match="the order of the missions was changed by another person"):
         undo(plan, A)
 
 

@@ -109,7 +109,7 @@ class PlanHistory:
         except Collision:
             what = _called(shared, (*missions, *change.before, *change.after))
             raise BadInput(
-                f"{what} was changed by somebody else since: look at it, and change it by hand"
+                f"{what} was changed by another person since: look at it, and change it by hand"
             ) from None
 
     def can(self, by: str, step: Step) -> bool:

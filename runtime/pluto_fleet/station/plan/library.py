@@ -207,5 +207,5 @@ def _about_in(text: str) -> dict[str, object]:
     try:
         found = json.loads(first.removeprefix(_ABOUT))
     except (ValueError, RecursionError):
-        return {}  # somebody has written over it: the plan itself may be as good
+        return {}  # it was written over: the plan itself may be as good
     return found if isinstance(found, dict) else {}
