@@ -221,11 +221,10 @@ def _fields(app: App, on: Entity, schema: str) -> tuple[str, dict[str, Read], di
 
 def _point(key: str, airspace: Airspace, height: float) -> Read:
     def read(value: object) -> Point:
-        x, y, *z = values.point(value)
-        point = x, y, z[0] if z else height
-        if problem := airspace.problem(point):
+        x, y, z = [*values.point(value), height][:3]  # its own height comes first
+        if problem := airspace.problem((x, y, z)):
             raise BadInput(f"{key} {problem}")
-        return point
+        return x, y, z
 
     return read
 
