@@ -17,6 +17,7 @@ from .history.recorder import Sample
 from .session import phase_of
 
 if TYPE_CHECKING:
+    from ..files.fleet import FleetFile
     from .attention.attention import Attention
     from .between_flights import FleetHistory
     from .plan.plan import MissionPlan
@@ -45,6 +46,7 @@ class StationState(Protocol):
     """The data of a station that pages show."""
 
     described: AppData
+    fleet: FleetFile
     session: FlightSession | None
     plan: MissionPlan
     history: FleetHistory
@@ -162,6 +164,7 @@ class Updates:
             "time": round(now, 3),
             "plan": plan.revision,
             "map": self._station.map_revision,
+            "fleet": len(self._station.fleet.drones),
             "said": (session.trouble if session is not None else "") or plan.trouble,
             "how": how.value if how is not None else None,
             "busy": _busy(session),

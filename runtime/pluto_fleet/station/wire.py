@@ -42,12 +42,51 @@ class State(TypedDict):
     """The revision of the plan."""
     map: int
     """The revision of the map's places, zones and picture."""
+    fleet: int
+    """How many drones there are; once it grows, `/api/app` describes the new one."""
     said: str
     """What is wrong; empty: nothing."""
     how: Literal["rtl", "land"] | None
     """How the drones come down."""
     busy: Busy
     """What all missions wait for: drones to be found, or asked where they are."""
+
+
+class ChangeTrips(TypedDict):
+    """The command `change-trips`: what a mission that flies shall fly from now on.
+
+    The same happens when a plan is saved (`PUT /api/plan`) in which it has other trips; then `said` is
+    why that cannot be, with status 400, and the plan stays as it is.
+    """
+
+    id: str
+    mission: str
+    """Its name."""
+    trips: list[dict[str, object]]
+    """As in the plan; all that has not flown, in order, without the trip that flies."""
+    replaces: NotRequired[list[str] | None]
+    """The names of what had not flown, as the page knew it: a change of an older state is refused."""
+
+
+class Join(TypedDict):
+    """The command `join`: a drone that joins the flight, as in a fleet file."""
+
+    id: str
+    drone: str
+    """The drone's id."""
+    category: str
+    home: Point
+    uri: NotRequired[str | None]
+    navigation: NotRequired[str | None]
+    options: NotRequired[dict[str, object] | None]
+
+
+class Mishap(TypedDict):
+    """The command `mishap`: what happens to a drone that `--sim` simulates, to rehearse it."""
+
+    id: str
+    drone: str
+    kind: Literal["lost", "crash", "battery", "uncertain"]
 
 
 class TripRow(TypedDict):

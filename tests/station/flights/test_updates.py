@@ -46,6 +46,7 @@ class Shown:
         self.plan = MissionPlan(APP, FLEET, None)
         self.history: Any = Nothing()
         self.map_revision = 0
+        self.fleet = FLEET
         self.attention = Attention(Path("nowhere"), lambda: 0.0)
 
 
