@@ -92,6 +92,8 @@ class Station:
         self.history = FleetHistory(app, config)
         """The drones' states while there is no flight."""
         self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
+        self.preflight = self._forecasts.preflight
+        """The forecast that is being made, if any."""
         self.past = PastFlights(app, config, self._ours)
         """The flights of the past."""
         self.exports = Exports(app, config, self._flight_now)

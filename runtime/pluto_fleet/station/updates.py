@@ -153,6 +153,7 @@ class Updates:
                     state={**state, "time": self._now},
                     missions=[*session.missions],
                     drones=[*session.drones],
+                    alerts=[*self._station.attention.rows],
                 )
             )
 

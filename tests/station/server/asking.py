@@ -17,7 +17,6 @@ from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
-from pluto_fleet.station.web.served import ServedFlights
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.station.wire_app import AppData
 
@@ -65,28 +64,6 @@ class APlan:
         return "[[mission]]\n"
 
 
-class NoFlights:
-    """The past of a station at which nothing has flown."""
-
-    def flights(self) -> object:
-        return []
-
-    def hours(self) -> object:
-        return []
-
-    def replay(self, id: str, start: float, /) -> object:
-        raise BadInput(f"no flight {id!r} is kept here")
-
-    def report(self, id: str, /) -> object:
-        raise BadInput(f"no flight {id!r} is kept here")
-
-    def mcap(self, id: str, /) -> bytes:
-        raise BadInput(f"no flight {id!r} is kept here")
-
-    def console(self, id: str, /) -> str:
-        raise BadInput(f"no flight {id!r} is kept here")
-
-
 class SomeResults:
     """Results of which some are no numbers, and one picture."""
 
@@ -109,12 +86,43 @@ class SomeResults:
 
 
 @dataclass
+class ThePast:
+    """One flight of the past, which is named `one`."""
+
+    def flights(self) -> object:
+        return [{"id": "one"}]
+
+    def hours(self) -> object:
+        return [{"id": "cf1"}]
+
+    def replay(self, id: str, start: float, /) -> object:
+        return {"flight": self._known(id), "start": start}
+
+    def report(self, id: str, /) -> object:
+        return {"flight": self._known(id)}
+
+    def mcap(self, id: str, /) -> bytes:
+        return self._known(id).encode()
+
+    def console(self, id: str, /) -> str:
+        return self._known(id)
+
+    def results(self, id: str, /) -> object:
+        return [self._known(id)]
+
+    def _known(self, id: str) -> str:
+        if id != "one":
+            raise BadInput(f"there is no flight {id!r} here")
+        return id
+
+
+@dataclass
 class AStation:
     """A station at which everything can be done, or goes wrong."""
 
     plan: APlan = field(default_factory=APlan)
+    past: ThePast = field(default_factory=ThePast)
     image: Path | None = None
-    past: ServedFlights = field(default_factory=NoFlights)
     done: list[tuple[str, Mapping[str, object]]] = field(default_factory=list)
     wrong: Exception | None = None
     told: int = 0
