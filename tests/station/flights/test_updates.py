@@ -43,6 +43,7 @@ class Shown:
     def __init__(self) -> None:
         self.described: Any = {"server": "x"}
         self.session: Any = Unseen()
+        self.fleet = FLEET
         self.plan = MissionPlan(APP, FLEET, None)
         self.history: Any = Nothing()
         self.map_revision = 0

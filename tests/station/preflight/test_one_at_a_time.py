@@ -18,12 +18,16 @@ from pluto_fleet.station.preflight.question import Question
 from pluto_fleet.station.preflight.runs import Found, Needs, Run
 from pluto_fleet.station.preflight.start import PlannedStart
 from pluto_fleet.station.station import Station
-from pluto_fleet.station.web.forecasts import GONE, forecast
+from pluto_fleet.station.web.audit import Audit
+from pluto_fleet.station.web.forecasts import GONE
+from pluto_fleet.station.web.forecasts import preflight as answered
 from pluto_fleet.station.web.http import Request
+from pluto_fleet.station.web.served import Asked
 from pluto_fleet.station.wire import Forecast
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import drawn
 from tests.station.preflight.asking import FLEET, photos, question
+from tests.station.server.asking import AStation
 
 ONE = photos("mission-one", 1)
 
@@ -100,7 +104,7 @@ def test_a_stop_is_answered_and_pages_are_told_while_one_flies_and_a_new_plan_en
         asked = PlannedStart(revision=plan.revision)
         making = asyncio.ensure_future(served.forecast(asked))
         await begun(served.preflight)
-        assert await served.command("stop", "one", {"how": "land"}) == "nothing flies"
+        assert await served.command("stop", "one", {"how": "land"}, "") == "nothing flies"
         assert '"phase": "idle"' in await served.newer("", 0, 0, 0)
         assert not making.done()
         plan.replace(plan.revision, [{**ONE, "name": "Another"}])
@@ -117,7 +121,7 @@ def test_a_stop_is_answered_and_pages_are_told_while_one_flies_and_a_new_plan_en
 def test_it_is_given_up_when_its_client_goes_away(tmp_path: Path) -> None:
     preflight = Preflight(tmp_path)
 
-    class Served:
+    class Served(AStation):
         async def forecast(self, asked: PlannedStart, /) -> Forecast:
             return await preflight.ask(question(ONE), ["mission-one"], [])
 
@@ -127,7 +131,10 @@ def test_it_is_given_up_when_its_client_goes_away(tmp_path: Path) -> None:
     async def asked() -> None:
         request = Request(method="POST", path="/api/preflight", gone=gone)
         given: dict[str, object] = {"revision": 1, "missions": None}
-        assert await forecast(Served(), request, given) is GONE
+        one = Asked(
+            station=Served(), audit=Audit(None), request=request, role="fly", given=given, body=b""
+        )
+        assert await answered(one) is GONE
         await ended()
 
     asyncio.run(asked())
