@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
     from .attention.attention import Attention
     from .between_flights import FleetHistory
+    from .map.drawn import DrawnMap
     from .plan.plan import MissionPlan
     from .session import FlightSession
     from .wire import Busy, DroneRow, State
@@ -49,6 +50,7 @@ class StationState(Protocol):
     fleet: FleetFile
     session: FlightSession | None
     plan: MissionPlan
+    map: DrawnMap
     history: FleetHistory
     map_revision: int
     attention: Attention
@@ -164,7 +166,7 @@ class Updates:
             "phase": phase_of(session).value,
             "time": round(now, 3),
             "plan": plan.revision,
-            "map": self._station.map_revision,
+            "map": self._station.map.revision,
             "fleet": len(self._station.fleet.drones),
             "said": (session.trouble if session is not None else "") or plan.trouble,
             "how": how.value if how is not None else None,

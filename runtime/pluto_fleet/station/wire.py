@@ -559,3 +559,108 @@ class Picture(TypedDict):
     width: float
     height: float
     turn: float
+
+
+class SavedPlan(TypedDict):
+    """A plan, or a template, that is kept under a name."""
+
+    name: str
+    saved_at: int
+    by: str
+    missions: int | None
+    """How many it has; None: it cannot be read."""
+    template: bool
+    said: str
+    """What is wrong with it, or still to be done before it can fly; empty: nothing."""
+
+
+class TrashedPlan(TypedDict):
+    """A plan that was deleted, and can be restored."""
+
+    id: str
+    name: str
+    deleted_at: int
+
+
+class SavedPlans(TypedDict):
+    """All plans that are kept under names, and what was deleted of them."""
+
+    plans: list[SavedPlan]
+    trash: list[TrashedPlan]
+
+
+class Swept(TypedDict):
+    """How an area is flown over: the targets of its trips, in their order."""
+
+    targets: list[Point]
+    metres: float
+    """The way from the first to the last."""
+    forbidden: float
+    """The share of the area that may not be flown over."""
+
+
+class Ways(TypedDict):
+    """The way of each pair of places, both ends included; None: there is none."""
+
+    ways: list[list[Point] | None]
+
+
+class MapEdit(TypedDict):
+    """What a page has drawn on the map: PUT /api/map. What it does not send stays."""
+
+    revision: int
+    places: NotRequired[list[Place]]
+    zones: NotRequired[list[Zone]]
+    north: NotRequired[float]
+    image: NotRequired[Laid | None]
+    """Where the floor plan lies; null: there is to be none."""
+
+
+class Laid(TypedDict):
+    """Where the floor plan is to lie."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    turn: NotRequired[float]
+
+
+class WaysAsked(TypedDict):
+    """Pairs of places, at most 500, whose ways are asked for: POST /api/ways."""
+
+    ways: list[list[Point]]
+
+
+class AreaAsked(TypedDict):
+    """An area that is to be swept, as `[[mission.area]]` has it: POST /api/plan/sweep."""
+
+    polygon: list[Point]
+    spacing: str | float
+    height: NotRequired[str | float]
+    before: NotRequired[Point]
+    """From where the drones come; without it the sweep begins wherever it is shortest."""
+
+
+class PlanSaved(TypedDict):
+    """How the plan is to be kept: PUT /api/plans?name=…"""
+
+    by: NotRequired[str]
+    template: NotRequired[bool]
+    replace: NotRequired[bool]
+    """Whether one that has the name already goes to the trash."""
+
+
+class PlanOpened(TypedDict):
+    """Which plan is to be opened: POST /api/plans/open."""
+
+    name: str
+    revision: int
+    add: NotRequired[bool]
+    """Beside what is drawn, and not in place of what has not been started."""
+
+
+class PlanRestored(TypedDict):
+    """What is to be taken out of the trash: POST /api/plans/restore."""
+
+    id: str
