@@ -226,6 +226,7 @@ export default {
   "trips.zone": "Area",
   "trips.zone-drawn": "The rectangle",
   "trips.trips": "Trips",
+  "trips.under-way": "This mission is under way. What has not flown can still be changed, and is flown so from then on.",
   "trips.write-metres": "Write metres here, such as 2.5.",
   "trips.x": "x (m)",
   "trips.y": "y (m)",
