@@ -6,7 +6,7 @@ import { capital, number, place as inWords } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { newKey } from "../core/keys.js";
 import { speakOut } from "../core/notices.js";
-import { plan, selected, selection } from "../core/station.js";
+import { plan, selection } from "../core/station.js";
 import { linked, PICK } from "./carried.js";
 import { rounded } from "./snapping.js";
 import { abouts, isLocked, markAll, marked, markOne } from "./state.js";
@@ -138,6 +138,3 @@ export const where = (target) => target.map((one) => number(one, { maximumFracti
 
 /** The keys that a command on this pin is for: all that are selected, if it is one of them. @param {string} key */
 export const meant = (key) => (marked.peek().includes(key) ? marked.peek() : [key]);
-
-/** Whether there is a mission to draw in. */
-export const hasMission = () => selected.value !== null;

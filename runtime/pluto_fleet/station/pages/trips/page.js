@@ -82,7 +82,7 @@ export default function Page() {
   const canDraw = mission !== null && !isLocked.value;
   const isAiming = inHand.value !== null || tool.value !== null;
   return h("div", { class: "trips" }, h(MapSplit, {
-    tools: [canDraw && h(UndoButtons, { key: "undo" }), canDraw && h(ToolButtons, { key: "tools" })],
+    tools: [mayFly.value && h(UndoButtons, { key: "undo" }), canDraw && h(ToolButtons, { key: "tools" })],
     stage: h(Drawing, { camera, class: `trips-stage ${canDraw ? "drawable" : ""}`, onMove },
       canDraw && h(Palette, { camera, onAdded, onNew: newMission }),
       h(Floor, {
