@@ -66,34 +66,91 @@ def drawn(station: Station) -> dict[str, list[Place]]:
     }
 
 
+MOST_PRESSES = 70
+"""Presses of keys for the whole exercise, the letters and numbers that are typed among them."""
+
+COUNTED = """
+addEventListener("keydown", ({ key }) => {
+  if (key !== "Shift") sessionStorage.presses = Number(sessionStorage.presses ?? 0) + 1;
+}, true);
+"""
+
+
+def press_keys(page: Page, *keys: str) -> None:
+    """Press keys one after another; a text is typed."""
+    for key in keys:
+        if len(key) > 1 and not key[0].isupper():
+            page.keyboard.type(key)
+        else:
+            page.keyboard.press(key)
+
+
+def placed(page: Page, trip: Trip) -> list[str]:
+    """Return the keys that put the action in hand there: down to a named place, or its coordinates."""
+    names: list[list[float]] = page.evaluate(PLACES_NOW)
+    now = page.evaluate("() => Number(sessionStorage.place ?? -1)")
+    at = next((n for n, place in enumerate(names) if place == list(trip.at)), None)
+    x, y = (f"{value:g}" for value in trip.at)
+    typed = [*x, "Tab", *y, "Enter"]
+    if at is None:
+        return typed
+    page.evaluate("(at) => { sessionStorage.place = at; }", at)
+    steps = (at - now) % len(names) if now >= 0 else at + 1
+    return min([*["ArrowDown"] * steps, "Enter"], typed, key=len)
+
+
+PLACES_NOW = """
+async () => {
+  const answer = await fetch("/api/map", { headers: { "X-Pluto": "1" } });
+  return (await answer.json()).places.map(({ x, y }) => [x, y]);
+}
+"""
+
+
 @pytest.mark.long  # a whole flight once more
-def test_the_exercise_is_drawn_and_flown_without_a_mouse(serve: Serve, visit: Visit) -> None:
+def test_the_exercise_is_drawn_and_flown_by_few_keys_and_without_a_mouse(
+    serve: Serve, visit: Visit
+) -> None:
     station = serve("drugs_distribution", "--speed", "60")
-    page = visit(station)
-    for mission, trips in PLAN.items():
-        go_to(page, "Missions")
-        add(page)
-        page.keyboard.type(mission)
-        page.keyboard.press("Enter")  # goes on to its trips
-        page.keyboard.press("Enter")
+    page = visit(station, prepare=lambda page: page.add_init_script(COUNTED))
+    add(page)
+    expect(page.get_by_role("textbox", name="Name")).to_be_focused()
+    press_keys(page, "Enter", "Enter")  # its name stays; on to its trips
+    numbers = {"measure": "1", "take_photo": "2", "pick_item": "3", "release_item": "4"}
+    for index, trips in enumerate(PLAN.values()):
+        expect(action_called(page, "measure")).to_be_focused()
+        if index:
+            press_keys(page, "n")
+            expect(page.get_by_label("Name of the mission")).to_be_focused()
+            press_keys(page, "Enter")
+            expect(action_called(page, "measure")).to_be_focused()
+        in_hand = ""
         for number, trip in enumerate(trips, start=1):
-            tab_to(page, action_called(page, trip.action))
-            page.keyboard.press("Enter")
-            page.keyboard.type(str(trip.at[0]))
-            page.keyboard.press("Tab")
-            page.keyboard.type(str(trip.at[1]))
-            page.keyboard.press("Enter")
+            if trip.action != in_hand:
+                press_keys(page, *(["Escape"] if in_hand else []), numbers[trip.action])
+                in_hand = trip.action
+            expect(page.get_by_label("x", exact=True)).to_be_focused()
+            press_keys(page, *placed(page, trip))
+            expect(pin_of(page, number)).to_be_visible()
             if trip.action == "pick_item":
-                card = card_of(page, number)
-                tab_to(page, card.get_by_label("Item").first)
-                page.keyboard.type(trip.item)
-                tab_to(page, card.get_by_label("Mass"))
-                page.keyboard.type("8")
+                expect(card_of(page, number).get_by_label("Item")).to_be_focused()
+                press_keys(page, trip.item, "Tab", "8")
+        press_keys(page, "Escape")
+        in_hand = ""
+        expect(page.get_by_label("x", exact=True)).to_be_hidden()
+        page.evaluate("() => document.activeElement.closest('.palette') || null")
     until(lambda: drawn(station) == PLACES, "the plan is kept")
     until(lambda: station.get("/api/plan")["problems"] == [], "the plan is sound")
-    press(page, "Start 3 missions")
+    begin = page.get_by_role("button", name="Start 3 missions")
+    page.keyboard.press("Shift+Tab")
+    tab_back_to(page, begin)
+    presses = page.evaluate("() => Number(sessionStorage.presses)")
+    with page.expect_request("**/api/start"):
+        page.keyboard.down("Enter")
+    page.keyboard.up("Enter")
     sees_all(page, "Completed")
     assert station.done() == DONE
+    assert presses < MOST_PRESSES
 
 
 def test_missions_change_places_and_go_by_keys_and_come_back(serve: Serve, visit: Visit) -> None:
