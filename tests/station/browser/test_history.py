@@ -103,6 +103,7 @@ def test_a_flight_is_played_by_keys_reported_and_downloaded(serve: Serve, visit:
     until(lambda: station.phase == "over", "the flight is over")
     page.reload()
     slider = replay_of(page)
+    expect(page.locator(".replay")).to_be_focused()
     page.keyboard.press("ArrowRight")
     expect(slider).to_have_value("5")
     page.keyboard.press("Shift+ArrowRight")
