@@ -23,15 +23,8 @@ from ..journal.reader import Reader
 from ..shared import output
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
-from .attention.causes import (
-    Cause,
-    of_batteries,
-    of_drones,
-    of_missions,
-    of_results,
-    of_waiting,
-)
-from .attention.waits import Waits
+from .attention.causes import Cause, of_drones, of_missions, of_results
+from .attention.waiting import Waits, of_batteries, of_waiting
 from .between_flights import IdleDrones
 from .feed import Feed, VersionedRows
 from .history.folder import recording_of

@@ -8,15 +8,8 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.station.attention.causes import (
-    Cause,
-    of_batteries,
-    of_drones,
-    of_missions,
-    of_results,
-    of_waiting,
-)
-from pluto_fleet.station.attention.waits import LONG, Waits
+from pluto_fleet.station.attention.causes import Cause, of_drones, of_missions, of_results
+from pluto_fleet.station.attention.waiting import LONG, Waits, of_batteries, of_waiting
 
 from .lists import Listed, drone, mission, result
 
@@ -87,13 +80,13 @@ def test_a_finding_lasts_until_a_person_knows_of_it(tmp_path: Path) -> None:
 def test_why_all_wait_is_said_in_total() -> None:
     drones = [drone(f"cf{n}", "LOW", ready_in=250.0 + n) for n in range(27)]
     drones += [drone("cf30", "BUSY"), drone("cf31", "LOST"), drone("cf32", "CHARGING")]
-    cause = of_waiting(109, drones, 0.5)
+    cause = of_waiting(109, drones, 0.493)
     assert cause is not None
     assert cause.said["text"] == (
         "109 missions wait: 27 drones are below 50 %, the first is ready in about 4 min,"
         " 1 charging, 1 lost, 1 flying"
     )
-    facts = {"missions": 109, "low": 27, "takes": 0.5, "ready_in": 250.0, "lost": 1, "flying": 1}
+    facts = {"missions": 109, "low": 27, "takes": 0.5, "ready_in": 240, "lost": 1, "flying": 1}
     assert facts.items() <= cause.said["facts"].items()
     assert of_waiting(109, [drone("cf1", "BUSY"), drone("cf2", "FREE")], None) is None
 

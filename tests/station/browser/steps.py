@@ -11,6 +11,8 @@ from tests.station.browser.exercise import PLAN, Place
 A_FLIGHT = 120_000
 """Milliseconds until a flight that does not end is called a failure."""
 
+START = re.compile(r"^Start \d+ (new )?missions?$")
+
 ADD_MISSION = re.compile("^Add (the first )?mission$")
 
 ANOTHER_WAS_QUICKER = "409 (Conflict)"
@@ -84,21 +86,27 @@ def card_of(page: Page, trip: int) -> Locator:
     return page.get_by_role("list", name="Trips").get_by_role("listitem").nth(trip - 1)
 
 
-def start(page: Page) -> None:
-    """Press Start, as soon as it says how many missions it will start."""
-    page.get_by_role("button", name=re.compile(r"^Start \d+ (new )?missions?$")).click()
+def start(page: Page, button: str | re.Pattern[str] = START) -> None:
+    """Hold Start down, as soon as it says how many missions it will start."""
+    held = page.get_by_role("button", name=button)
+    expect(held).not_to_have_attribute("aria-disabled", "true")
+    held.hover()
+    with page.expect_request("**/api/start"):
+        page.mouse.down()
+    page.mouse.up()
 
 
 def row_of(page: Page, mission: str) -> Locator:
-    """Return a mission's line in the Monitor."""
-    table = page.get_by_role("table", name="Missions")
-    return table.get_by_role("row").filter(has=page.get_by_role("button", name=mission))
+    """Return a mission's entry in the Monitor."""
+    entries = page.get_by_role("tabpanel", name="Monitor").locator("[data-mission]")
+    return entries.filter(has=page.get_by_text(mission, exact=True))
 
 
 def sees_all(page: Page, word: str, missions: tuple[str, ...] = tuple(PLAN)) -> None:
     """Watch the Monitor until it says so of each of the missions."""
     for mission in missions:
-        expect(row_of(page, mission)).to_contain_text(word, timeout=A_FLIGHT)
+        stands = row_of(page, mission).locator(".opener .standing-word")
+        expect(stands).to_have_text(word, timeout=A_FLIGHT)
 
 
 def pin_of(page: Page, trip: int) -> Locator:
@@ -114,6 +122,13 @@ def missions_listed(page: Page) -> Locator:
 def select_mission(page: Page, name: str) -> None:
     """Press a mission in the list."""
     missions_listed(page).filter(has_text=re.compile(f"^{re.escape(name)}$")).click()
+
+
+def new_mission(page: Page, name: str) -> None:
+    """Make a mission on the page of the trips, and type its name over the one that it has."""
+    page.get_by_role("button", name="New mission").first.click()
+    expect(page.get_by_label("Name of the mission")).to_be_focused()
+    page.keyboard.type(name)
 
 
 def labels(page: Page) -> set[str]:

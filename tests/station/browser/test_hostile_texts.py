@@ -119,5 +119,5 @@ def test_a_name_without_end_breaks_no_page(serve: Serve, visit: Visit) -> None:
         wide = page.evaluate("() => document.documentElement.scrollWidth - innerWidth")
         assert wide <= 0, name
     start(page)
-    expect(page.get_by_role("table", name="Missions")).to_contain_text(re.compile("W{20}"))
+    expect(page.get_by_role("list", name="Missions")).to_contain_text(re.compile("W{20}"))
     assert page.evaluate("() => document.documentElement.scrollWidth - innerWidth") <= 0

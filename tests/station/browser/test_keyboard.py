@@ -51,7 +51,7 @@ def add(page: Page) -> None:
 def go_to(page: Page, name: str) -> None:
     """Go to a page by the arrow keys of its tabs."""
     tab_to(page, page.get_by_role("tab", selected=True))
-    for _ in range(4):
+    for _ in range(8):
         if page.get_by_role("tab", selected=True).inner_text() == name:
             return
         page.keyboard.press("ArrowRight")

@@ -9,11 +9,9 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.kill.lives import eventually
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.serving import Station, until
-from tests.station.browser.steps import open_page, row_of, settled, start
-from tests.station.browser.test_cut_motors import HELD
+from tests.station.browser.steps import open_page, row_of, start
 
 FIELD = Path(__file__).parents[3] / "examples" / "alfalfa" / "missions.toml"
 MISSIONS = ("North arc", "South-west arc", "South-east arc")
@@ -40,35 +38,23 @@ def mission(station: Station, name: str) -> dict[str, Any]:
     return row(station, "missions", "name", name)
 
 
-def panel(page: Page, name: str) -> Locator:
-    return page.get_by_role("region", name=name, exact=True)
+def lists(page: Page, name: str) -> Locator:
+    """Open one of the lists beside the map."""
+    page.get_by_role("tablist", name="Lists beside the map").get_by_role("tab", name=name).click()
+    return page.get_by_role("tabpanel", name=name, exact=True)
+
+
+def card(page: Page, drone: str) -> Locator:
+    """Open the card of a drone by its line in the list."""
+    lists(page, "Drones").get_by_role("button", name=drone).click()
+    return page.get_by_role("region", name=f"Drone {drone}")
 
 
 def opened(page: Page, name: str) -> None:
     """Open a mission's line."""
-    opener = row_of(page, name).get_by_role("button")
+    opener = row_of(page, name).locator(".opener")
     opener.click()
     expect(opener).to_have_attribute("aria-expanded", "true")
-
-
-def dropped(station: Station, page: Page, buttons: Locator) -> str:
-    """Hold a drone's button until it is lost, anew where its line moves away; return its name."""
-
-    def tried() -> bool:
-        button = buttons.first.element_handle()
-        name = button.inner_text().split()[-1].rstrip("?")
-        button.hover()
-        page.mouse.down()
-        settled(page)
-        until(lambda: button.evaluate(HELD) == 0, "its second is over, or its line has moved away")
-        page.mouse.up()
-        if is_lost := eventually(lambda: row(station, "drones", "id", name)["status"] == "LOST", 3):
-            lost.append(name)
-        return is_lost
-
-    lost: list[str] = []
-    until(tried, "one is lost")
-    return lost[0]
 
 
 def holds(station: Station, name: str, what: Callable[[dict[str, Any]], bool]) -> None:
@@ -105,34 +91,51 @@ def test_a_trip_is_weighed_anew_and_another_left_out_while_the_mission_flies(
 
 def test_a_drone_is_retired_and_brought_back(flying: tuple[Station, Page]) -> None:
     station, page = flying
-    drones = panel(page, "Drones")
-    drones.get_by_role("button", name="Retire drone carrier2").click()
-    expect(drones.get_by_role("listitem").filter(has_text="carrier2")).to_contain_text("Retired")
+    its = card(page, "carrier2")
+    its.get_by_role("button", name="Retire").click()
+    expect(its).to_contain_text("Retired")
     assert row(station, "drones", "id", "carrier2")["retired"]
-    drones.get_by_role("button", name="Bring back drone carrier2").click()
+    its.get_by_role("button", name="Bring back").click()
     until(lambda: not row(station, "drones", "id", "carrier2")["retired"], "it is back")
-    expect(drones.get_by_role("button", name="Retire drone carrier2")).to_be_visible()
+    expect(its.get_by_role("button", name="Retire")).to_be_visible()
 
 
-def test_the_graph_says_of_each_block_what_it_does_and_who_is_there(
+def test_a_drone_pressed_on_the_map_opens_its_card_and_leads_to_its_mission(
     flying: tuple[Station, Page],
 ) -> None:
     station, page = flying
-    graph = panel(page, "What the app does")
-    blocks = {block["name"]: block for block in station.get("/api/app")["graph"]["blocks"]}
-    assert graph.get_by_role("button").count() == len(blocks) + 1  # and the one that folds it
-    block = graph.get_by_role("button", name="allocate:")
-    block.focus()
-    expect(graph.locator(".caption")).to_contain_text(blocks["allocate"]["doc"])
+    until(lambda: mission(station, "North arc")["drone"] is not None, "it has a drone")
+    drone = mission(station, "North arc")["drone"]
+    page.locator(f".drone[data-drone={drone}] .drone-mark").focus()
+    page.keyboard.press("Enter")
+    its = page.get_by_role("region", name=f"Drone {drone}")
+    its.get_by_role("button", name="North arc").click()
+    lists(page, "Missions")
+    expect(row_of(page, "North arc").locator(".opener")).to_have_attribute("aria-expanded", "true")
+
+
+def test_the_graph_is_for_those_who_want_it_and_says_what_each_block_does(
+    flying: tuple[Station, Page],
+) -> None:
+    station, page = flying
+    expect(page.get_by_role("tab", name="What the app does")).to_have_count(0)
+    open_page(page, "Help")
+    page.get_by_label("Show the graph of the app on the Monitor").check()
+    open_page(page, "Monitor")
     opened(page, "South-east arc")
+    graph = lists(page, "What the app does")
+    blocks = {block["name"]: block for block in station.get("/api/app")["graph"]["blocks"]}
+    assert graph.get_by_role("button").count() == len(blocks)
+    graph.get_by_role("button", name="allocate:").focus()
+    expect(graph.locator(".caption")).to_contain_text(blocks["allocate"]["doc"])
     expect(graph.locator(".token.picked").first).to_have_text("3")
 
 
 WAYS = """
 async ([graph, ways]) => {
-  const { finder } = await import("/pages/monitor.js");
-  const way = finder(graph);
-  return ways.map((given) => way(...given).map((edge) => edge.to).join(" "));
+  const { wayFinder } = await import("/pages/monitor/graph_way.js");
+  const way = wayFinder(graph);
+  return ways.map((given) => way(...given).map((edge) => edge.target).join(" "));
 }
 """
 
@@ -159,71 +162,42 @@ def test_lines_are_found_in_the_console_and_all_are_downloaded(
     flying: tuple[Station, Page], tmp_path: Path
 ) -> None:
     _, page = flying
-    console = panel(page, "Console")
+    console = lists(page, "Console")
     expect(console.get_by_role("log")).to_contain_text("South-east arc")
     console.get_by_label("Find text").fill("launched")
     expect(console.get_by_role("log")).to_contain_text("trip A launched")
     expect(console.get_by_role("log")).not_to_contain_text("completed")
-    console.get_by_label("Of which mission").select_option("North arc")
-    expect(console.get_by_role("log")).not_to_contain_text("South")
     with page.expect_download() as download:
-        console.get_by_role("button", name="Download").click()
+        console.get_by_role("button", name="Download the console").click()
     assert download.value.suggested_filename == "console.txt"
     download.value.save_as(tmp_path / "console.txt")
     assert "South-east arc" in (tmp_path / "console.txt").read_text()
 
 
-def test_a_photo_is_shown_with_where_it_was_taken(flying: tuple[Station, Page]) -> None:
+def test_missions_are_sifted_and_walked_through_by_keys(flying: tuple[Station, Page]) -> None:
     _, page = flying
-    results = panel(page, "Results")
-    photo = results.get_by_role("listitem").get_by_role("button").first
-    photo.focus()
-    expect(page.locator(".layer.photo-frame rect")).to_have_count(1)
-    expect(results.get_by_role("button", name="Photos")).to_have_attribute("aria-pressed", "true")
-
-
-def test_missions_are_sifted_and_sorted_and_walked_through_by_keys(
-    flying: tuple[Station, Page],
-) -> None:
-    _, page = flying
-    table = page.get_by_role("table", name="Missions")
-    names = table.locator(".entry:visible .opener .called")
+    names = page.get_by_role("list", name="Missions").locator(".opener .called")
     which = page.get_by_role("group", name="Which missions")
-    which.get_by_role("button", name="Failed 0").click()
+    which.get_by_role("button", name="Ended 0").click()
     expect(names).to_have_count(0)
     which.get_by_role("button", name="All 3").click()
     expect(names).to_have_text(list(MISSIONS))
-    head = table.get_by_role("columnheader", name="Mission")
-    head.get_by_role("button").click()
-    expect(head).to_have_attribute("aria-sort", "descending")
-    expect(names).to_have_text(list(reversed(MISSIONS)))
-    row_of(page, MISSIONS[2]).get_by_role("button").focus()
+    row_of(page, MISSIONS[0]).locator(".opener").focus()
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Enter")
-    expect(row_of(page, MISSIONS[1]).get_by_role("button")).to_be_focused()
+    expect(row_of(page, MISSIONS[1]).locator(".opener")).to_be_focused()
     expect(page.get_by_role("button", name="Pause", exact=True)).to_be_visible()
 
 
-def test_a_panel_that_was_folded_stays_so(flying: tuple[Station, Page]) -> None:
-    _, page = flying
-    page.get_by_role("button", name="What the app does").click()
-    expect(page.locator(".graph-view")).to_be_hidden()
-    page.reload()
-    expect(page.get_by_role("button", name="What the app does")).to_have_attribute(
-        "aria-expanded", "false"
-    )
-    expect(page.get_by_role("button", name="Console")).to_have_attribute("aria-expanded", "true")
-
-
-def test_motors_are_cut_while_the_button_is_held_and_the_lost_drone_is_brought_back(
+def test_lists_that_were_folded_stay_so_and_the_map_takes_their_room(
     flying: tuple[Station, Page],
 ) -> None:
-    station, page = flying
-    drones = panel(page, "Drones")
-    who = dropped(station, page, drones.get_by_role("button", name="cut motors of"))
-    expect(drones.get_by_role("listitem").filter(has_text=who)).to_contain_text("Lost")
-    assert row(station, "drones", "id", who)["z"] == 0
-    expect(panel(page, "Console")).to_contain_text(f"{who}'s motors were cut")
-    drones.get_by_role("button", name=f"Bring back drone {who}").click()
-    until(lambda: row(station, "drones", "id", who)["status"] != "LOST", "it is back")
-    expect(drones.get_by_role("button", name=f"Retire drone {who}")).to_be_visible()
+    _, page = flying
+    picture = page.locator(".floor-picture")
+    before = picture.bounding_box()
+    page.get_by_role("button", name="Hide the lists").click()
+    after = picture.bounding_box()
+    assert before and after and after["width"] > before["width"] + 300
+    page.reload()
+    expect(page.get_by_role("button", name="Show the lists")).to_be_visible()
+    expect(page.get_by_role("list", name="Missions")).to_be_hidden()

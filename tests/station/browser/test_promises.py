@@ -105,5 +105,5 @@ def test_one_mission_alone_is_not_started_before_the_one_that_it_comes_after(
     page = visit(put_in(serve("drugs_distribution")))
     promise(page, SECOND)
     tick(page, FIRST)
-    page.get_by_role("button", name="Start only this").click()
-    expect(page.get_by_role("alert").last).to_contain_text("is not started: start both")
+    start(page, "Start only this")
+    expect(page.locator(".notices [role=alert]")).to_contain_text("is not started: start both")

@@ -41,8 +41,8 @@ def test_a_finger_drags_an_action_onto_the_map_and_its_pin_elsewhere(
     add_mission(page, "By hand")
     box = action_called(page, "take_photo").bounding_box()
     assert box is not None
-    slide(page, middle(box), on_the_screen(page, (3.0, 8.0)))
-    until(lambda: target(station) == pytest.approx([3.0, 8.0], abs=0.15), "it is where it was put")
+    slide(page, middle(box), on_the_screen(page, (3.0, 7.5)))
+    until(lambda: target(station) == pytest.approx([3.0, 7.5], abs=0.15), "it is where it was put")
     assert pin_of(page, 1).is_visible()
-    slide(page, on_the_screen(page, (3.0, 8.0)), on_the_screen(page, (9.0, 2.0)))
-    until(lambda: target(station) == pytest.approx([9.0, 2.0], abs=0.15), "its pin has moved")
+    slide(page, on_the_screen(page, (3.0, 7.5)), on_the_screen(page, (9.0, 2.5)))
+    until(lambda: target(station) == pytest.approx([9.0, 2.5], abs=0.15), "its pin has moved")

@@ -27,9 +27,12 @@ WALL = (6.0, 8.0)
 
 FIRST_FRAME = """
 () => new Promise((seen) => {
-  const world = document.querySelector("#page-trips svg.floor-picture g.world");
-  document.querySelector("#tab-trips").click();
-  requestAnimationFrame(() => setTimeout(() => seen(world.getScreenCTM().a)));
+  document.querySelector("[role=tab][aria-controls=page-trips]").click();
+  requestAnimationFrame(function look() {
+    const world = document.querySelector("#page-trips svg.floor-picture g.world");
+    if (world) setTimeout(() => seen(world.getScreenCTM().a));
+    else requestAnimationFrame(look);
+  });
 })
 """
 """Goes to the trips, and says how many pixels a metre takes when that has been painted once."""
@@ -76,8 +79,8 @@ def draw(station: Station, visit: Visit, *actions: tuple[str, Place]) -> Page:
 def test_a_pin_goes_with_the_mouse_in_steps_of_ten_centimetres_and_of_one_with_shift(
     ward: Station, visit: Visit
 ) -> None:
-    station, page = drawn(ward, visit, ("take_photo", (3.0, 8.0)))
-    take(page, (3.0, 8.0))
+    station, page = drawn(ward, visit, ("take_photo", (3.0, 7.5)))
+    take(page, (3.0, 7.5))
     page.mouse.move(*on_the_screen(page, (9.04, 2.16)), steps=5)
     page.mouse.up()
     until(lambda: targets(station) == [[9.0, 2.2]], "it snaps to 0.1 m")
@@ -96,33 +99,33 @@ def test_a_pin_goes_with_the_mouse_in_steps_of_ten_centimetres_and_of_one_with_s
 def test_the_arrow_keys_move_a_pin_and_delete_removes_it_and_undo_brings_it_back(
     ward: Station, visit: Visit
 ) -> None:
-    station, page = drawn(ward, visit, ("take_photo", (3.0, 8.0)), ("measure", (9.0, 2.0)))
+    station, page = drawn(ward, visit, ("take_photo", (3.0, 7.5)), ("measure", (9.0, 2.5)))
     pin_of(page, 1).focus()
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Shift+ArrowDown")
-    until(lambda: targets(station)[0] == [3.1, 7.0], "it has moved")
+    until(lambda: targets(station)[0] == [3.1, 6.5], "it has moved")
     before = trips(station)
     page.keyboard.press("Delete")
     until(lambda: len(trips(station)) == 1, "it is gone")
-    page.get_by_role("button", name="Undo").click()
+    page.locator(".notices").get_by_role("button", name="Undo").click()
     until(lambda: trips(station) == before, "it is back where it was")
 
 
 def test_a_pin_over_a_no_fly_area_says_so_while_it_is_still_held(
     ward: Station, visit: Visit
 ) -> None:
-    station, page = drawn(ward, visit, ("take_photo", (3.0, 8.0)))
-    take(page, (3.0, 8.0))
+    station, page = drawn(ward, visit, ("take_photo", (3.0, 7.5)))
+    take(page, (3.0, 7.5))
     page.mouse.move(*on_the_screen(page, WALL), steps=5)
     expect(pin_of(page, 1)).to_have_accessible_name(re.compile("In a no-fly area"))
     expect(card_of(page, 1)).to_contain_text("In a no-fly area")
     page.mouse.move(*on_the_screen(page, (-0.3, 8.0)), steps=5)
     expect(pin_of(page, 1)).to_have_accessible_name(re.compile("Outside the map"))
-    assert targets(station) == [[3.0, 8.0]], "nothing is kept before it is let go"
+    assert targets(station) == [[3.0, 7.5]], "nothing is kept before it is let go"
     page.keyboard.press("Escape")
     expect(pin_of(page, 1)).not_to_have_accessible_name(re.compile("Problem"))
     page.mouse.up()
-    assert targets(station) == [[3.0, 8.0]]
+    assert targets(station) == [[3.0, 7.5]]
 
 
 def test_what_is_released_is_what_was_picked_before_it(ward: Station, visit: Visit) -> None:
@@ -180,7 +183,7 @@ def test_the_map_fills_its_box_in_the_first_frame_that_shows_it(
     ward: Station, visit: Visit
 ) -> None:
     page = visit(ward)
-    page.locator("#page-trips svg.floor-picture").wait_for(state="attached")
+    page.get_by_role("tab", name="Trips").wait_for()
     assert page.evaluate(FIRST_FRAME) > 20, "pixels that a metre takes"
 
 
@@ -188,7 +191,7 @@ def test_trips_of_a_mission_that_was_started_can_be_read_and_not_changed(
     serve: Serve, visit: Visit
 ) -> None:
     station = serve("drugs_distribution", "--speed", "1")
-    page = draw(station, visit, ("take_photo", (3.0, 8.0)))
+    page = draw(station, visit, ("take_photo", (3.0, 7.5)))
     start(page)
     until(lambda: station.get("/api/plan")["missions"][0]["launched"], "it flies")
     expect(page.get_by_role("tab", name="Monitor", selected=True)).to_be_visible()  # shown by Start
@@ -196,6 +199,64 @@ def test_trips_of_a_mission_that_was_started_can_be_read_and_not_changed(
     expect(page.get_by_text("This mission has been started")).to_be_visible()
     expect(action_called(page, "take_photo")).to_be_hidden()
     expect(card_of(page, 1).get_by_label("x (m)")).to_be_disabled()
+
+
+def test_several_pins_are_selected_by_a_rectangle_and_go_together(
+    ward: Station, visit: Visit
+) -> None:
+    """Moved by mouse and keys, duplicated and deleted; each is one step, which undo takes back."""
+    places = ((3.0, 6.9), (4.0, 6.9), (9.0, 5.0))
+    station, page = drawn(ward, visit, *(("measure", place) for place in places))
+    page.keyboard.down("Shift")
+    take(page, (2.0, 7.5))
+    page.mouse.move(*on_the_screen(page, (5.0, 6.2)), steps=4)
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    expect(page.get_by_text("2 trips are selected")).to_be_visible()
+    take(page, (3.0, 6.9))
+    page.mouse.move(*on_the_screen(page, (3.0, 5.4)), steps=4)
+    page.mouse.up()
+    until(lambda: targets(station) == [[3.0, 5.4], [4.0, 5.4], [9.0, 5.0]], "both are moved")
+    page.keyboard.press("ArrowRight")
+    until(lambda: targets(station)[:2] == [[3.1, 5.4], [4.1, 5.4]], "both are moved again")
+    page.get_by_role("button", name="Duplicate").click()
+    until(lambda: len(trips(station)) == 5, "there are two more")
+    assert targets(station)[2:4] == [[3.6, 5.4], [4.6, 5.4]]
+    page.get_by_role("group", name="Selected trips").get_by_role("button", name="Delete").click()
+    until(lambda: len(trips(station)) == 3, "they are gone")
+    for left in (5, 3):
+        page.keyboard.press("Control+z")
+        until(partial(has, station, left), "it is undone")
+    for _ in range(2):
+        page.keyboard.press("Control+z")
+    until(lambda: targets(station) == [list(place) for place in places], "all is as it was drawn")
+
+
+def test_a_row_and_a_grid_are_drawn_over_the_map_and_added_at_once(
+    ward: Station, visit: Visit
+) -> None:
+    station, page = drawn(ward, visit)
+    page.get_by_role("button", name="A row of trips").click()
+    take(page, (2.0, 6.9))
+    page.mouse.move(*on_the_screen(page, (5.0, 6.9)), steps=4)
+    page.mouse.up()
+    form = page.get_by_role("form", name="A row of trips")
+    form.get_by_label("Trips").fill("4")
+    form.get_by_role("button", name="Add 4 trips").click()
+    until(lambda: len(trips(station)) == 4, "the row is kept")
+    assert [x for x, _ in targets(station)] == [2.0, 3.0, 4.0, 5.0]
+    page.get_by_role("button", name="A grid of trips").click()
+    form = page.get_by_role("form", name="A grid of trips")
+    form.get_by_label("Action").select_option("take_photo")
+    for name, value in (("From x", "7"), ("From y", "4.5"), ("To x", "9"), ("To y", "5.5")):
+        form.get_by_label(name).fill(value)
+    form.get_by_label("Columns").fill("3")
+    form.get_by_label("Rows").fill("2")
+    form.get_by_role("button", name="Add 6 trips").click()
+    until(lambda: len(trips(station)) == 10, "the grid is kept")
+    assert targets(station)[4:8] == [[7, 4.5], [8, 4.5], [9, 4.5], [9, 5.5]]
+    page.get_by_role("button", name=re.compile("^Undo ")).click()
+    until(lambda: len(trips(station)) == 4, "it goes at once, too")
 
 
 def scale(page: Page) -> float:

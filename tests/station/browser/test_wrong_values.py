@@ -59,7 +59,7 @@ def target(station: Station, mission: int, trip: int) -> list[float]:
 
 def told(page: Page) -> Locator:
     """Return what stands beside Start."""
-    return page.locator("#why")
+    return page.locator(".why")
 
 
 def go_on(page: Page, held: list[Route]) -> None:
@@ -88,7 +88,7 @@ def test_a_wrong_coordinate_is_marked_and_start_waits_for_it(
     expect(x).to_have_accessible_description(said)
     start = page.get_by_role("button", name="Start 3 missions")
     expect(start).to_have_attribute("aria-disabled", "true")
-    expect(start).to_have_accessible_description(f"Mission 2, trip 1: {said}")
+    expect(told(page)).to_have_text(f"Mission 2, trip 1: {said}")
     assert target(planned, 1, 0) == [9.0, 1.5]
     opened(page, "Mission 1", 1)
     open_page(page, "Monitor")

@@ -42,7 +42,7 @@ export class PlanStore {
     this.trouble = signal("");
     this.isLoaded = signal(false);
     /** @type {PlanShape} */
-    this.base = { revision: 0, missions: [], problems: [] };
+    this.base = { revision: 0, missions: [], problems: [], said: "" };
     /** @type {Change[]} changes that the station does not know yet */
     this.pending = [];
     /** @type {PlanMission[]} what the station may have got all the same */

@@ -12,7 +12,7 @@ const EDGE = 60; // pixels that a revealed place keeps from the edge
 
 /** The camera over one floor plan: what it sees, and how it is moved. */
 export class Camera {
-  /** @param {readonly [number, number]} size of the map, in metres */
+  /** @param {readonly number[]} size of the map, in metres */
   constructor(size) {
     this.size = size;
     this.box = signal(/** @type {Box} */ ({ width: 0, height: 0 }));

@@ -4,7 +4,7 @@
 
 import { effect, signal } from "@preact/signals";
 import { h } from "preact";
-import { useEffect, useMemo, useRef } from "preact/hooks";
+import { useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { t } from "../core/i18n.js";
 import { number } from "../core/format.js";
 import { Button, IconButton } from "../ui/button.js";
@@ -34,12 +34,14 @@ export function Floor({ map, camera, children, overlay, tools, class: more = "",
   const place = useRef(onPlace);
   place.current = onPlace;
 
-  useEffect(() => {
+  useLayoutEffect(() => { // before it is painted: the map fills its box in the first frame
     const element = /** @type {SVGSVGElement} */ (picture.current);
     camera.picture = element;
-    const measured = new ResizeObserver(() => {
+    const measure = () => {
       if (element.clientWidth && element.clientHeight) camera.resize(element.clientWidth, element.clientHeight);
-    });
+    };
+    measure();
+    const measured = new ResizeObserver(measure);
     measured.observe(element);
     const stop = effect(() => { // not by drawing anew: a map is moved sixty times a second
       const { left, bottom, scale } = camera.view.value;

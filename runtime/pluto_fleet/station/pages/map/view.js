@@ -2,7 +2,7 @@
 
 /** @typedef {{ left: number, bottom: number, scale: number }} View y goes down in pixels, up in metres */
 /** @typedef {{ width: number, height: number }} Box in pixels */
-/** @typedef {readonly [number, number]} Size in metres */
+/** @typedef {readonly number[]} Size along x and y, in metres */
 /** @typedef {{ x: number, y: number }} At */
 
 export const CLOSEST = 800; // pixels a metre: one centimetre is easy to hit

@@ -9,6 +9,7 @@ import { Button, IconButton } from "../ui/button.js";
 import { Battery, Empty } from "../ui/parts.js";
 import { Slide } from "../ui/slide.js";
 import { Standing, toneOf } from "../ui/standing.js";
+import { walking } from "../ui/walk.js";
 
 /** @import { AppShape } from "../app" */
 /** @import { DroneRow } from "../wire" */
@@ -29,7 +30,7 @@ function seen({ seen_at: at, x, y }, now) {
 export function DroneList({ world, live }) {
   const ids = world.drones.keys.value;
   if (!ids.length) return h(Empty, null, t("monitor.no-drones"));
-  return h("ul", { class: "drone-rows", "aria-label": t("monitor.drones") },
+  return h("ul", { class: "drone-rows", "aria-label": t("monitor.drones"), onKeyDown: walking(".opener") },
     ids.map((id) => h(DroneLine, { key: id, world, id, live })));
 }
 

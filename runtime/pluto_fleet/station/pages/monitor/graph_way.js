@@ -17,11 +17,11 @@ export function wayFinder({ blocks, edges }) {
     const found = new Map(from.map((block) => [`${block} ${status}`, { block, status, way: [] }]));
     for (const { block, status: now, way } of found.values()) { // it grows: the nearest come first
       for (const edge of edges) {
-        if (edge.from !== block || !edge.statuses.includes(now)) continue;
-        if (edge.to === to && now === final) return [...way, edge];
-        for (const next of gates.has(edge.to) ? [now] : [now, final]) {
-          const key = `${edge.to} ${next}`;
-          if (!found.has(key)) found.set(key, { block: edge.to, status: next, way: [...way, edge] });
+        if (edge.source !== block || !edge.statuses.includes(now)) continue;
+        if (edge.target === to && now === final) return [...way, edge];
+        for (const next of gates.has(edge.target) ? [now] : [now, final]) {
+          const key = `${edge.target} ${next}`;
+          if (!found.has(key)) found.set(key, { block: edge.target, status: next, way: [...way, edge] });
         }
       }
     }

@@ -12,6 +12,7 @@ import { Button, IconButton } from "../ui/button.js";
 import { Battery, Chip, Empty } from "../ui/parts.js";
 import { Standing, toneOf } from "../ui/standing.js";
 import { SureButton } from "../ui/sure.js";
+import { walking } from "../ui/walk.js";
 import { calledTrip, done, due, progress, why } from "./waiting.js";
 
 /** @import { AppShape, FieldShape } from "../app" */
@@ -56,7 +57,7 @@ export function MissionList({ world, live }) {
         type: "button", key: name, class: "sift", "aria-pressed": filter.value === name,
         onClick: () => { filter.value = name; },
       }, t(/** @type {any} */ (`monitor.filter.${name}`)), " ", h("span", { class: "num" }, counts.value[name])))),
-    h("ul", { "aria-label": t("monitor.missions") }, shown.map((name) => h(Mission, { key: name, world, name, live }))),
+    h("ul", { "aria-label": t("monitor.missions"), onKeyDown: walking(".opener") }, shown.map((name) => h(Mission, { key: name, world, name, live }))),
     !shown.length && h(Empty, null, t("monitor.none-like-that")));
 }
 

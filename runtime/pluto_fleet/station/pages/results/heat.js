@@ -86,7 +86,7 @@ export class Field {
 const FINEST = 24; // pixels in a reach
 const MOST = 240; // pixels along the longer side
 
-/** How many pixels the raster of a map has: fine enough for its reach, and no finer. @param {readonly [number, number]} size metres @param {number} reach metres */
+/** How many pixels the raster of a map has: fine enough for its reach, and no finer. @param {readonly number[]} size metres @param {number} reach metres */
 export function pixelsOf([width, height], reach) {
   const scale = Math.min(FINEST / reach, MOST / Math.max(width, height));
   return { columns: Math.max(1, Math.ceil(width * scale)), rows: Math.max(1, Math.ceil(height * scale)) };
@@ -95,7 +95,7 @@ export function pixelsOf([width, height], reach) {
 /**
  * The picture of a heat map: each pixel has the colour of the value in its middle, and is transparent
  * where that is unknown.
- * @param {Field} field @param {readonly [number, number]} size of the map, in metres
+ * @param {Field} field @param {readonly number[]} size of the map, in metres
  * @param {{ low: number, high: number }} range at the ends of the colours
  * @returns {Raster}
  */

@@ -21,12 +21,12 @@ function drawn({ width, height, data }) {
   return canvas.toDataURL();
 }
 
-/** @param {{ model: ResultsModel, size: readonly [number, number] }} props */
+/** @param {{ model: ResultsModel, size: readonly number[] }} props */
 export const HeatLayers = ({ model, size }) => h("g", { class: "heat-layers", "aria-hidden": true },
   model.shown.value.filter(({ kind, range }) => kind === "heat" && range).map(({ id }) =>
     h(HeatLayer, { key: id, id, model, size })));
 
-/** @param {{ id: string, model: ResultsModel, size: readonly [number, number] }} props */
+/** @param {{ id: string, model: ResultsModel, size: readonly number[] }} props */
 function HeatLayer({ id, model, size }) {
   const layer = useMemo(() => computed(() => model.layers.value.find((one) => one.id === id)), [model, id]);
   const now = useCalm(layer, ANEW_EVERY).value;

@@ -183,6 +183,7 @@ export default {
   "trips.pin": "Trip {n}: {what}, {at}.",
   "trips.pin-keys": "Arrow keys move it, Delete removes it, Enter opens its card, Space selects it with others.",
   "trips.pin-problem": "Problem: {text}",
+  "trips.places-by-arrows": "↓ for named places",
   "trips.press-or-write": "{action}: press a place on the map, or write",
   "trips.put-pick-before": "Put a trip with “Pick item” before this one: then this one knows its item.",
   "trips.puts-down": "Puts down “{item}”{mass}, which trip {n} picks.",

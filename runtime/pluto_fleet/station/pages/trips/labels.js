@@ -5,6 +5,7 @@ import { capital } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { app } from "../core/station.js";
 import { useCamera } from "../map/camera.js";
+import { landmarkNames } from "../map/landmarks.js";
 import { LINE, placed } from "../map/labels.js";
 import { toPixels, whyNot } from "../map/view.js";
 import { where } from "./commands.js";
@@ -48,8 +49,7 @@ export function TripLabels() {
       importance: isOne ? 4 : problems.length ? 3 : 2,
     }];
   });
-  const named = places.value.map(({ name, x, y }) =>
-    ({ key: `place ${name}`, target: [x, y], text: short(name), importance: 1, gap: 8, aside: 0, kind: "of-place" }));
+  const named = landmarkNames.value.map(({ x, y, ...label }) => ({ ...label, target: [x, y], aside: 0 }));
   const labels = [...inTheAir(), ...pins, ...named].map(({ target, aside, ...label }) => {
     const { x, y } = toPixels(view, target[0], target[1]);
     return { ...label, x: x + aside, y };

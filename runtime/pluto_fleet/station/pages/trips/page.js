@@ -11,6 +11,7 @@ import { app, mayFly, plan, selected, selection, selectKey } from "../core/stati
 import { Camera, Mark } from "../map/camera.js";
 import { Homes } from "../map/fleet.js";
 import { Floor } from "../map/floor.js";
+import { Landmarks } from "../map/landmarks.js";
 import { MissionField } from "../missions/fields.js";
 import { called } from "../missions/words.js";
 import { Button } from "../ui/button.js";
@@ -54,9 +55,10 @@ export default function Page() {
   useEffect(() => {
     if (!wanted) return;
     if (wanted.trip) focusField(wanted.trip, wanted.field ?? undefined);
-    else requestAnimationFrame(() => /** @type {HTMLElement | null} */ (document.querySelector(".palette .action"))?.focus());
+    else focusPalette();
     wantedField.value = null;
   }, [wanted]);
+  useEffect(() => { if (!wanted && document.activeElement === document.body) focusPalette(); }, []);
   const mission = selected.value;
   if (!plan.isLoaded.value) return null;
 
@@ -82,16 +84,16 @@ export default function Page() {
   return h("div", { class: "trips" }, h(MapSplit, {
     tools: [canDraw && h(UndoButtons, { key: "undo" }), canDraw && h(ToolButtons, { key: "tools" })],
     stage: h(Drawing, { camera, class: `trips-stage ${canDraw ? "drawable" : ""}`, onMove },
+      canDraw && h(Palette, { camera, onAdded, onNew: newMission }),
       h(Floor, {
         map: shape.map, camera, class: isAiming ? "aiming" : "", onPlace, overlay: h(TripLabels, null),
         children: [
-          h(Homes, { key: "homes", app: shape }), h(Places, { key: "places" }),
+          h(Homes, { key: "homes", app: shape }), h(Landmarks, { key: "landmarks" }),
           h(OtherTrips, { key: "others", shown: areOthersShown }), h(Ways, { key: "ways" }),
           h(Drawn, { key: "drawn" }), h(Preview, { key: "preview" }),
           h(Pins, { key: "pins", onOpen: focusField, onRemoved: focusPin }),
         ],
       }),
-      canDraw && h(Palette, { camera, onAdded }),
       canDraw && h(ToolPanel, { onAdded: () => focusHead(abouts.peek().at(-1)?.key ?? null) })),
     rail: [
       h(Picker, { key: "picker", areOthersShown, showOthers }),
@@ -100,12 +102,12 @@ export default function Page() {
   }));
 }
 
+const focusPalette = () => requestAnimationFrame(() =>
+  /** @type {HTMLElement | null} */ (document.querySelector(".palette .action"))?.focus());
+
 /** @param {string | null} next */
 const focusPin = (next) => requestAnimationFrame(() =>
   /** @type {HTMLElement | null} */ (document.querySelector(`.pin[data-key="${next}"]`))?.focus());
-
-const Places = () => h("g", { class: "layer places" }, places.value.map(({ name, x, y }) =>
-  h(Mark, { key: name, x, y }, h("path", { d: "M0 -4L4 0L0 4L-4 0Z" }, h("title", null, name)))));
 
 /** The pins that would be put now. */
 function Preview() {
@@ -166,7 +168,7 @@ function Trips({ mission }) {
 function toPalette(event) {
   if (event.key !== "Enter") return;
   event.preventDefault();
-  /** @type {HTMLElement | null} */ (document.querySelector(".palette .action"))?.focus();
+  focusPalette();
 }
 
 /** What is to be done before trips can be drawn. */

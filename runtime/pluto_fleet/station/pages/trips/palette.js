@@ -3,7 +3,7 @@
 
 import { signal } from "@preact/signals";
 import { h } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { capital } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { app } from "../core/station.js";
@@ -31,12 +31,14 @@ export function take(action) {
 
 /** The new trip's key. @callback Added @param {string} key @param {ActionShape} action @param {string} by the pointer's kind, or `key` */
 
-/** @param {{ camera: Camera, onAdded: Added }} props */
-export function Palette({ camera, onAdded }) {
+/** @param {{ camera: Camera, onAdded: Added, onNew: () => void }} props */
+export function Palette({ camera, onAdded, onNew }) {
   const { actions = [] } = app.value ?? {};
   const bar = useRef(/** @type {HTMLDivElement | null} */ (null));
   const x = useRef(/** @type {HTMLInputElement | null} */ (null));
   const now = inHand.value;
+  /** The named place that was gone to last. */
+  const [said, setSaid] = useState("");
   useEffect(() => () => take(null), []);
 
   /** Take it, and go to where its place is written. @param {ActionShape} action */
@@ -57,17 +59,35 @@ export function Palette({ camera, onAdded }) {
     const target = ["x", "y"].map((name) => Number(String(new FormData(form).get(name)).replace(",", ".")));
     const [key] = add(action, [target]);
     form.reset();
+    setSaid("");
     x.current?.focus(); // for another of the same
     if (key) onAdded(key, action, "key");
   }
-  useEffect(() => { // a digit takes the action with that number, while no field has the keys
+  const place = useRef(-1);
+  /** The arrow keys go through the named places. @param {KeyboardEvent} event */
+  function pickPlace(event) {
+    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    const all = places.peek();
+    if (!by || !all.length) return;
+    event.preventDefault();
+    place.current = (place.current + by + all.length) % all.length;
+    const { name, x: atX, y: atY } = all[place.current];
+    const form = /** @type {HTMLFormElement} */ (event.currentTarget);
+    for (const [axis, value] of [["x", atX], ["y", atY]]) {
+      /** @type {HTMLInputElement} */ (form.elements.namedItem(String(axis))).value = String(value);
+    }
+    setSaid(name);
+  }
+  useEffect(() => { // while no field has the keys, a digit takes the action with that number
     const onKey = (/** @type {KeyboardEvent} */ event) => {
       const target = /** @type {Element} */ (event.target);
       if (event.ctrlKey || event.metaKey || event.altKey || target.closest("input, select, textarea, dialog")) return;
+      if (!target.closest(".trips")) return;
       if (event.key === "Escape" && inHand.peek()) back();
-      const action = target.closest(".trips") ? actions[Number(event.key) - 1] : undefined;
-      if (action && event.key.trim()) takeByKey(action);
-      if (action) event.preventDefault();
+      if (event.key.toLowerCase() === "n") onNew();
+      const action = event.key.trim() ? actions[Number(event.key) - 1] : undefined;
+      if (action) takeByKey(action);
+      if (action || event.key.toLowerCase() === "n") event.preventDefault();
     };
     document.addEventListener("keydown", onKey);
     return () => document.removeEventListener("keydown", onKey);
@@ -78,12 +98,13 @@ export function Palette({ camera, onAdded }) {
   },
   h("div", { ref: bar, class: "row", role: "group", "aria-label": t("trips.actions-group") }, actions.map((action, at) =>
     h(Chip, { key: action.name, action, number: at + 1, camera, onAdded, onTake: takeByKey }))),
-  now && h("form", { class: "in-hand row", onSubmit: submit },
+  now && h("form", { class: "in-hand row", onSubmit: submit, onKeyDown: pickPlace },
     h("span", { class: "hint" }, t("trips.press-or-write", { action: capital(now.name) })),
     ["x", "y"].map((axis) => h("label", { key: axis, class: "row" }, axis, h("input", {
       ref: axis === "x" ? x : undefined, name: axis, class: "input", inputMode: "decimal", required: true, pattern: METRES,
       title: t("trips.metres-such-as"), "aria-label": axis, autocomplete: "off",
     }))), h("span", null, "m"),
+    places.value.length > 0 && h("span", { class: "hint called", "aria-live": "polite" }, said || t("trips.places-by-arrows")),
     h(Button, { kind: "primary", small: true, type: "submit" }, t("trips.add")),
     h(Button, { kind: "quiet", small: true, onClick: back }, t("trips.cancel"))),
   ghost.value && h("div", {

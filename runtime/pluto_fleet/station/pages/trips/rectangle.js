@@ -49,7 +49,7 @@ export function Drawing({ camera, class: more = "", onMove, children }) {
     const isIn = (/** @type {number} */ value, /** @type {number} */ a, /** @type {number} */ b) => value >= Math.min(a, b) && value <= Math.max(a, b);
     const inside = abouts.peek().filter(({ target }) =>
       target && isIn(target[0], start.x, now.x) && isIn(target[1], start.y, now.y)).map(({ key }) => key);
-    const kept = event.shiftKey ? marked.peek().filter((key) => !inside.includes(key)) : [];
+    const kept = event.ctrlKey || event.metaKey ? marked.peek().filter((key) => !inside.includes(key)) : [];
     markAll([...kept, ...inside]);
   }
   return h("div", {

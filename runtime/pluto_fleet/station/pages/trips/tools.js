@@ -32,7 +32,7 @@ export const ToolButtons = () => h("span", { class: "tool-buttons", role: "group
     onClick: () => work(tool.peek() === name ? null : name),
   })));
 
-/** The middle third of the map, until something is drawn. @param {readonly [number, number]} size @returns {{ from: At, to: At }} */
+/** The middle third of the map, until something is drawn. @param {readonly number[]} size @returns {{ from: At, to: At }} */
 const somewhere = ([width, height]) => {
   const at = (/** @type {number} */ share) => ({ x: Number((width * share).toFixed(1)), y: Number((height * share).toFixed(1)) });
   return { from: at(1 / 3), to: at(2 / 3) };

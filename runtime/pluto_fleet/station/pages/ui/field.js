@@ -79,7 +79,7 @@ function Typed(props) {
   return framed(all, h("input", {
     ...shared(all), type: field.type === "time of day" ? "time" : "text", maxLength: 500,
     autocomplete: "off", spellcheck: false, inputMode: isNumeric(field) ? "decimal" : undefined,
-    placeholder: hint || placeholder(field), value: typed ?? written(field, value), onKeyDown,
+    placeholder: hint || placeholder(field) || undefined, value: typed ?? written(field, value), onKeyDown,
     onInput: (/** @type {InputEvent} */ { currentTarget }) => {
       const input = /** @type {HTMLInputElement} */ (currentTarget);
       setTyped(input.value);
