@@ -98,7 +98,7 @@ const WORK = 6e6; // samples looked at for one picture: a tenth of a second
 /**
  * How many pixels the raster of a map has: fine enough for its reach, and no finer; fewer where there
  * are so many samples that it would take long.
- * @param {readonly [number, number]} size metres @param {number} reach metres @param {number} count of samples
+ * @param {readonly number[]} size metres @param {number} reach metres @param {number} count of samples
  */
 export function pixelsOf([width, height], reach, count) {
   const near = Math.min(count, (count * 9 * reach * reach) / (width * height));
