@@ -47,6 +47,11 @@ class Server:
         found = re.search(r"VmRSS:\s+(\d+) kB", text)
         return int(found[1]) / 1000 if found else 0.0
 
+    @property
+    def recorded(self) -> float:
+        """Megabytes of the recordings of its flights."""
+        return sum(file.stat().st_size for file in self.folder.glob("*.recording")) / 1e6
+
     def gateway(self) -> int | None:
         """Return the process that the drones are behind."""
         for lock in self.folder.glob("**/*.gateway/lock"):

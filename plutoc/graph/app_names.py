@@ -37,6 +37,7 @@ _NEEDED = frozenset(
         *("cflib", "starlette", "uvicorn", "websockets", "pytest", "matplotlib", "numpy", "scipy"),
         *("tomlkit", "shapely"),  # what flies needs the one, and areas the other
         *("anyio", "click", "h11", "idna", "sniffio", "typing_extensions"),  # a station needs these
+        *("lz4", "mcap", "zstandard"),  # and these for its exports
         *("examples", "libusb_package", "lpslib", "packaging", "pyusb", "pyyaml", "sys_test"),
         *("importlib_resources", "tools", "usb", "yaml"),  # to here cflib
         *("contourpy", "cycler", "dateutil", "fonttools", "kiwisolver", "mpl_toolkits", "pil"),

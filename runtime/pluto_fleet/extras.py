@@ -10,7 +10,7 @@ EXTRAS = {
     "areas": ("shapely",),
     "crazyflie": ("cflib",),
     "plot": ("matplotlib",),
-    "station": ("pillow", "starlette", "uvicorn", "websockets"),
+    "station": ("mcap", "pillow", "starlette", "uvicorn", "websockets"),
 }
 """The packages that each extra brings; a module of the same name is in each, but for these:"""
 

@@ -31,11 +31,11 @@ def test_the_version_names_library_seams_and_extras(capsys: pytest.CaptureFixtur
 def test_each_extra_is_installed_or_not(monkeypatch: pytest.MonkeyPatch) -> None:
     """One of which a part is missing is not installed."""
     monkeypatch.setattr(extras, "version", lambda name: "1.2")
-    there = {"cflib", "PIL", "starlette", "uvicorn", "websockets", "matplotlib", "shapely"}
+    there = {"cflib", "mcap", "PIL", "starlette", "uvicorn", "websockets", "matplotlib", "shapely"}
     monkeypatch.setattr(extras, "find_spec", lambda name: name if name in there else None)
     assert extras.installed() == (
         "areas (shapely 1.2), crazyflie (cflib 1.2), plot (matplotlib 1.2),"
-        " station (pillow 1.2, starlette 1.2, uvicorn 1.2, websockets 1.2)"
+        " station (mcap 1.2, pillow 1.2, starlette 1.2, uvicorn 1.2, websockets 1.2)"
     )
     there -= {"cflib", "uvicorn", "shapely"}
     assert extras.installed() == "plot (matplotlib 1.2); not installed: areas, crazyflie, station"

@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.time.kernel import FLEET
@@ -133,7 +132,6 @@ def test_a_drone_on_the_ground_and_one_that_is_down_have_no_mishap() -> None:
     living.run(2.2)
     assert stands == ["cf1 stands on the ground: mishaps happen in the air"]
     assert again[0].startswith("cf2 is down already: cf2 lost its link")
-    living.life.control.stop(Down.LAND)
 
 
 def test_real_drones_have_no_mishaps() -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..arguments import positive_number, whole_number
+from ..jobs.job import MISHAPS
 
 ACTIONS = (
     "stop",
@@ -15,8 +16,11 @@ ACTIONS = (
     "skip",
     "cancel",
     "prioritise",
+    "change-trips",
     "retire",
     "bring-back",
+    "join",
+    "mishap",
     "cut-motors",
 )
 """The commands of `tell`."""
@@ -46,8 +50,8 @@ def add_flights(command: Command) -> None:
         "mission",
         metavar="MISSION",
         nargs="?",
-        help="which one; default: all, where that makes sense. For retire, bring-back and cut-motors:"
-        " the drone",
+        help="which one; default: all, where that makes sense. For retire, bring-back, join, mishap and"
+        " cut-motors: the drone",
     )
     tell.add_argument(
         "trip",
@@ -57,6 +61,17 @@ def add_flights(command: Command) -> None:
     )
     tell.add_argument(
         "--to", metavar="N", dest="priority", type=int, help="prioritise: the trip's new priority"
+    )
+    tell.add_argument(
+        "--from",
+        metavar="F.toml",
+        dest="given",
+        type=Path,
+        help="change-trips: a missions file with the trips that the mission shall fly from now on;"
+        " join: a fleet file with the drone",
+    )
+    tell.add_argument(
+        "--kind", choices=MISHAPS, help="mishap: what happens to a simulated drone, to rehearse it"
     )
     how = tell.add_mutually_exclusive_group()
     how.add_argument(

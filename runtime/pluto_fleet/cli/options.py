@@ -59,6 +59,8 @@ class Options:
     mission: str | None = None
     trip: str | None = None
     priority: int | None = None
+    given: Path | None = None
+    kind: str | None = None
     land: bool = False
     rtl: bool = False
     everyone: bool = False

@@ -39,7 +39,7 @@ class LoadedPlan:
     missions: list[Mission[Any]]
     fleet: FleetFile
     file_text: str | None
-    """The text of the missions file; None: it makes missions or trips of lists or areas."""
+    """The text of the missions file; None: it needs what it names: lists, areas, places."""
     fleet_text: str | None
     """The text of the fleet file; None: there was none."""
     areas: Sequence[MadeOfArea]
@@ -62,6 +62,7 @@ def load(app: App, options: Options) -> LoadedPlan:
         fleet = replace(fleet, motion=fleet.motion.exact)
     app = moving(app, fleet.motion)
     document = read(options.missions)
+    document.landmarks = fleet.landmarks
     missions = missions_of(document, app, fleet.airspace)
     sizes = options.command == "size"  # it says what no fleet can do
     found = [] if sizes else problems(missions, app, fleet, fleet.airspace)

@@ -22,6 +22,7 @@ from ..shared import output
 from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..station.config import StationConfig
+from ..station.map.pictures import floor_plan
 from ..station.plan.plan import MissionPlan
 from ..station.session import Phase
 from ..station.station import Station
@@ -29,7 +30,6 @@ from ..station.web.api import Api
 from ..station.web.audit import Audit
 from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
-from ..station.web.static import floor_plan
 from .interrupts import Interrupts
 from .plans import load_fleet
 from .preflight import OR_SIMULATED, check_real
@@ -159,17 +159,16 @@ class _Leaving:
 def _config(app: App, options: Options) -> StationConfig:
     fleet, text = load_fleet(app, options)
     folder = options.folder or place.folder_of(app.name)
-    image = None
-    if options.fleet and fleet.image:
+    if options.fleet and fleet.landmarks.picture:
         try:
-            image = floor_plan(options.fleet.parent, fleet.image)
+            floor_plan(options.fleet.parent, fleet.landmarks.picture.file)
         except BadInput as error:
             raise BadInput(f"{options.fleet}: {error}") from None
     return StationConfig(
         folder=folder,
         fleet=fleet,
         fleet_text=text,
-        image=image,
+        fleet_path=options.fleet,
         sim=options.sim,
         crtp_sim=options.crtp_sim,
         seed=options.seed,

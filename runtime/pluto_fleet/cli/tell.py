@@ -13,6 +13,7 @@ from ..flight import offline
 from ..flight.mission_status import ANSWERS, records_in, waiting
 from ..flight.offline import record_decision
 from ..gateway.starting import cut_directly, stop_directly
+from ..jobs.job import MISHAPS
 from ..jobs.reports import Down
 from ..journal.errors import missing
 from ..journal.lock import holder
@@ -23,6 +24,7 @@ from ..report.report import waiting_lines
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import printable, quoted
+from .given import drone_in, trips_in
 
 if TYPE_CHECKING:
     from ..app import App
@@ -97,6 +99,13 @@ def _request(app: App, options: Options) -> dict[str, object]:
             return {"command": action, **given}
         case "retire" | "bring-back":
             return {"command": action, "drone": mission}
+        case "mishap":
+            return {"command": action, "drone": mission, "kind": options.kind}
+        case "change-trips" if options.given is not None:
+            trips = trips_in(options.given, str(mission))
+            return {"command": action, "mission": mission, "trips": trips}
+        case "join" if options.given is not None:
+            return {**drone_in(options.given, str(mission)), "command": action, "drone": mission}
         case _:
             return {"command": action, "mission": mission}
 
@@ -119,6 +128,16 @@ def _wrong(options: Options) -> str:
         return "cut-motors lets a drone fall: name the drone, or say --all"
     if action in ("retire", "bring-back") and mission is None:
         return f"{action} needs the name of a drone"
+    if action == "change-trips" and (mission is None or options.given is None):
+        return "change-trips needs a mission, and --from with a missions file that has its trips"
+    if action == "join" and (mission is None or options.given is None):
+        return "join needs the name of a drone, and --from with a fleet file that has it"
+    if action not in ("change-trips", "join") and options.given is not None:
+        return f"--from goes with change-trips and join, not with {action}"
+    if action == "mishap" and (mission is None or options.kind is None):
+        return f"mishap needs the name of a drone, and --kind: {', '.join(MISHAPS)}"
+    if action != "mishap" and options.kind is not None:
+        return f"--kind goes with mishap, not with {action}"
     if action == "prioritise" and (mission is None or trip is None or not priority):
         return "prioritise needs a mission, a trip of it, and --to N"
     if action not in ("skip", "prioritise") and trip is not None:

@@ -59,14 +59,17 @@ def start(
 ) -> dict[str, str]:
     """Start the simulated drones of a folder, unless they run; return their URIs.
 
-    `batteries`: those that last and charge otherwise than usually. Raises `BadInput` if they cannot be started. `command` starts them, with the folder appended;
+    To those that run further ones are added. `batteries`: those that last and charge otherwise than usually. Raises `BadInput` if they cannot be started. `command` starts them, with the folder appended;
     default: the library's own program.
     """
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     with suppress(BadInput):
         uris = uris_in(folder)
-        if list(uris) == list(homes):
-            return uris
+        if list(uris) == list(homes)[: len(uris)]:
+            for id in list(homes)[len(uris) :]:
+                battery = (batteries or {}).get(id, USUAL)
+                told(folder, "join", drone=id, home=homes[id], battery=battery)
+            return uris_in(folder)
         end(folder)  # it has other drones
     kept = _kept(folder)
     drones = {
@@ -94,7 +97,8 @@ def uris_in(folder: Path) -> dict[str, str]:
 def told(folder: Path, do: str, **more: object) -> str:
     """Send a request to the simulated drones of a folder; raise `BadInput` if it is refused.
 
-    `fault` with `drone`, `name` and `value`, `state`, `uris`, `camera`, `end`.
+    `join` with `drone`, `home` and `battery`, `fault` with `drone`, `name` and `value`, `state`, `uris`,
+    `camera`, `end`.
     """
     return ask(folder / NOTE, {"do": do, **more}, _PATIENCE)
 
@@ -176,6 +180,10 @@ class _Desk:
             case {"do": "camera"}:
                 self._camera = self._camera or await camera()
                 return f"{HOST}:{port_of(self._camera)}"
+            case {"do": "join", "drone": str(id), "home": list(home), "battery": list(battery)}:
+                number = len(self._server.endpoints)
+                await self._server.join(_build(id, number, {"home": home, "battery": battery}))
+                return f"{id} is there"
             case {"do": "fault", "drone": str(id), "name": str(name), "value": value}:
                 if id not in self._server.endpoints:
                     raise BadInput(f"there is no drone {id}")

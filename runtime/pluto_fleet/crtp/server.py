@@ -93,6 +93,7 @@ class Server:
     """Simulated drones; to be started and closed in a running loop."""
 
     def __init__(self, builds: Sequence[Build], log: FlightLog) -> None:
+        self._log = log
         self.endpoints = {build.id: Endpoint(build, log) for build in builds}
         """The drones by their ids."""
         self._ticking: asyncio.Task[None] | None = None
@@ -102,6 +103,13 @@ class Server:
         for id, endpoint in self.endpoints.items():
             await endpoint.listen((ports or {}).get(id, 0))
         self._ticking = asyncio.create_task(self._tick())
+
+    async def join(self, build: Build) -> None:
+        """Add a drone to those that run, at a free port, unless it is there."""
+        if build.id not in self.endpoints:
+            endpoint = Endpoint(build, self._log)
+            await endpoint.listen(0)
+            self.endpoints[build.id] = endpoint
 
     @property
     def uris(self) -> dict[str, str]:

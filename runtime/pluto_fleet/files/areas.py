@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from itertools import pairwise
 from math import dist
 from typing import TYPE_CHECKING
@@ -17,7 +18,7 @@ from .reading import MadeOfArea
 if TYPE_CHECKING:
     from ..shared.domain.airspace import Airspace, Corner, Polygon
     from ..shared.domain.model import Point
-    from .reading import Table
+    from .reading import Document, Table
 
 BASIC = ("name", "polygon", "action", "spacing", "height", "parameters")
 """The keys of an area, beside a trip's fields."""
@@ -45,7 +46,7 @@ def read_places(table: Table, airspace: Airspace, before: Point | None) -> Seque
 
     `before`: the last place of the mission before it.
     """
-    corners = table.read("polygon", _corners, required=True)
+    corners = table.read("polygon", partial(_corners, table.document), required=True)
     spacing = table.read("spacing", SPACING, required=True)
     height = table.read("height", values.HEIGHT)
     z = airspace.cruise_height if height is None else height
@@ -92,8 +93,13 @@ def _metres(airspace: Airspace, start: Point, end: Point) -> float:
     return sum(map(dist, (start, *route), route))
 
 
-def _corners(value: object) -> Polygon:
-    """Read the corners of an area."""
+def _corners(document: Document, value: object) -> Polygon:
+    """Read the corners of an area, or the name of a zone of the map that has some."""
+    zones = {} if document.landmarks is None else document.landmarks.zone
+    if isinstance(value, str) and zones:
+        if value not in zones:
+            raise ValueError(errors.no_such_name("zone", value, zones))
+        return zones[value]
     if not isinstance(value, list) or len(value) < 3:
         raise ValueError("is not a list of at least three corners [x, y]")
     corners: list[Corner] = []

@@ -145,6 +145,17 @@ def no_shapely() -> str:
     )
 
 
+# The map
+
+
+def no_such_name(what: str, word: str, words: Iterable[str]) -> str:
+    return f"is no {what} of the map" + (near(word, words) or f"; there are: {listed(words)}")
+
+
+def too_many(what: str, most: int) -> str:
+    return f"{what} are more than {most:,}"
+
+
 # Lists
 
 

@@ -17,6 +17,9 @@ from ..shared.domain.motion import motion_of
 from ..shared.domain.quantities import Type
 from . import errors
 from .drones import DroneEntry, joining_drone, named_navigations, read_drones
+from .landmarks import NO_LANDMARKS, Landmarks
+from .landmarks_reading import KEYS as LANDMARK_KEYS
+from .landmarks_reading import read_landmarks
 from .options import Options, navigation_options, options_under
 from .reading import Document, Table, read
 
@@ -78,13 +81,17 @@ def read_motion(top: Table) -> Motion:
     return motion_of({key: value for key, value in given.items() if value is not None})
 
 
-def read_map(top: Table) -> tuple[Airspace | None, str | None]:
-    """Return the map and its picture; no map if it is invalid."""
+def read_map(top: Table) -> tuple[Airspace | None, Landmarks]:
+    """Return the map and what it shows; no map if it is invalid."""
     table = top.table("map")
     if table is None:
-        return (None if "map" in top.data else Airspace()), None
-    table.only(("size", "image", "cruise_height", "ceiling", "no_fly"), "[map]")
-    image = table.read("image", values.name)
+        return (None if "map" in top.data else Airspace()), NO_LANDMARKS
+    table.only(("size", "cruise_height", "ceiling", "no_fly", *LANDMARK_KEYS), "[map]")
+    airspace = _airspace(table)
+    return airspace, read_landmarks(table, airspace)
+
+
+def _airspace(table: Table) -> Airspace | None:
     plain = Airspace()
     size = table.read("size", values.size) if "size" in table.data else plain.size
     cruise = _height(table, "cruise_height", plain.cruise_height)
@@ -93,9 +100,8 @@ def read_map(top: Table) -> tuple[Airspace | None, str | None]:
     if cruise is not None and ceiling is not None and cruise > ceiling:
         table.problem(errors.cruise_above_ceiling(cruise, ceiling), "cruise_height")
     if size is None or cruise is None or ceiling is None or no_fly is None:
-        return None, image
-    airspace = Airspace(size=size, cruise_height=cruise, ceiling=ceiling, no_fly=no_fly)
-    return airspace, image
+        return None
+    return Airspace(size=size, cruise_height=cruise, ceiling=ceiling, no_fly=no_fly)
 
 
 def _height(table: Table, key: str, default: float) -> float | None:
@@ -176,8 +182,8 @@ class FleetFile(FleetData):
     """The data of a fleet file, with what real flights need."""
 
     drones: tuple[DroneEntry, ...]
-    image: str | None = None
-    """The floor plan, relative to the file."""
+    landmarks: Landmarks = NO_LANDMARKS
+    """What the map shows."""
     apart: float = APART
     """The least distance between two drones, in metres."""
     navigation: str = CRAZYFLIE
@@ -215,7 +221,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
     top.only(
         ("map", "fleet", "motion", "drone", "navigation", "localization", "world"), "a fleet file"
     )
-    airspace, image = read_map(top)
+    airspace, landmarks = read_map(top)
     behaviour, motion = read_behaviour(top), read_motion(top)
     drones = read_drones(top, app, airspace)
     options = navigation_options(top, named_navigations(top, behaviour.navigation))
@@ -226,7 +232,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
     document.refuse_if_bad()
     return FleetFile(
         airspace=airspace or Airspace(),
-        image=image,
+        landmarks=landmarks,
         after_trip=behaviour.after_trip,
         apart=behaviour.apart,
         max_airborne=behaviour.max_airborne,

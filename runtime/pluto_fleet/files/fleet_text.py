@@ -10,6 +10,7 @@ from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.motion import motion_of
 from ..shared.domain.values import MOTION
 from .fleet import CRAZYFLIE, OWN
+from .landmarks_text import landmark_tables
 from .toml import toml_text
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def fleet_text(fleet: FleetFile) -> str:
-    """Return the fleet file."""
+    """Return the fleet file, without its floor plan, which lies beside the file that names it."""
     airspace = fleet.airspace
     of_map: dict[str, Any] = {
         "size": _floats(airspace.size),
@@ -29,6 +30,8 @@ def fleet_text(fleet: FleetFile) -> str:
     }
     if airspace.no_fly:
         of_map["no_fly"] = [[_floats(corner) for corner in area] for area in airspace.no_fly]
+    shown = {"north": float(fleet.landmarks.north), **landmark_tables(fleet.landmarks)}
+    of_map |= {key: value for key, value in shown.items() if value}
     behaviour: dict[str, Any] = {
         "after_trip": fleet.after_trip.value,
         "apart": float(fleet.apart),

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.model import Mission, Trip
+    from .landmarks import Landmarks
 
 
 ELSEWHERE = {
@@ -193,9 +194,16 @@ def _item(table: Table, action: Action | None) -> Item | None:
     return None if name is None or mass is None else Item(name=name, mass=mass)
 
 
-def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]]:
-    """Return the missions of a file; raise `BadInput` with everything that is wrong with it."""
-    return missions_of(read(path), app, airspace)
+def load_missions(
+    path: Path, app: App, airspace: Airspace, landmarks: Landmarks | None = None
+) -> list[Mission[Any]]:
+    """Return the missions of a file; raise `BadInput` with everything that is wrong with it.
+
+    `landmarks` are the places and zones that it may name.
+    """
+    document = read(path)
+    document.landmarks = landmarks
+    return missions_of(document, app, airspace)
 
 
 def missions_of(document: Document, app: App, airspace: Airspace) -> list[Mission[Any]]:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Point
+    from .landmarks import Landmarks
     from .toml import TomlPath
 
 
@@ -110,6 +111,8 @@ class Document:
         """What it was parsed from."""
         self.folder: Path | None = None
         """Where it lies; None: it is no file."""
+        self.landmarks: Landmarks | None = None
+        """The named places and zones that may stand in it; None: there is no map."""
         self.given: list[Mapping[str, object] | None] = []
         """For each mission its table; None: it was made of a list."""
         self._find = find
@@ -254,7 +257,7 @@ class Table:
         self, key: str, airspace: Airspace | None, height: float, *, required: bool = False
     ) -> Point | None:
         """Return a position, at this height if it has none; report it if it is not on the map."""
-        found = self.read(key, point, required=required)
+        found = self.read(key, self._place, required=required)
         if found is None:
             return None
         x, y, *z = found
@@ -263,6 +266,17 @@ class Table:
         if problem is not None:
             self.problem(f"{self.called(key)} {problem}", key)
         return place
+
+    def _place(self, value: object) -> tuple[float, ...]:
+        """Read a position, or the name of a place of the map that has some."""
+        landmarks = self.document.landmarks
+        if not isinstance(value, str) or landmarks is None or not landmarks.places:
+            found: tuple[float, ...] = point(value)
+            return found
+        if value not in landmarks.place:
+            raise ValueError(errors.no_such_name("place", value, landmarks.place))
+        self.document.is_made = True
+        return landmarks.place[value]
 
     def differs(self, what: str, key: str, word: str, others: dict[str, Table]) -> None:
         """Report a name that another table has."""

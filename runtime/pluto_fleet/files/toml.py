@@ -38,6 +38,13 @@ def places(text: str) -> TomlLines:
     return scanner.lines
 
 
+def headers(text: str) -> list[tuple[int, TomlPath]]:
+    """Return the line and the path of each `[table]` and `[[table]]` of a TOML text, in their order."""
+    scanner = _Scanner(text.replace("\r\n", "\n"))
+    scanner.document()
+    return scanner.headers
+
+
 def line_of(where: TomlLines, place: TomlPath) -> int | None:
     """Return the line of a path, or of the nearest thing around it."""
     while place:
@@ -50,6 +57,7 @@ def line_of(where: TomlLines, place: TomlPath) -> int | None:
 class _Scanner:
     def __init__(self, text: str) -> None:
         self.lines: dict[TomlPath, int] = {}
+        self.headers: list[tuple[int, TomlPath]] = []
         self._text, self._at = text, 0
         self._starts = [0, *(match.end() for match in re.finditer("\n", text))]
         self._counts: dict[TomlPath, int] = {}
@@ -79,6 +87,7 @@ class _Scanner:
             place = (*place, self._counts[place])
             self.lines[place] = line
         self._need("]]" if repeated else "]")
+        self.headers.append((line, place))
         return place
 
     def _pair(self, table: TomlPath) -> None:
@@ -160,4 +169,6 @@ def toml_value(value: object) -> str:
             f"{tomlkit.key(key).as_string()} = {toml_value(one)}" for key, one in value.items()
         ]
         return f"{{ {', '.join(pairs)} }}" if pairs else "{}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(toml_value, value))}]"
     return tomlkit.item(value).as_string()

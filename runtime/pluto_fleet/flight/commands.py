@@ -11,11 +11,11 @@ from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 from typing import Protocol
 
+from ..jobs.job import MISHAPS
 from ..jobs.reports import Down
 from ..journal.errors import why
 from ..process.ipc import Answer, answering, listening
 from ..shared.domain.errors import BadInput
-from .mishaps import KINDS
 
 
 class Control(Protocol):
@@ -104,7 +104,7 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.retire(drone)
         case {"command": "bring-back", "drone": str(drone)}:
             return control.bring_back(drone)
-        case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind in KINDS:
+        case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind in MISHAPS:
             return control.mishap(drone, kind)
         case {"command": "join"} if (entry := joining_in(request)) is not None:
             return control.join(entry)

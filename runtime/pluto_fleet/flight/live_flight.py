@@ -14,6 +14,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import with_joined
+from ..jobs.job import UNCERTAIN
 from ..jobs.reports import Down
 from ..journal.errors import JournalError
 from ..journal.writer import Writer
@@ -24,7 +25,6 @@ from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET
 from .commands import hear_commands, joining_in, perform, stop_in
 from .config import End, FlightResult
-from .mishaps import UNCERTAIN
 from .recorded_flight import RecordedFlight
 
 if TYPE_CHECKING:
@@ -236,7 +236,7 @@ class LiveFlight:
             await self._asked(link.join(joining), "a drone joins")
         match request:
             case {"command": "mishap"} if not self._setting.sim:
-                raise BadInput("mishaps happen to simulated drones only: fly, or serve, with --sim")
+                raise BadInput("mishaps happen to drones that --sim simulates, and to no others")
             case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind != UNCERTAIN:
                 life.control.check_drone(drone)
                 await self._asked(life.control.mishaps.happen(drone, kind), "a mishap")

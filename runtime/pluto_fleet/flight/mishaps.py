@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from ..jobs.job import UNCERTAIN
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 from ..shared.time.kernel import FLEET, EventKind
@@ -18,10 +19,6 @@ if TYPE_CHECKING:
     from ..shared.domain.trace import Event
     from ..shared.time.kernel import Task
     from .recorded_brain import RecordedBrain
-
-UNCERTAIN = "uncertain"
-KINDS = ("lost", "crash", "battery", UNCERTAIN)
-"""What can happen: a lost link, a fall, an empty battery, and an action of which no report comes."""
 
 _OVER = (
     *("trip.completed", "trip.failed", "trip.interrupted"),

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from .telemetry import Telemetry
 
 
+UNCERTAIN = "uncertain"
+MISHAPS = ("lost", "crash", "battery", UNCERTAIN)
+"""What can happen to simulated drones: a lost link, a fall, an empty battery, and an action of which no report comes."""
+
 Report = Callable[[object], object]
 """Called with the action's result, or the `FlightFailed` that ended the job."""
 

@@ -21,10 +21,11 @@ Header = Mapping[str, Any]
 LANGUAGE = 1
 """The version of Pluto's language."""
 
-EVENTS = 2
+EVENTS = 3
 """The version of the events' meaning: a later runtime reads all earlier ones.
 
 2: drones' commands are measured, in events that nothing follows from.
+3: a person changes trips that have not flown, and drones join, while missions are under way.
 """
 
 

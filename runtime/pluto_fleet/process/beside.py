@@ -1,12 +1,13 @@
 """One task in a forked copy of this process, beside a running event loop.
 
 The copy has a low priority, so that nothing waits for it here, and sends what it finds piece by
-piece. Cancelling what reads it ends it at once, whatever it does.
+piece. Cancelling the reader ends it at once, in the middle of its task.
 """
 
 from __future__ import annotations
 
 import asyncio
+import gc
 import os
 import pickle
 import signal
@@ -45,7 +46,8 @@ class _End(NamedTuple):
 async def in_a_copy(work: Callable[[], Iterable[R]]) -> AsyncGenerator[R, None]:
     """Do a task in a forked copy of this process, and yield what it yields.
 
-    An error in it is raised here; `Died` tells that it has ended without. What it prints is dropped.
+    An error in it is raised here; `Died` tells that it has ended without, or as by a person. What it
+    prints is dropped.
     """
     loop, found = asyncio.get_running_loop(), asyncio.Queue[_Found | _End]()
     copy = _Copy(work)
@@ -60,8 +62,10 @@ async def in_a_copy(work: Callable[[], Iterable[R]]) -> AsyncGenerator[R, None]:
     try:
         while isinstance(message := await found.get(), _Found):
             yield message.found  # type: ignore[misc]  # what the work has yielded
-        if message.error is not None:
+        if isinstance(message.error, Exception):
             raise message.error
+        if message.error is not None:  # it would end this process, or pass for a cancellation
+            raise Died(f"ended by {type(message.error).__name__}")
     finally:
         copy.end()
 
@@ -124,6 +128,7 @@ def _work(work: Callable[[], Iterable[object]], sends: Connection) -> None:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, signal.SIG_DFL)
         os.nice(NICE)
+        gc.freeze()  # what is open here must not be closed there: a journal, a connection
         with refused(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
             sends.send(_outcome(work, sends))
         code = 0

@@ -87,6 +87,8 @@ def ask(note: Path, request: Message, timeout: float) -> str:
 
     It is `NotRunning` if there is none, and `NoAnswer` if it says nothing in this many seconds.
     """
+    if len(line(request)) > MAX_LINE:
+        raise BadInput(f"that is too long for one command, which has at most {MAX_LINE} bytes")
     address = address_in(note)
     if address is None:
         raise NotRunning("the app is not running")

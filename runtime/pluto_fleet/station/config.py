@@ -12,6 +12,7 @@ from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.quantities import QUANTITIES, Type, units_of
 from .graph.picture import app_graph, laid_out
+from .map.drawn import WITHOUT_A_FLEET_FILE
 from .results.meaning import SIMULATED_UNITS, Meanings
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
     from .graph.picture import Graph
+    from .map.drawn import DrawnMap
     from .wire import Layer
     from .wire_app import ActionData, AppData, CategoryData, FieldData, ParameterData
 
@@ -33,8 +35,8 @@ class StationConfig:
     """The folder of journals; the station's own files are in its subfolder `station`."""
     fleet: FleetFile
     fleet_text: str | None = None
-    image: Path | None = None
-    """The floor plan."""
+    fleet_path: Path | None = None
+    """The fleet file, if there is one."""
     sim: bool = True
     crtp_sim: int | None = None
     """The number of simulated Crazyflies that are flown as real ones, or None."""
@@ -44,15 +46,20 @@ class StationConfig:
     """The speed of time; None: real time, or as before."""
 
     @property
+    def map_path(self) -> Path:
+        """The file into which is written what is drawn on the map."""
+        return self.fleet_path or self.own_folder / WITHOUT_A_FLEET_FILE
+
+    @property
     def own_folder(self) -> Path:
         """The folder of the station's own files."""
         return self.folder / "station"
 
 
-def described(app: App, config: StationConfig, server: str) -> AppData:
-    """Return the constant data of app and fleet, with the fields and actions that this app has.
+def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> AppData:
+    """Return the data of app, fleet and map, with the fields and actions that this app has.
 
-    `server` is this run of the station.
+    `server` is this run of the station; what was drawn on the map may change.
     """
     graph, space = app_graph(app), config.fleet.airspace
     return {
@@ -79,7 +86,7 @@ def described(app: App, config: StationConfig, server: str) -> AppData:
             "cruise_height": space.cruise_height,
             "ceiling": space.ceiling,
             "no_fly": [[list(corner) for corner in area] for area in space.no_fly],
-            "image": "/map" if config.image is not None else None,
+            "image": drawn.address if drawn.image is not None else None,
         },
         "retries": _retries(graph),
         "rounds": any(field.type is FieldType.ROUNDS for field in app.fields),

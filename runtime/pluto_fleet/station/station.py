@@ -34,6 +34,9 @@ from .commands import checked
 from .config import described
 from .flight_changes import FlightChanges
 from .history.past import PastFlights
+from .map.drawn import DrawnMap
+from .map.ways import DrawnWays
+from .plan.library import PlanLibrary
 from .plan.promised import broken, promised
 from .preflight.start import StartForecasts
 from .results.exports import CurrentFlight, Exports
@@ -71,10 +74,15 @@ class Station:
 
     def __init__(self, app: App, config: StationConfig, plan: MissionPlan) -> None:
         self._app, self._config, self.plan = app, config, plan
+        self.map = DrawnMap(config.fleet.airspace, config.map_path)
+        self.map.changed = self._describe
+        self.plan.landmarks = self.map.landmarks
+        self.ways = DrawnWays(config.fleet.airspace)
+        self.library = PlanLibrary(config.own_folder / "plans", self._looked_at)
         self._changes = FlightChanges(app, plan, self._commandable)
         self.fleet = config.fleet
         """The fleet, with the drones that have joined it."""
-        self.described = described(app, config, secrets.token_hex(8))
+        self.described = described(app, config, self.map, secrets.token_hex(8))
         self.session: FlightSession | None = None
         """The current or last flight."""
         self.leaves = asyncio.Event()
@@ -92,6 +100,8 @@ class Station:
         self.history = FleetHistory(app, config)
         """The drones' states while there is no flight."""
         self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
+        self.preflight = self._forecasts.preflight
+        """The forecast that is being made, if any."""
         self.past = PastFlights(app, config, self._ours)
         """The flights of the past."""
         self.exports = Exports(app, config, self._flight_now)
@@ -101,7 +111,13 @@ class Station:
     @property
     def image(self) -> Path | None:
         """The floor plan."""
-        return self._config.image
+        return self.map.image
+
+    def _describe(self) -> None:
+        """Give all pages the map and the fleet as they are now, and the map's names to new plans."""
+        config, server = replace(self._config, fleet=self.fleet), self.described["server"]
+        self.described = described(self._app, config, self.map, server)
+        self.plan.landmarks = self.map.landmarks
 
     @property
     def phase(self) -> Phase:
@@ -111,6 +127,11 @@ class Station:
     def _ours(self) -> Path | None:
         """Return the journal that is written here, or may be at any moment."""
         return self.session.journal if self.session is not None else None
+
+    def _looked_at(self, text: str, file: str) -> tuple[int, str]:
+        """Return how many missions a kept plan has, and what is to be done before it can fly."""
+        missions, said = self.plan.saved(text, file)
+        return len(missions), said
 
     def begin(self, going_on: bool = False) -> None:
         """Show the unfinished flight of an earlier station or of `fly`, if any."""
@@ -290,8 +311,7 @@ class Station:
         if fleet.drones != self.fleet.drones:
             self.fleet = fleet
             self.plan.fly_with(fleet)
-            config = replace(self._config, fleet=fleet)
-            self.described = described(self._app, config, self.described["server"])
+            self._describe()
 
     def _follow(self, event: Event) -> None:
         """Let the plan agree with the flight, whoever has commanded what has happened."""

@@ -17,8 +17,10 @@ from .history.recorder import Sample
 from .session import phase_of
 
 if TYPE_CHECKING:
+    from ..files.fleet import FleetFile
     from .attention.attention import Attention
     from .between_flights import FleetHistory
+    from .map.drawn import DrawnMap
     from .plan.plan import MissionPlan
     from .session import FlightSession
     from .wire import Busy, DroneRow, State
@@ -45,8 +47,10 @@ class StationState(Protocol):
     """The data of a station that pages show."""
 
     described: AppData
+    fleet: FleetFile
     session: FlightSession | None
     plan: MissionPlan
+    map: DrawnMap
     history: FleetHistory
     map_revision: int
     attention: Attention
@@ -151,6 +155,7 @@ class Updates:
                     state={**state, "time": self._now},
                     missions=[*session.missions],
                     drones=[*session.drones],
+                    alerts=[*self._station.attention.rows],
                 )
             )
 
@@ -161,7 +166,8 @@ class Updates:
             "phase": phase_of(session).value,
             "time": round(now, 3),
             "plan": plan.revision,
-            "map": self._station.map_revision,
+            "map": self._station.map.revision,
+            "fleet": len(self._station.fleet.drones),
             "said": (session.trouble if session is not None else "") or plan.trouble,
             "how": how.value if how is not None else None,
             "busy": _busy(session),

@@ -42,12 +42,51 @@ class State(TypedDict):
     """The revision of the plan."""
     map: int
     """The revision of the map's places, zones and picture."""
+    fleet: int
+    """How many drones there are; once it grows, `/api/app` describes the new one."""
     said: str
     """What is wrong; empty: nothing."""
     how: Literal["rtl", "land"] | None
     """How the drones come down."""
     busy: Busy
     """What all missions wait for: drones to be found, or asked where they are."""
+
+
+class ChangeTrips(TypedDict):
+    """The command `change-trips`: what a mission that flies shall fly from now on.
+
+    The same happens when a plan is saved (`PUT /api/plan`) in which it has other trips; then `said` is
+    why that cannot be, with status 400, and the plan stays as it is.
+    """
+
+    id: str
+    mission: str
+    """Its name."""
+    trips: list[dict[str, object]]
+    """As in the plan; all that has not flown, in order, without the trip that flies."""
+    replaces: NotRequired[list[str] | None]
+    """The names of what had not flown, as the page knew it: a change of an older state is refused."""
+
+
+class Join(TypedDict):
+    """The command `join`: a drone that joins the flight, as in a fleet file."""
+
+    id: str
+    drone: str
+    """The drone's id."""
+    category: str
+    home: Point
+    uri: NotRequired[str | None]
+    navigation: NotRequired[str | None]
+    options: NotRequired[dict[str, object] | None]
+
+
+class Mishap(TypedDict):
+    """The command `mishap`: what happens to a drone that `--sim` simulates, to rehearse it."""
+
+    id: str
+    drone: str
+    kind: Literal["lost", "crash", "battery", "uncertain"]
 
 
 class TripRow(TypedDict):
@@ -520,3 +559,108 @@ class Picture(TypedDict):
     width: float
     height: float
     turn: float
+
+
+class SavedPlan(TypedDict):
+    """A plan, or a template, that is kept under a name."""
+
+    name: str
+    saved_at: int
+    by: str
+    missions: int | None
+    """How many it has; None: it cannot be read."""
+    template: bool
+    said: str
+    """What is wrong with it, or still to be done before it can fly; empty: nothing."""
+
+
+class TrashedPlan(TypedDict):
+    """A plan that was deleted, and can be restored."""
+
+    id: str
+    name: str
+    deleted_at: int
+
+
+class SavedPlans(TypedDict):
+    """All plans that are kept under names, and what was deleted of them."""
+
+    plans: list[SavedPlan]
+    trash: list[TrashedPlan]
+
+
+class Swept(TypedDict):
+    """How an area is flown over: the targets of its trips, in their order."""
+
+    targets: list[Point]
+    metres: float
+    """The way from the first to the last."""
+    forbidden: float
+    """The share of the area that may not be flown over."""
+
+
+class Ways(TypedDict):
+    """The way of each pair of places, both ends included; None: there is none."""
+
+    ways: list[list[Point] | None]
+
+
+class MapEdit(TypedDict):
+    """What a page has drawn on the map: PUT /api/map. What it does not send stays."""
+
+    revision: int
+    places: NotRequired[list[Place]]
+    zones: NotRequired[list[Zone]]
+    north: NotRequired[float]
+    image: NotRequired[Laid | None]
+    """Where the floor plan lies; null: there is to be none."""
+
+
+class Laid(TypedDict):
+    """Where the floor plan is to lie."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    turn: NotRequired[float]
+
+
+class WaysAsked(TypedDict):
+    """Pairs of places, at most 500, whose ways are asked for: POST /api/ways."""
+
+    ways: list[list[Point]]
+
+
+class AreaAsked(TypedDict):
+    """An area that is to be swept, as `[[mission.area]]` has it: POST /api/plan/sweep."""
+
+    polygon: list[Point]
+    spacing: str | float
+    height: NotRequired[str | float]
+    before: NotRequired[Point]
+    """From where the drones come; without it the sweep begins wherever it is shortest."""
+
+
+class PlanSaved(TypedDict):
+    """How the plan is to be kept: PUT /api/plans?name=…"""
+
+    by: NotRequired[str]
+    template: NotRequired[bool]
+    replace: NotRequired[bool]
+    """Whether one that has the name already goes to the trash."""
+
+
+class PlanOpened(TypedDict):
+    """Which plan is to be opened: POST /api/plans/open."""
+
+    name: str
+    revision: int
+    add: NotRequired[bool]
+    """Beside what is drawn, and not in place of what has not been started."""
+
+
+class PlanRestored(TypedDict):
+    """What is to be taken out of the trash: POST /api/plans/restore."""
+
+    id: str

@@ -194,7 +194,7 @@ def _missions(app: App, fleet: FleetFile, options: Options) -> list[Mission[Any]
     """Return the missions of the file, if any; endless repetitions are limited to one."""
     if options.missions is None:
         return []
-    missions = load_missions(options.missions, app, fleet.airspace)
+    missions = load_missions(options.missions, app, fleet.airspace, fleet.landmarks)
     found = problems(missions, app, fleet, fleet.airspace)
     if found:
         raise BadInput("\n".join(f"{options.missions}: {sentence}" for sentence in found))

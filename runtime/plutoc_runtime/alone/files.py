@@ -39,6 +39,7 @@ _KEY = re.compile(rf"{_PART}({_NEXT}{{{MOST}}})?{_NEXT}*+")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 _REAL = "navigation:any? localization:any?"  # what only real flights need
+_SHOWN = "image:any? north:any? places:any? zones:any?"  # what only the library shows
 # Keys of a mission that the library reads, and what it needs for them.
 _LIBRARY = {"deadline": "", "window": "", "after": "", "each": "", "area": "[areas]"}
 
@@ -128,7 +129,7 @@ def _tables(table: dict[str, Any], who: str, header: str, *, needed: bool = Fals
 
 def _airspace(data: Any, who: str) -> Airspace:
     plain, areas = Airspace(), list[Any]()
-    schema = "size:size? image:any? cruise_height:HEIGHT? ceiling:HEIGHT? no_fly:areas?"
+    schema = f"size:size? cruise_height:HEIGHT? ceiling:HEIGHT? no_fly:areas? {_SHOWN}"
     given = _table(data, who, schema)
     for place, area in enumerate(given.get("no_fly", ()), 1):
         try:
@@ -220,11 +221,10 @@ def _fields(app: App, on: Entity, schema: str) -> tuple[str, dict[str, Read], di
 
 def _point(key: str, airspace: Airspace, height: float) -> Read:
     def read(value: object) -> Point:
-        x, y, *z = values.point(value)
-        point = x, y, z[0] if z else height
-        if problem := airspace.problem(point):
+        x, y, z = [*values.point(value), height][:3]  # its own height comes first
+        if problem := airspace.problem((x, y, z)):
             raise BadInput(f"{key} {problem}")
-        return point
+        return x, y, z
 
     return read
 

@@ -186,3 +186,20 @@ def test_what_changes_something_is_done_just_there(spot: Path, command: Command)
     found = json.loads(command("simulate", spot, "--json", "--no-spread")[1])
     assert {one["status"] for one in found["missions"]} == {"COMPLETED"}
     assert "beside" not in found
+
+
+def test_a_plan_with_names_of_places_is_kept_without_them(tmp_path: Path, command: Command) -> None:
+    """What is written, as a journal is, needs no map to be read again."""
+    (tmp_path / "fleet.toml").write_text(
+        '[[map.places]]\nname = "Bed 3"\nat = [2.5, 8]\n'
+        '[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n',
+        encoding="utf-8",
+    )
+    file, plain = tmp_path / "m.toml", tmp_path / "other" / "plain.toml"
+    file.write_text(
+        '[[mission]]\n[[mission.trip]]\naction = "measure"\ntarget = "Bed 3"\n', encoding="utf-8"
+    )
+    plain.parent.mkdir()
+    assert command("check", file, "--write", plain)[0] == 0
+    assert "target = [2.5, 8.0, 1.2]" in plain.read_text(encoding="utf-8")
+    assert command("check", plain)[0] == 0

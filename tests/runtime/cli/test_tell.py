@@ -59,6 +59,7 @@ def journal(tmp_path: Path) -> Path:
         ("skip North", {"command": "skip", "mission": "North", "trip": None}),
         ("skip North A", {"command": "skip", "mission": "North", "trip": "A"}),
         ("cancel South", {"command": "cancel", "mission": "South"}),
+        ("mishap cf1 --kind crash", {"command": "mishap", "drone": "cf1", "kind": "crash"}),
     ],
 )
 def test_each_command_arrives_and_the_answer_is_printed(
@@ -107,6 +108,45 @@ def test_where_no_gateway_commands_drones_no_motor_is_cut(journal: Path, command
     assert "resume" in err
 
 
+def test_trips_and_drones_are_taken_from_a_file(
+    journal: Path, missions: Path, tmp_path: Path, command: Command
+) -> None:
+    """As they are written there: what is wrong with them the app tells."""
+    fleet = tmp_path / "f.toml"
+    fleet.write_text('[[drone]]\nid = "cf9"\nhome = [1, 2]\nuri = "radio://0/80/2M"\n')
+    heard = []
+
+    def answer(request: Mapping[str, object]) -> str:
+        heard.append(request)
+        return "so be it"
+
+    with running(commands_note(journal), answer):
+        assert command("tell", journal, "change-trips", "South", "--from", missions)[0] == 0
+        assert command("tell", journal, "join", "cf9", "--from", fleet)[0] == 0
+        unknown = command("tell", journal, "join", "cf8", "--from", fleet)
+    trip = {"action": "measure", "target": [6, 3]}
+    given = {"home": [1, 2], "uri": "radio://0/80/2M"}
+    assert heard == [
+        {"command": "change-trips", "mission": "South", "trips": [trip]},
+        {"command": "join", "drone": "cf9", **given},
+    ]
+    assert unknown[2] == f'{fleet}: there is no drone "cf8"; there are: "cf9"\n'
+
+
+def test_what_is_no_list_of_plain_trips_is_refused(tmp_path: Path, command: Command) -> None:
+    """An area, a time of day, and more than fits into a command."""
+    file = tmp_path / "m.toml"
+    for written, said in (
+        ("[[mission.area]]\nname = 'x'", "has area: write plain trips (check --write makes them)"),
+        ("[[mission.trip]]\nwhen = 08:00:00", "not JSON serializable"),
+        ("[[mission.trip]]\nname = 'x'\n" * 5000, "is too long for one command"),
+    ):
+        file.write_text(f'[[mission]]\nname = "North"\n{written}\n')
+        code, _, err = command("tell", tmp_path / "j", "change-trips", "North", "--from", file)
+        assert code == 2
+        assert said in err
+
+
 def test_a_refusal_is_exit_2(journal: Path, command: Command) -> None:
     def answer(request: Mapping[str, object]) -> str:
         raise BadInput("there is no mission East")
@@ -132,6 +172,12 @@ def test_a_refusal_is_exit_2(journal: Path, command: Command) -> None:
         ("cut-motors cf1 --all", "name the drone, or say --all"),
         ("cut-motors cf1 A", "cut-motors takes no trip"),
         ("stop --all", "--all goes with cut-motors, not with stop"),
+        ("change-trips North", "change-trips needs a mission, and --from with a missions file"),
+        ("join cf9", "join needs the name of a drone, and --from with a fleet file that has it"),
+        ("pause --from m.toml", "--from goes with change-trips and join, not with pause"),
+        ("mishap cf1", "mishap needs the name of a drone, and --kind: lost, crash, battery"),
+        ("mishap cf1 --kind rain", "invalid choice: 'rain'"),
+        ("pause --kind lost", "--kind goes with mishap, not with pause"),
         ("dance", "invalid choice: 'dance'"),
     ],
 )

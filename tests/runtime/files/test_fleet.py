@@ -22,6 +22,7 @@ from pluto_fleet.files.fleet import (
     options_of,
 )
 from pluto_fleet.files.fleet_text import fleet_text
+from pluto_fleet.files.landmarks import NO_LANDMARKS, Landmarks, Picture
 from pluto_fleet.shared.domain import values
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
@@ -103,7 +104,7 @@ def test_a_file_says_where_drones_fly_and_how(tmp_path: Path) -> None:
             ceiling=4.0,
             no_fly=(((8.0, 0.0), (9.0, 0.0), (9.0, 5.0), (8.0, 5.0)),),
         ),
-        image="ward.svg",
+        landmarks=Landmarks(picture=Picture(file="ward.svg", size=(20.0, 12.0))),
         after_trip=AfterTrip.STAY,
         apart=0.4,
         max_airborne=5,
@@ -168,7 +169,7 @@ def test_all_problems_of_a_file_are_told_in_one_go(tmp_path: Path) -> None:
     text = text.replace('id = "cf2"', 'id = "cf1"').replace("peak = 80", "peek = 80")
     text = text.replace("[map]\n", "[map]\nscale = 3\n")
     assert problems(tmp_path, text) == [
-        ':3: [map]: unknown key "scale"; [map] has: size, image, cruise_height, ceiling, no_fly',
+        ':3: [map]: unknown key "scale"; [map] has: size, cruise_height, ceiling, no_fly, image, north, places, zones',
         ':11: [fleet]: after_trip "sit" is none of: home, stay, next',
         ":13: [fleet]: max_airborne 0 is less than 1",
         ':25: drone "cf1": unknown category "scot"; did you mean "scout"?',
@@ -304,7 +305,7 @@ def test_a_fleet_that_is_written_is_read_the_same(tmp_path: Path) -> None:
     again = load(tmp_path, fleet_text(fleet))
     drones = [replace(drone, line=None) for drone in fleet.drones]
     assert [replace(drone, line=None) for drone in again.drones] == drones
-    assert replace(again, drones=()) == replace(fleet, drones=(), image=None)
+    assert replace(again, drones=()) == replace(fleet, drones=(), landmarks=NO_LANDMARKS)
 
 
 @given(

@@ -103,7 +103,7 @@ def test_the_heat_map_has_the_colours_of_the_formula_and_is_blank_where_nothing_
     low = min(one["value"] for one in found)
     size = station.get("/api/app")["map"]["size"]
     drawn = page.evaluate(PIXELS, somewhere(size))
-    values = [heat_at(samples, *one["middle"], REACH) for one in drawn]
+    values = [heat_at(samples, one["middle"][0], one["middle"][1], REACH) for one in drawn]
     wanted = page.evaluate(COLOURS, [values, {"low": low, "high": HIGH}])
     for one, colour in zip(drawn, wanted, strict=True):
         apart = max(abs(a - b) for a, b in zip(one["pixel"], colour, strict=True))

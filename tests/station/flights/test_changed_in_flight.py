@@ -108,9 +108,11 @@ def test_a_drone_joins_and_stays(serve: Serve) -> None:
     """In the fleet that the pages show, in the journal that is resumed, and in the next flight."""
     station = flying(serve("drugs_distribution", *SLOW))
     cf9 = {"drone": "cf9", "category": "scout", "home": [10.0, 4.0]}
-    category = station.get("/api/app")["drones"][0]["category"]
+    drones = station.get("/api/app")["drones"]
+    category = drones[0]["category"]
     cf9["category"] = category
     assert tell(station, "join", **cf9) == "cf9 joins the fleet"
+    until(lambda: station.now()["state"]["fleet"] == len(drones) + 1, "the pages are told")
     shown = {"id": "cf9", "category": category, "home": [10.0, 4.0, 0.0]}
     assert station.get("/api/app")["drones"][-1] == shown
     until(lambda: drone(station, "cf9")["status"] != "OFFLINE", "cf9 is asked how it is")
@@ -148,3 +150,17 @@ def test_a_crash_and_a_question_are_rehearsed(serve: Serve) -> None:
     until(lambda: drone(station, other)["status"] == "LOST", "it is lost")
     assert refused(station, "mishap", drone=other, kind="rain")[0] == 400
     assert [one["kind"] for one in events(station, "drone.mishap")] == ["uncertain", "crash"]
+
+
+def test_a_crazyflie_that_is_flown_as_a_real_one_joins(serve: Serve) -> None:
+    """Simulated down to its radio: it is connected like any other; mishaps are not for it."""
+    station = flying(serve("drugs_distribution", "--crtp-sim", "2"))
+    category = station.get("/api/app")["drones"][0]["category"]
+    why = refused(station, "mishap", drone="cf1", kind="crash")[1]
+    assert why == "mishaps happen to drones that --sim simulates, and to no others"
+    tell(station, "join", drone="cf9", category=category, home=[10.0, 4.0])
+    joins = ("OFFLINE", "RECOVERING")
+    until(lambda: drone(station, "cf9")["status"] not in joins, "cf9 is connected")
+    assert drone(station, "cf9")["status"] in ("FREE", "BUSY")
+    tell(station, "stop", how="land")
+    comes_to(station, "stopped")

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from pluto_fleet.station.attention.attention import Attention
+from pluto_fleet.station.map.drawn import DrawnMap
 from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.updates import Updates
 from tests.runtime.files.an_app import APP
@@ -43,9 +44,12 @@ class Shown:
     def __init__(self) -> None:
         self.described: Any = {"server": "x"}
         self.session: Any = Unseen()
+        self.fleet = FLEET
         self.plan = MissionPlan(APP, FLEET, None)
+        self.map = DrawnMap(FLEET.airspace, Path("nowhere.toml"))
         self.history: Any = Nothing()
         self.map_revision = 0
+        self.fleet = FLEET
         self.attention = Attention(Path("nowhere"), lambda: 0.0)
 
 

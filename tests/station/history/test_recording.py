@@ -19,8 +19,13 @@ from pluto_fleet.station.history.recording import MOVES_EVERY, Recording
 
 Scene = dict[str, Any]
 
+
+def id_of(row: Any) -> str:
+    return str(row["id"])
+
+
 level = st.sampled_from([0.1, 0.5, 1.0])
-drone = st.fixed_dictionaries(
+drone: st.SearchStrategy[Any] = st.fixed_dictionaries(
     {"id": st.sampled_from(["cf1", "cf2"]), "status": st.sampled_from(["FREE", "BUSY"])},
     optional={"battery": level, "x": level, "ready_in": level},
 )
@@ -31,7 +36,7 @@ scene: st.SearchStrategy[Scene] = st.fixed_dictionaries(
     {
         "state": st.fixed_dictionaries({"phase": st.sampled_from(["flying", "over"])}),
         "missions": st.lists(mission, max_size=1),
-        "drones": st.lists(drone, max_size=2, unique_by=lambda row: str(row["id"])),
+        "drones": st.lists(drone, max_size=2, unique_by=id_of),
     }
 )
 shown = st.lists(scene, min_size=1, max_size=12)

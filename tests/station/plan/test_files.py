@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.files.landmarks import Landmarks, NamedPlace
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Mission
@@ -132,6 +133,15 @@ each = "beds.csv"
     assert "each" not in plan.export_toml()
     with pytest.raises(BadInput, match="lies beside a missions file, and this one is in no folder"):
         plan.import_toml(text, plan.revision)
+
+
+def test_a_file_may_name_places_of_the_map() -> None:
+    """As it is drawn when the file comes; what was taken in has the places themselves."""
+    text = FILE.replace("target = [1, 1]", 'target = "Desk"')
+    plan = a_plan()
+    plan.landmarks = Landmarks(places=(NamedPlace(name="Desk", at=(1.0, 1.0)),))
+    plan.import_toml(text, plan.revision)
+    assert plan.export_toml() == FILE.replace("[1, 1]", "[1.0, 1.0]")
 
 
 @given(missions=SOUND_PLANS)

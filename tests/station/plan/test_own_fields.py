@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import StationConfig, described
+from pluto_fleet.station.map.drawn import DrawnMap
 from pluto_fleet.station.plan.plan import MissionPlan
 from tests.runtime.files.an_app import OWN
 from tests.station.plan.drawing import mission, said, trip
@@ -33,7 +34,7 @@ def whole(**given: object) -> dict[str, Any]:
 
 def test_a_page_learns_of_them_with_their_types_and_units(tmp_path: Path) -> None:
     config = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
-    fields: Any = described(OWN, config, "x")["fields"]
+    fields: Any = described(OWN, config, DrawnMap(FLEET.airspace, config.map_path), "x")["fields"]
     by_name = {one["name"]: one for on in ("mission", "trip") for one in fields[on]}
     assert by_name["patient"] == {
         "name": "patient",

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
 
+from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.map.drawn import DrawnMap
+from pluto_fleet.station.map.ways import DrawnWays
+from pluto_fleet.station.plan.library import PlanLibrary
 from pluto_fleet.station.plan.plan import Stale
+from pluto_fleet.station.plan.shape import Shape
 from pluto_fleet.station.preflight.forecast import without_runs
 from pluto_fleet.station.preflight.start import PlannedStart
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
-from pluto_fleet.station.web.served import ServedFlights
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.station.wire_app import AppData
 
@@ -43,48 +47,35 @@ class APlan:
     def data(self) -> Mapping[str, object]:
         return {"revision": self.revision, "missions": self.missions, "problems": []}
 
-    def replace(self, revision: int, missions: object) -> None:
+    def replace(self, revision: int, missions: object, by: str = "") -> None:
         if revision != self.revision:
             raise Stale("it has been changed meanwhile")
         if not isinstance(missions, list):
             raise BadInput("missions is no list")
         self.missions, self.revision = missions, revision + 1
 
-    async def import_file(self, text: str, revision: int, file: str) -> None:
+    async def import_file(self, text: str, revision: int, file: str, by: str = "") -> None:
         if "=" not in text:
             raise BadInput(f"{file}:1: expected =")
         self.replace(revision, [text])
 
-    def example(self, revision: int) -> None:
+    def example(self, revision: int, by: str = "") -> None:
         self.replace(revision, ["an example"])
 
     async def examined(self) -> None:
         """There is nothing to find."""
 
+    def saved(self, text: str, file: str) -> tuple[list[Shape], str]:
+        return [], ""
+
+    def add(self, read: Sequence[Shape], revision: object) -> None:
+        self.replace(cast(int, revision), [*read])
+
+    def take_instead(self, read: Sequence[Shape], revision: object) -> None:
+        self.replace(cast(int, revision), [*read])
+
     def export_toml(self) -> str:
         return "[[mission]]\n"
-
-
-class NoFlights:
-    """The past of a station at which nothing has flown."""
-
-    def flights(self) -> object:
-        return []
-
-    def hours(self) -> object:
-        return []
-
-    def replay(self, id: str, start: float, /) -> object:
-        raise BadInput(f"no flight {id!r} is kept here")
-
-    def report(self, id: str, /) -> object:
-        raise BadInput(f"no flight {id!r} is kept here")
-
-    def mcap(self, id: str, /) -> bytes:
-        raise BadInput(f"no flight {id!r} is kept here")
-
-    def console(self, id: str, /) -> str:
-        raise BadInput(f"no flight {id!r} is kept here")
 
 
 class SomeResults:
@@ -108,13 +99,56 @@ class SomeResults:
         return (b"small" if small else b"whole"), "image/png"
 
 
+SPACE = Airspace(size=(20.0, 12.0))
+NOWHERE = Path("/nowhere")
+"""A folder that there is not."""
+
+
+def _unread(text: str, file: str) -> tuple[int, str]:
+    return 0, ""
+
+
+@dataclass
+class ThePast:
+    """One flight of the past, which is named `one`."""
+
+    def flights(self) -> object:
+        return [{"id": "one"}]
+
+    def hours(self) -> object:
+        return [{"id": "cf1"}]
+
+    def replay(self, id: str, start: float, /) -> object:
+        return {"flight": self._known(id), "start": start}
+
+    def report(self, id: str, /) -> object:
+        return {"flight": self._known(id)}
+
+    def mcap(self, id: str, /) -> bytes:
+        return self._known(id).encode()
+
+    def console(self, id: str, /) -> str:
+        return self._known(id)
+
+    def results(self, id: str, /) -> object:
+        return [self._known(id)]
+
+    def _known(self, id: str) -> str:
+        if id != "one":
+            raise BadInput(f"there is no flight {id!r} here")
+        return id
+
+
 @dataclass
 class AStation:
     """A station at which everything can be done, or goes wrong."""
 
     plan: APlan = field(default_factory=APlan)
+    past: ThePast = field(default_factory=ThePast)
+    map: DrawnMap = field(default_factory=lambda: DrawnMap(SPACE, NOWHERE / "map.toml"))
+    ways: DrawnWays = field(default_factory=lambda: DrawnWays(SPACE))
+    library: PlanLibrary = field(default_factory=lambda: PlanLibrary(NOWHERE / "plans", _unread))
     image: Path | None = None
-    past: ServedFlights = field(default_factory=NoFlights)
     done: list[tuple[str, Mapping[str, object]]] = field(default_factory=list)
     wrong: Exception | None = None
     told: int = 0
@@ -210,7 +244,11 @@ def request(
     )
 
 
-def asked(station: AStation | None = None, file: Path | None = None, **guard: Any) -> Asked:
+def asked(
+    station: AStation | None = None,
+    file: Path | None = None,
+    **guard: Any,
+) -> Asked:
     """Serve a station without a web server."""
     station = station or AStation()
     times, paused = [0.0], list[float]()

@@ -103,10 +103,14 @@ def status(answer: bytes) -> int:
 
 @asynccontextmanager
 async def served(
-    file: Path | None = None, *, addresses: Sequence[Address] = ADDRESSES, **guard: Any
+    file: Path | None = None,
+    *,
+    addresses: Sequence[Address] = ADDRESSES,
+    station: AStation | None = None,
+    **guard: Any,
 ) -> AsyncIterator[Served]:
     """Serve a station on a port that is free."""
-    station = AStation()
+    station = station or AStation()
     with listening("127.0.0.1", 0) as listener:
         port = port_of(listener)
         guarded = Guard(host="127.0.0.1", port=port, **guard)

@@ -13,6 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.station.config import StationConfig
+from pluto_fleet.station.map.drawn import DrawnMap
+from pluto_fleet.station.map.ways import DrawnWays
+from pluto_fleet.station.plan.library import PlanLibrary
 from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.preflight.start import PlannedStart
 from pluto_fleet.station.session import Phase
@@ -53,6 +56,12 @@ ALMOST = st.fixed_dictionaries(
         "missions": st.lists(JSON, max_size=3) | JSON,
         "how": st.sampled_from(["rtl", "land"]) | JSON,
         "mission": JSON,
+        "name": st.sampled_from(["A", "../x"]) | JSON,
+        "places": st.lists(st.fixed_dictionaries({"name": st.text(max_size=3), "x": JSON})) | JSON,
+        "image": JSON,
+        "ways": st.lists(st.lists(st.lists(st.floats(0, 20), min_size=2, max_size=3))) | JSON,
+        "polygon": JSON,
+        "spacing": st.sampled_from([1, "2 m"]) | JSON,
     },
 )
 BODIES = st.one_of(
@@ -61,7 +70,17 @@ BODIES = st.one_of(
     st.text(max_size=40).map(lambda text: text.encode("utf-8", "surrogatepass")),
 )
 NAMES = ["host", "origin", "x-pluto", "content-type", "authorization", "sec-fetch-site"]
-VALUES = ["", HOST, f"http://{HOST}", "1", "application/json", "application/toml", "null", "none"]
+VALUES = [
+    "",
+    HOST,
+    f"http://{HOST}",
+    "1",
+    "application/json",
+    "application/toml",
+    "null",
+    "none",
+    "image/png",
+]
 HEADERS = st.one_of(
     st.just(OURS),
     st.dictionaries(
@@ -73,7 +92,7 @@ HEADERS = st.one_of(
     ),
 )
 QUERIES = st.dictionaries(
-    st.sampled_from(["flight", "seen", "log", "results", "revision", "token"]),
+    st.sampled_from(["flight", "seen", "log", "results", "revision", "token", "name"]),
     st.text(max_size=8) | st.integers(-3, 10**20).map(str),
     max_size=4,
 )
@@ -123,6 +142,18 @@ class WithAPlan:
     @property
     def past(self) -> ServedFlights:
         return self.rest.past
+
+    @property
+    def map(self) -> DrawnMap:
+        return self.rest.map
+
+    @property
+    def ways(self) -> DrawnWays:
+        return self.rest.ways
+
+    @property
+    def library(self) -> PlanLibrary:
+        return self.rest.library
 
     async def edit(self, revision: int, missions: object, /) -> None:
         self.plan.replace(revision, missions)
@@ -182,7 +213,8 @@ def test_no_request_finds_a_mistake(asked: list[Request], token: str | None) -> 
 def test_no_request_finds_a_mistake_of_the_station_behind(asked: list[Request]) -> None:
     with TemporaryDirectory() as folder:
         station = a_station(Path(folder))
-        api = Api(station, Guard(host="127.0.0.1", port=8765), Audit(None), pause=no_pause)
+        guard = Guard(host="127.0.0.1", port=8765)
+        api = Api(station, guard, Audit(None), pause=no_pause)
 
         async def scene() -> None:
             for request in asked:

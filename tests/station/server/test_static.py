@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.web.static import FOLDER, floor_plan, pages
+from pluto_fleet.station.map.pictures import floor_plan
+from pluto_fleet.station.web.static import FOLDER, pages
 
 from .asking import OURS, AStation, asked, without
 

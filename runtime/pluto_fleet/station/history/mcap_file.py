@@ -74,10 +74,13 @@ class _Writing:
         self._put_change("/station", "pluto.State", t, stands)
         for row in frame["missions"]:
             self._put_change(f"/missions/{_topic(row['name'])}", "pluto.Mission", t, row)
-        for row in frame["drones"]:
-            self._drone(t, row)
+        moved = [moved for row in frame["drones"] if (moved := self._drone(t, row)) is not None]
+        if moved:
+            self._put("/tf", "foxglove.FrameTransforms", t, {"transforms": moved})
 
-    def _drone(self, t: float, row: Mapping[str, Any]) -> None:
+    def _drone(self, t: float, row: Mapping[str, Any]) -> dict[str, Any] | None:
+        """Write what is known of a drone; return its transform, if it is known where it is."""
+        moved = None
         drone, topic = row["id"], f"/drones/{_topic(row['id'])}"
         stamp = self._stamp(t)
         if row["x"] is not None:
@@ -88,12 +91,12 @@ class _Writing:
             self._put(f"{topic}/pose", "foxglove.PoseInFrame", t, put)
             moved = {"timestamp": stamp, "parent_frame_id": FRAME, "child_frame_id": drone}
             moved |= {"translation": position, "rotation": turn}
-            self._put("/tf", "foxglove.FrameTransform", t, moved)
         if row["battery"] is not None:
             level = {"level": row["battery"]}
             self._put_change(f"{topic}/battery", "pluto.Battery", t, level)
         standing = {"status": row["status"], "mission": row["mission"], "why": row["why"]}
         self._put_change(f"{topic}/status", "pluto.DroneStatus", t, standing)
+        return moved
 
     def _line(self, line: Any) -> None:
         number, t, mission, text, kind = _parts(line)
@@ -153,18 +156,19 @@ _NUMBER, _TEXT, _WHOLE = {"type": "number"}, {"type": "string"}, {"type": "integ
 _TIME = _object(sec=_WHOLE, nsec=_WHOLE)
 _VECTOR = _object(x=_NUMBER, y=_NUMBER, z=_NUMBER)
 _TURN = _object(x=_NUMBER, y=_NUMBER, z=_NUMBER, w=_NUMBER)
+_TRANSFORM = _object(
+    timestamp=_TIME,
+    parent_frame_id=_TEXT,
+    child_frame_id=_TEXT,
+    translation=_VECTOR,
+    rotation=_TURN,
+)
 
 SCHEMAS: Mapping[str, dict[str, Any]] = {
     "foxglove.PoseInFrame": _object(
         timestamp=_TIME, frame_id=_TEXT, pose=_object(position=_VECTOR, orientation=_TURN)
     ),
-    "foxglove.FrameTransform": _object(
-        timestamp=_TIME,
-        parent_frame_id=_TEXT,
-        child_frame_id=_TEXT,
-        translation=_VECTOR,
-        rotation=_TURN,
-    ),
+    "foxglove.FrameTransforms": _object(transforms={"type": "array", "items": _TRANSFORM}),
     "foxglove.Log": _object(
         timestamp=_TIME, level=_WHOLE, message=_TEXT, name=_TEXT, file=_TEXT, line=_WHOLE
     ),

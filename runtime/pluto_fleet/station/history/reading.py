@@ -11,7 +11,7 @@ from typing import Any
 
 from ...journal import errors
 from ...journal.database import connect, last_row
-from ...journal.errors import TROUBLE
+from ...journal.errors import TROUBLE, JournalError
 from ...journal.fold import Records
 from ...journal.reader import Reader, rows_between
 
@@ -66,7 +66,12 @@ class JournalText:
             yield Instant(wall, epoch, events)
 
     def _others(self) -> Iterator[tuple[float, int, str]]:
-        with closing(Reader(self.path)) as reader:
+        try:
+            reader = Reader(self.path)
+        except JournalError as error:
+            self.damaged = str(error)
+            return
+        with closing(reader):
             for row in reader.rows():
                 yield row.wall, row.epoch, row.text
             self.damaged = reader.damaged or ""

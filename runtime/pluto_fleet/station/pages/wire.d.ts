@@ -97,13 +97,14 @@ export interface CategoryData {
   actions: string[] | null;
 }
 
-/** Change what has not flown of a mission that is under way. */
+/** The command `change-trips`: what a mission that flies shall fly from now on. The same happens when a plan is saved (`PUT /api/plan`) in which it has other trips; then `said` is why that cannot be, with status 400, and the plan stays as it is. */
 export interface ChangeTrips {
   id: string;
+  /** Its name. */
   mission: string;
-  /** All that is to be flown from now on, but for the trip that flies now. */
-  trips: PlanTrip[];
-  /** The names of the trips that were seen to wait: others are refused; null: any. */
+  /** As in the plan; all that has not flown, in order, without the trip that flies. */
+  trips: (Record<string, unknown>)[];
+  /** The names of what had not flown, as the page knew it: a change of an older state is refused. */
   replaces?: string[] | null;
 }
 
@@ -304,16 +305,16 @@ export interface ItemData {
   mass?: string | number | number | boolean;
 }
 
-/** Let a drone join the flight that is under way, as an entry of a fleet file says it. */
+/** The command `join`: a drone that joins the flight, as in a fleet file. */
 export interface Join {
   id: string;
-  /** Its id. */
+  /** The drone's id. */
   drone: string;
-  category?: string | null;
-  home?: number[] | null;
+  category: string;
+  home: number[];
   uri?: string | null;
   navigation?: string | null;
-  options?: Record<string, string | number | number | boolean> | null;
+  options?: Record<string, unknown> | null;
 }
 
 /** A layer of the map: what of the results it shows, and how. The id of a layer of `measure` without a quantity stands for a layer for each quantity that is measured and has none of its own. */
@@ -398,7 +399,7 @@ export interface Me {
   touches: string;
 }
 
-/** Let something go wrong with a simulated drone, to rehearse it. */
+/** The command `mishap`: what happens to a drone that `--sim` simulates, to rehearse it. */
 export interface Mishap {
   id: string;
   drone: string;
@@ -732,6 +733,8 @@ export interface State {
   plan: number;
   /** The revision of the map's places, zones and picture. */
   map: number;
+  /** How many drones there are; once it grows, `/api/app` describes the new one. */
+  fleet: number;
   /** What is wrong; empty: nothing. */
   said: string;
   /** How the drones come down. */

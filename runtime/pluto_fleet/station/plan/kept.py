@@ -14,6 +14,7 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.fields import Entity
 from ...shared.domain.text import printable
 from ...shared.domain.values import shown
+from ..whole_file import write_whole
 from .shape import MISSION_KEYS, TRIP_KEYS, Shape, done_by, fields_of, missions_from
 
 if TYPE_CHECKING:
@@ -45,18 +46,7 @@ def write(path: Path, app: App, revision: int, missions: Sequence[Shape]) -> Non
     """Store a plan atomically; raise `OSError` if that fails."""
     data = {"version": VERSION, "app": app.name, "revision": revision, "missions": missions}
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
-    part = path.with_name(f"{path.name}.part")
-    try:
-        descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, 0o600)
-        with open(descriptor, "wb") as file:
-            file.write(text.encode())
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(part, path)
-    except OSError:
-        part.unlink(missing_ok=True)
-        raise
-    _settle(path.parent)
+    write_whole(path, text.encode())
 
 
 def read(path: Path, app: App) -> KeptPlan:
@@ -168,12 +158,3 @@ def _aside(path: Path) -> Path:
         number += 1
         aside = path.with_name(f"{path.name}.bad-{number}")
     return aside
-
-
-def _settle(folder: Path) -> None:
-    """Sync the folder, so that the new name is durable."""
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ...app import App
 
 FAILED = ("FAILED", BROKEN_OFF)
-"""How missions end of which something is missing that nobody has decided to leave out."""
+"""How missions end of which something is missing without a person's decision."""
 
 
 def settled(record: Mapping[str, Any]) -> list[str]:

@@ -19,7 +19,8 @@ from .in_flight import differs, followed
 from .missing import only_missing
 from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, bare, read
 from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
-from .text import NAME, shapes_of, text_of
+from .text import NAME, renamed, shapes_of, text_of
+from .unfinished import unfinished_shapes
 
 if TYPE_CHECKING:
     from ...app import App
@@ -50,6 +51,8 @@ class MissionPlan:
         self, app: App, fleet: FleetFile, keep: Path | None, now: Callable[[], float] = time.time
     ) -> None:
         self._app, self._fleet, self._keep = app, fleet, keep
+        self.landmarks = fleet.landmarks
+        """What a missions file may name: places and zones of the map."""
         kept = on_disk.read(keep, app) if keep else on_disk.KeptPlan()
         self.trouble = kept.said
         """Why the plan could not be stored, for pages; empty: it was."""
@@ -139,21 +142,43 @@ class MissionPlan:
     ) -> None:
         """Replace the missions that were not launched by those of a file; `folder`: where it lies."""
         self.check_current(revision)
-        self._take(shapes_of(text, self._app, self._fleet.airspace, file, folder), revision)
+        self.take_instead(self._shapes(text, file, folder), revision)
 
     async def import_file(self, text: str, revision: object, file: str = NAME) -> None:
         """Do the same in a thread, as reading a large file takes seconds."""
         self.check_current(revision)
-        given = await to_thread(shapes_of, text, self._app, self._fleet.airspace, file)
-        self._take(given, revision)
+        given = await to_thread(self._shapes, text, file)
+        self.take_instead(given, revision)
 
-    def _take(self, read: Sequence[Shape], revision: object) -> None:
+    def _shapes(self, text: str, file: str, folder: Path | None = None) -> list[Shape]:
+        return shapes_of(text, self._app, self._fleet.airspace, self.landmarks, file, folder)
+
+    def take_instead(self, read: Sequence[Shape], revision: object) -> None:
+        """Replace the missions that were not launched by these, which have no keys."""
         self.check_current(revision)
         given = self._shaped(read)
         # a plan that was exported during the flight has those missions, too
         flying = [as_in_a_file(one) for one in self._missions if one["launched"]]
         new = [mission for mission in given if as_in_a_file(mission) not in flying]
         self._change(self._with_launched(new))
+
+    def saved(self, text: str, file: str) -> tuple[list[Shape], str]:
+        """Return the missions of a plan that was kept, without keys, and what still has to be done to fly it.
+
+        Raises `BadInput` if it is no plan. It changes nothing, and may run in a thread.
+        """
+        try:
+            return self._shapes(text, file), ""
+        except BadInput as error:
+            shapes = unfinished_shapes(text, self._app, file)
+            self._shaped(shapes)
+            return shapes, str(error)
+
+    def add(self, read: Sequence[Shape], revision: object) -> None:
+        """Add these missions, which have no keys, under names that no other has."""
+        self.check_current(revision)
+        names = [str(mission["name"]) for mission in self._missions]
+        self._change([*self._missions, *self._shaped(renamed(read, names))])
 
     def example(self, revision: object) -> None:
         """Add example missions that this app and fleet can fly."""

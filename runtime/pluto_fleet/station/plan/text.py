@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from datetime import time
+from itertools import chain, count
 from typing import TYPE_CHECKING, Any
 
+from ...files.landmarks import NO_LANDMARKS
 from ...files.missions import missions_of
 from ...files.missions_text import mission_table, trip_table
 from ...files.promises import KEYS
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ...app import App
+    from ...files.landmarks import Landmarks
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Trip
 
@@ -35,25 +38,49 @@ def text_of(app: App, missions: Sequence[Shape]) -> str:
 
 
 def shapes_of(
-    text: str, app: App, airspace: Airspace, file: str = NAME, folder: Path | None = None
+    text: str,
+    app: App,
+    airspace: Airspace,
+    landmarks: Landmarks,
+    file: str = NAME,
+    folder: Path | None = None,
 ) -> list[Shape]:
     """Return the missions of a file, without keys, areas and lists as plain trips and missions.
 
-    `folder`: where it lies, and its lists beside it. Raises `BadInput` as `check` does.
+    `landmarks` are the places and zones that it may name. `folder`: where it lies, and its lists beside it. Raises `BadInput` as `check` does.
     """
     document = parsed(file, text)
-    document.folder = folder
+    document.folder, document.landmarks = folder, landmarks
     missions = missions_of(document, app, airspace)
     tables: Any = [
         _sparse(mission_table(app, mission), app) if given is None or "area" in given else given
         for mission, given in zip(missions, document.given, strict=True)
     ]
-    return [_shape(mission, str(i), app) for i, mission in enumerate(tables, 1)]
+    return [_shape(mission, str(i), app, landmarks) for i, mission in enumerate(tables, 1)]
+
+
+def renamed(missions: Sequence[Shape], taken: Collection[str]) -> list[Shape]:
+    """Return missions under names that are not taken, such as "North field 2", by which others come after them."""
+    names, new = {*taken}, dict[str, str]()
+    for mission in missions:
+        name = str(mission["name"])
+        counted = (f"{name} {number}" for number in count(2))
+        new[name] = next(one for one in chain([name], counted) if one not in names)
+        names.add(new[name])
+    return [_with_names(mission, new) for mission in missions]
+
+
+def _with_names(mission: Shape, new: Mapping[str, str]) -> Shape:
+    found = {**mission, "name": new[str(mission["name"])]}
+    match mission.get("after"):
+        case list(after):
+            found["after"] = [new.get(str(name), name) for name in after]
+    return found
 
 
 def trip_shape(app: App, trip: Trip) -> Shape:
     """Return a trip as pages have it, without a key."""
-    return _trip(_unusual(trip_table(app, trip), app, Entity.TRIP), app)
+    return _trip(_unusual(trip_table(app, trip), app, Entity.TRIP), app, NO_LANDMARKS)
 
 
 def _sparse(table: dict[str, Any], app: App) -> dict[str, Any]:
@@ -84,12 +111,12 @@ def _pairs(given: Mapping[str, object], keys: Sequence[str], indent: str) -> Ite
             yield f"{indent}{key} = {toml_value(given[key])}"
 
 
-def _shape(given: Mapping[str, Any], number: str, app: App) -> Shape:
+def _shape(given: Mapping[str, Any], number: str, app: App, landmarks: Landmarks) -> Shape:
     return {
         "name": given.get("name", number),
         **_promises(given),
         **_fields(given, app, Entity.MISSION),
-        "trips": [_trip(trip, app) for trip in given["trip"]],
+        "trips": [_trip(trip, app, landmarks) for trip in given["trip"]],
     }
 
 
@@ -104,11 +131,11 @@ def _promises(given: Mapping[str, Any]) -> Shape:
     }
 
 
-def _trip(given: Mapping[str, Any], app: App) -> Shape:
+def _trip(given: Mapping[str, Any], app: App, landmarks: Landmarks) -> Shape:
     trip = {key: given[key] for key in _BASIC if key in given}
     for key in ("target", "source"):
         if key in trip:
-            trip[key] = _metres(trip[key])
+            trip[key] = _metres(trip[key], landmarks)
     return {**trip, **_fields(given, app, Entity.TRIP)}
 
 
@@ -122,8 +149,10 @@ def _plain(given: object) -> object:
     return given.isoformat("auto") if isinstance(given, time) else given
 
 
-def _metres(place: Sequence[object]) -> list[object]:
-    """Return a point in metres: files may have "80 cm"."""
+def _metres(place: Sequence[object] | str, landmarks: Landmarks) -> list[object]:
+    """Return a point in metres: files may have "80 cm", or the name of a place."""
+    if isinstance(place, str):
+        return [*landmarks.place[place]]
     read = point(place)
     return [
         metres if isinstance(given, str) else given

@@ -154,9 +154,15 @@ def _assumed(question: Question, rehearsed: Rehearsed | None) -> list[Words]:
     if question.until is not None:
         text = f"some missions repeat until they are stopped: they are flown for {duration(UNTIL)}"
         found.append(words("endless", text, seconds=UNTIL))
-    if rehearsed is not None and not rehearsed.recorded:
-        text = "no run can be rehearsed: hooks.py remembers earlier runs, and flies another"
-        found.append(words("not-the-same", text))
+    if question.is_simpler:
+        text = (
+            "drones are not kept apart in these runs, as that takes too long to work out for so many:"
+            " it will take longer than they say"
+        )
+        found.append(words("not-apart", text))
+    if rehearsed is not None and rehearsed.trouble:
+        text = f"there is no rehearsal: {rehearsed.trouble}"
+        found.append(words("no-rehearsal", text, why=rehearsed.trouble))
     return found
 
 

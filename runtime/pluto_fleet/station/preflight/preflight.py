@@ -1,11 +1,12 @@
-"""Forecasting a Start beside whatever flies: one at a time, the newest wins, and none holds a Stop up."""
+"""Forecasting a Start beside a flight: one at a time, the newest wins, and none holds a Stop up."""
 
 from __future__ import annotations
 
 import asyncio
 import secrets
 from collections.abc import Callable, Sequence
-from contextlib import aclosing
+from contextlib import aclosing, suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,10 +26,31 @@ if TYPE_CHECKING:
 WITHIN = 30.0
 """Seconds after which a forecast is made of the runs so far."""
 
+FIRST_WITHIN = 12.0
+"""Seconds after which a forecast whose first run has not ended is made in a simpler world, or not at all."""
+
 KEPT = 4
 """How many rehearsals are kept, the newest."""
 
 MOST_RUNS = 1_001
+
+
+@dataclass(slots=True)
+class _Flown:
+    """What is found of a question."""
+
+    needs: Needs = field(default_factory=lambda: Needs({}, {}))
+    runs: list[Run] = field(default_factory=list)
+    rehearsed: Rehearsed | None = None
+
+    def take(self, one: Found) -> None:
+        """Take what a copy has found next."""
+        if isinstance(one, Run):
+            self.runs.append(one)
+        elif isinstance(one, Needs):
+            self.needs = one
+        else:
+            self.rehearsed = one
 
 
 class Newer(BadInput):
@@ -84,48 +106,56 @@ class Preflight:
         self, question: Question, keys: Sequence[str], problems: list[Words]
     ) -> Forecast:
         id = f"rehearsal-{secrets.token_hex(8)}"
-        self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         path = self._folder / f"{id}{SUFFIX}"
-        needs, runs, rehearsed = Needs({}, {}), list[Run](), None
         kept = False
         try:
-            try:
-                async with (
-                    asyncio.timeout(WITHIN),
-                    aclosing(in_a_copy(lambda: found(question, path))) as finds,
-                ):
-                    async for one in finds:
-                        needs, rehearsed = self._take(one, runs, needs, rehearsed)
-            except TimeoutError:
-                pass  # it is made of the runs so far
-            except Died as end:
+            flown = await self._flown(question, path)
+            if not flown.runs and (simpler := question.simpler) is not None:
+                question, flown = simpler, await self._flown(simpler, path)
+            if not flown.runs:
                 raise BadInput(
-                    f"the process that flew the forecast {end}: something in hooks.py ends it,"
-                    " or there is not enough memory"
-                ) from None
-            if not runs:
-                raise BadInput(
-                    f"not even one run of this plan was flown within {duration(WITHIN)}:"
+                    f"not even one run of this plan was flown within {duration(FIRST_WITHIN)}:"
                     " choose fewer missions"
                 )
+            rehearsed = flown.rehearsed
             kept = rehearsed is not None and rehearsed.recorded
-            return forecast(question, keys, needs, runs, rehearsed, id if kept else None, problems)
+            return forecast(
+                question,
+                keys,
+                flown.needs,
+                flown.runs,
+                rehearsed,
+                id if kept else None,
+                problems,
+            )
         finally:
-            if not kept:
-                path.unlink(missing_ok=True)
-            self._tidy()
+            with suppress(OSError):  # what stays is deleted after another forecast
+                if not kept:
+                    path.unlink(missing_ok=True)
+                self._tidy()
 
-    def _take(
-        self, one: Found, runs: list[Run], needs: Needs, rehearsed: Rehearsed | None
-    ) -> tuple[Needs, Rehearsed | None]:
-        if isinstance(one, Run):
-            runs.append(one)
-            self.begun()
-        elif isinstance(one, Needs):
-            return one, rehearsed
-        else:
-            return needs, one
-        return needs, rehearsed
+    async def _flown(self, question: Question, path: Path) -> _Flown:
+        """Return what is found in time: nothing more if the first run takes too long."""
+        flown, loop = _Flown(), asyncio.get_running_loop()
+        ends = loop.time() + WITHIN
+        try:
+            async with (
+                asyncio.timeout(FIRST_WITHIN) as limit,
+                aclosing(in_a_copy(lambda: found(question, path))) as finds,
+            ):
+                async for one in finds:
+                    flown.take(one)
+                    if flown.runs:
+                        limit.reschedule(ends)
+                        self.begun()
+        except TimeoutError:
+            pass  # the forecast is made of the runs so far
+        except Died as end:
+            raise BadInput(
+                f"the process that flew the forecast {end}: something in hooks.py ends it,"
+                " or there is not enough memory"
+            ) from None
+        return flown
 
     def _tidy(self) -> None:
         """Delete all rehearsals but the newest."""

@@ -28,7 +28,7 @@ class Present:
     battery: float
     """Its level now, from 0 to 1."""
     out: Words | None = None
-    """Why no mission would get it, whatever its battery holds; None: one may."""
+    """Why no mission would get it, even with a full battery; None: one may."""
     assumed: Words | None = None
     """What is supposed of it, as it is not known; None: nothing is."""
     known: bool = True

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from ...files.plan_check import endless
+from ...flight.simulate import has_traffic
 
 if TYPE_CHECKING:
     from ...app import App
@@ -38,6 +39,16 @@ class Question:
     runs: int | None = None
     """How many; None: as many as there is time for."""
     revision: int = 0
+    is_simpler: bool = False
+    """Whether drones are not kept apart in it though they are in flight, as that took too long."""
+
+    @property
+    def simpler(self) -> Question | None:
+        """The same in a world in which each drone has the air to itself; None: it is that already."""
+        if self.is_simpler or not has_traffic(self.app, self.fleet):
+            return None
+        fleet = replace(self.fleet, apart=0.0)
+        return None if has_traffic(self.app, fleet) else replace(self, fleet=fleet, is_simpler=True)
 
     @property
     def all(self) -> Sequence[Mission[Any]]:

@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 FRAMES = 1_200
 """How often a rehearsal is looked at."""
 
-FLUSH_EVERY = 40
-"""Looks after which what was written is given to the system."""
-
 MISSIONS_IN_ALL = 30_000
 """How many missions are asked in all for where they stand: a row of each takes some 30 µs."""
 
@@ -80,7 +77,7 @@ class Rehearsal:
         self._priority = next((one.default for one in app.fields if one.name == PRIORITY), None)
         self._reasons = WaitReasons(app, question.flown, lambda: self._now)
         self._fit = _Fit(question)
-        self._lines = self._looks = 0
+        self._lines = 0
         looks = max(1, MISSIONS_IN_ALL // max(1, len(question.all)))
         self._missions_every = max(every, every * FRAMES / looks)
         self._looked_at = -self._missions_every
@@ -125,9 +122,6 @@ class Rehearsal:
             self._missions,
             [*self._drone_rows(where, stand, drones), *self._out],
         )
-        self._looks += 1
-        if self._looks % FLUSH_EVERY == 1:  # the first line of a file is kept back until then
-            self._recording.flush()
 
     def finish(self) -> None:
         """End the recording."""

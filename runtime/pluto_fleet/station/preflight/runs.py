@@ -13,14 +13,13 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.status import COMPLETED
 from ...shared.fleet.reach import Reach, chain_of, miss_of
 from ...trials.case import fresh
-from .rehearsal import FRAMES, MOST_CHAINS, Rehearsal
+from .rehearsal import FRAMES, MOST_CHAINS, Rehearsal, Waits
 
 if TYPE_CHECKING:
     from ...flight.outcome import SimulationResult
     from ...shared.domain.model import Point, Trip
     from ...shared.domain.trace import Event
     from .question import Question
-    from .rehearsal import Waits
 
 FEWEST, MOST = 21, 1_001
 """Runs, if none are asked for: few percentiles need less; odd, so that the median is a run's."""
@@ -30,6 +29,9 @@ ENOUGH = 2.0
 
 PATIENCE = 4.0
 """Seconds after which none does either, on a machine that is busy with other things."""
+
+LONGEST = 12.0
+"""Seconds after which no further run begins, however many there are: the median is yet to be rehearsed."""
 
 SHORTEST = 0.25
 """Seconds between two looks at a rehearsal, at least."""
@@ -72,12 +74,20 @@ class Needs(NamedTuple):
     """Why those never can."""
 
 
+OTHER = "hooks.py remembers earlier runs, and flies another one"
+
+
 class Rehearsed(NamedTuple):
     """What was recorded of the median run."""
 
-    recorded: bool
-    """Whether the recording is of that run: a hook that remembers earlier runs may have flown another."""
     waits: Waits
+    trouble: str = ""
+    """Why there is no recording of it; empty: there is."""
+
+    @property
+    def recorded(self) -> bool:
+        """Whether there is a recording of it."""
+        return not self.trouble
 
 
 Found = Needs | Run | Rehearsed
@@ -136,8 +146,11 @@ def _seeds(question: Question) -> Iterator[int]:
     """Yield seeds until enough has been flown."""
     since = time.monotonic()
     for place in range(question.runs or MOST):
-        long = time.process_time() > ENOUGH or time.monotonic() - since > PATIENCE
-        if question.runs is None and place >= FEWEST and place % 2 and long:
+        passed = time.monotonic() - since
+        if place and passed > LONGEST:
+            return
+        enough = time.process_time() > ENOUGH or passed > PATIENCE
+        if question.runs is None and place >= FEWEST and place % 2 and enough:
             return
         yield question.seed + place
 
@@ -167,12 +180,18 @@ def _fly(
 
 def _rehearsed(question: Question, median: Run, recording: Path) -> Rehearsed:
     every = max(SHORTEST, median.seconds / FRAMES)
-    rehearsal = Rehearsal(question, recording, every)
     try:
-        outcome = _fly(question, median.seed, Sampling(every=every, look=rehearsal.look), rehearsal)
-    finally:
-        rehearsal.finish()
-    return Rehearsed(recorded=outcome.duration == median.seconds, waits=rehearsal.waits)
+        recording.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        rehearsal = Rehearsal(question, recording, every)
+        try:
+            sampling = Sampling(every=every, look=rehearsal.look)
+            outcome = _fly(question, median.seed, sampling, rehearsal)
+        finally:
+            rehearsal.finish()
+    except OSError as error:
+        return Rehearsed(Waits(), f"it cannot be written: {error.strerror or error}")
+    same = outcome.duration == median.seconds
+    return Rehearsed(rehearsal.waits, "" if same else OTHER)
 
 
 def needs(question: Question) -> Needs:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 from ...shared.alone.faults import Faults
 from ...shared.domain.app import moving
 from ...shared.domain.errors import BadInput
+from ...shared.domain.status import TripStatus
+from ...trials.case import fresh
 from ..plan.promised import broken, promised
 from .forecast import without_runs
 from .preflight import MOST_RUNS, Newer, Preflight
@@ -51,7 +53,7 @@ class StartForecasts:
         history: FleetHistory,
         refuse: Callable[[], object],
     ) -> None:
-        """`refuse` raises `BadInput` if a Start would be refused, whatever the plan says."""
+        """`refuse` raises `BadInput` if a Start of any plan would be refused."""
         self._app = moving(app, config.fleet.motion)
         self._config, self._plan, self._history, self._refuse = config, plan, history, refuse
         self.preflight = Preflight(config.own_folder)
@@ -82,8 +84,12 @@ class StartForecasts:
             midnight=now.tm_hour * 3600.0 + now.tm_min * 60.0 + now.tm_sec,
         )
         beside = list(_left_of(session))
+        names = {mission.name for mission in (*beside, *missions)}
         for index, mission in enumerate([*beside, *missions]):
             mission.index = index
+            if "after" in mission.promises:  # what has ended is waited for no more
+                after = [name for name in mission.promises["after"] if name in names]
+                mission.promises = {**mission.promises, "after": after}
         question = Question(
             app=self._app,
             fleet=fleet,
@@ -129,5 +135,8 @@ def _left_of(session: FlightSession | None) -> Iterator[Mission[Any]]:
         return
     for mission in life.missions:
         if not life.records.missions[mission.name]["ended"] and mission.trips:
-            promises = {k: v for k, v in mission.promises.items() if k == "deadline"}
-            yield replace(mission, promises=promises, completed_trips=[])
+            left = fresh(mission)
+            left.promises = {}
+            for trip in left.trips:  # one that flies now is supposed to fly again
+                trip.status, trip.start_time, trip.end_time = TripStatus.WAITING, None, None
+            yield left

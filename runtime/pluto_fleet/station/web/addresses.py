@@ -10,19 +10,30 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from ..map.pictures import PICTURES
 from ..requests import COMMANDS, ExampleEdit, PlanEdit, Said
 from ..wire import (
+    AreaAsked,
     DroneHours,
     FlightReport,
     FlightSummary,
     Forecast,
     ForecastRequest,
     LiveMessage,
+    MapData,
+    MapEdit,
+    PlanOpened,
+    PlanRestored,
+    PlanSaved,
     Replay,
     Role,
+    SavedPlans,
+    Swept,
+    Ways,
+    WaysAsked,
 )
 from ..wire_app import AppData, PlanData
-from . import changes, flights, forecasts, reads, results
+from . import changes, flights, forecasts, map_changes, plan_library, reads, results
 from .http import Reply
 from .live import LIVE
 from .reads import TOML
@@ -171,6 +182,101 @@ _EDITS = (
     ),
 )
 
+_MAP = (
+    Address(
+        method="GET",
+        path="/api/map",
+        says="The places and zones that have names, north, and where the floor plan lies.",
+        answers=MapData,
+        do=map_changes.map_data,
+        role="watch",
+    ),
+    Address(
+        method="PUT",
+        path="/api/map",
+        says="Keep what was drawn on the map in the fleet file; what is not sent stays.",
+        body=MapEdit,
+        answers=MapData,
+        stale=MapData,
+        do=map_changes.change_map,
+    ),
+    Address(
+        method="PUT",
+        path="/api/map/image",
+        says="Take a picture as the floor plan.",
+        body=tuple(dict.fromkeys(PICTURES.values())),
+        most_bytes=LARGE_BODY,
+        answers=MapData,
+        stale=MapData,
+        do=map_changes.take_floor_plan,
+        query={
+            "revision": Parameter(int, "The revision of the map that was looked at.", needed=True),
+            "name": Parameter(str, "The file's name."),
+        },
+    ),
+    Address(
+        method="POST",
+        path="/api/ways",
+        says="The ways that drones fly between pairs of places, around walls.",
+        body=WaysAsked,
+        answers=Ways,
+        do=map_changes.find_ways,
+    ),
+    Address(
+        method="POST",
+        path="/api/plan/sweep",
+        says="The targets with which an area is covered, in their order.",
+        body=AreaAsked,
+        answers=Swept,
+        do=map_changes.sweep_area,
+    ),
+)
+_NAME = Parameter(str, "The name of a plan that is kept.", needed=True)
+_PLANS = (
+    Address(
+        method="GET",
+        path="/api/plans",
+        says="The plans and templates that are kept under names, and those that were deleted.",
+        answers=SavedPlans,
+        do=plan_library.saved_plans,
+        role="watch",
+    ),
+    Address(
+        method="PUT",
+        path="/api/plans",
+        says="Keep the plan under a name.",
+        body=PlanSaved,
+        answers=SavedPlans,
+        do=plan_library.save_plan,
+        query={"name": _NAME},
+    ),
+    Address(
+        method="DELETE",
+        path="/api/plans",
+        says="Put a plan that is kept into the trash.",
+        answers=SavedPlans,
+        do=plan_library.delete_plan,
+        query={"name": _NAME},
+    ),
+    Address(
+        method="POST",
+        path="/api/plans/open",
+        says="Take a plan that is kept in place of what has not been started, or beside it.",
+        body=PlanOpened,
+        answers=PlanData,
+        stale=PlanData,
+        do=plan_library.open_plan,
+    ),
+    Address(
+        method="POST",
+        path="/api/plans/restore",
+        says="Take a plan out of the trash.",
+        body=PlanRestored,
+        answers=SavedPlans,
+        do=plan_library.restore_plan,
+    ),
+)
+
 _COMMANDS = tuple(
     Address(
         method="POST",
@@ -296,4 +402,13 @@ _FORECASTS = (
     ),
 )
 
-ADDRESSES: Sequence[Address] = (*_READS, *_FLIGHTS, *_RESULTS, *_EDITS, *_FORECASTS, *_COMMANDS)
+ADDRESSES: Sequence[Address] = (
+    *_READS,
+    *_FLIGHTS,
+    *_RESULTS,
+    *_EDITS,
+    *_MAP,
+    *_PLANS,
+    *_FORECASTS,
+    *_COMMANDS,
+)

@@ -17,7 +17,7 @@ from .http import MISTAKES, PageSocket, Reply, Request
 from .live import LiveUpdates
 from .refusals import Refusal, Refused
 from .served import Asked, ServedStation
-from .static import file_reply, pages, picture
+from .static import StaticFile, file_reply, pages, picture
 from .strict_json import parsed_object
 
 _COMMANDS_A_SECOND, _EDITS_A_SECOND, _READS_A_SECOND = 20.0, 20.0, 100.0
@@ -53,7 +53,7 @@ class Api:
         for address in addresses:
             self._addresses.setdefault(address.path, {})[address.method] = address
         self._pages = pages()
-        self._picture = picture(station.image) if station.image is not None else None
+        self._picture = picture(station.image)
         self._commands, self._edits = Rate(_COMMANDS_A_SECOND, clock), Rate(_EDITS_A_SECOND, clock)
         self._reads = Rate(_READS_A_SECOND, clock)
         self._live = LiveUpdates(station, guard, audit, clock)
@@ -95,8 +95,8 @@ class Api:
             raise Refused(why)
         if access is Access.PAGE and request.path in self._pages:
             return file_reply(self._pages[request.path], request)
-        if request.path == "/map" and self._picture is not None:
-            return file_reply(self._picture, request)
+        if request.path == "/map" and (held := self._floor_plan()) is not None:
+            return file_reply(held, request)
         address = self._route(request)
         role = role_of(self.guard, request)
         assert role is not None  # else it was refused
@@ -116,6 +116,12 @@ class Api:
         if request.method not in methods:
             raise Refused(refusals.wrong_method(", ".join(methods)))
         return methods[request.method]
+
+    def _floor_plan(self) -> StaticFile | None:
+        """Return the floor plan, read once: another one has another name."""
+        if self._picture[0] != self._station.image:
+            self._picture = picture(self._station.image)
+        return self._picture[1]
 
     async def _within_limits(self, address: Address, request: Request, role: Role) -> Reply:
         """Handle a request within the limits."""

@@ -8,6 +8,7 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable
 from ..commands import Malformed
 from ..plan.plan import Stale
+from .given import nothing_else
 from .http import Reply, json_reply, said
 from .reads import MISSIONS_FILE
 from .served import Asked
@@ -38,7 +39,7 @@ async def replace_plan(asked: Asked) -> Reply:
     """Replace the plan's missions."""
     given = dict(asked.given)
     revision, missions = _whole(given, "revision"), given.pop("missions", None)
-    _nothing_else(given)
+    nothing_else(given)
     return await _edited(asked, asked.station.edit(revision, missions))
 
 
@@ -53,7 +54,7 @@ async def add_example(asked: Asked) -> Reply:
     """Add an example to the plan."""
     given = dict(asked.given)
     revision = _whole(given, "revision")
-    _nothing_else(given)
+    nothing_else(given)
     edit = _at_once(lambda: asked.station.plan.example(revision))
     return await _edited(asked, edit, impossible=409)
 
@@ -98,8 +99,3 @@ def _text(body: bytes) -> str:
         return body.decode("utf-8")
     except UnicodeDecodeError:
         raise Malformed("the file is not UTF-8") from None
-
-
-def _nothing_else(given: Mapping[str, object]) -> None:
-    if given:
-        raise Malformed("what was sent has more in it than is known here")

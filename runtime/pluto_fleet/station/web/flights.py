@@ -73,7 +73,7 @@ def download(reply: Reply, name: str) -> Reply:
 
 
 def _seconds(asked: Asked) -> float:
-    text = asked.request.query.get("start", "0")
+    text = asked.request.query.get("start") or "0"
     try:
         seconds = float(text) if len(text) <= _LONGEST_NUMBER and text.isascii() else -1.0
     except ValueError:

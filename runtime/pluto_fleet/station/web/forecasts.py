@@ -12,7 +12,7 @@ from .http import Reply, json_reply, said
 from .served import Asked
 
 GONE = Reply(status=499)
-"""What nobody reads any more."""
+"""The answer to a client that has gone away."""
 
 
 async def preflight(asked: Asked) -> Reply:

@@ -7,6 +7,7 @@ from contextlib import closing
 from errno import EACCES, EADDRINUSE, EADDRNOTAVAIL
 from ipaddress import ip_address
 
+from ...process.forked import not_for_children
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import quoted
 from .guard import Guard
@@ -36,6 +37,7 @@ def listening(host: str, port: int) -> socket.socket:
         listener.close()
         raise BadInput(_why(error, host, port)) from None
     listener.setblocking(False)
+    not_for_children(listener.fileno())
     return listener
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from ..map.drawn import DrawnMap
+from ..map.ways import DrawnWays
+from ..plan.library import PlanLibrary
+from ..plan.shape import Shape
 from ..preflight.start import PlannedStart
 from ..wire import Forecast, Role
 from ..wire_app import AppData
@@ -32,6 +36,15 @@ class ServedPlan(Protocol):
 
     def example(self, revision: int) -> None:
         """Add an example."""
+
+    def saved(self, text: str, file: str) -> tuple[list[Shape], str]:
+        """Return the missions of a plan that was kept, and what is to be done before it can fly."""
+
+    def add(self, read: Sequence[Shape], revision: object) -> None:
+        """Add missions that have no keys."""
+
+    def take_instead(self, read: Sequence[Shape], revision: object) -> None:
+        """Replace its missions by these, which have no keys."""
 
     def export_toml(self) -> str:
         """Return it as a missions file."""
@@ -84,6 +97,18 @@ class ServedStation(UpdateSource, Protocol):
     @property
     def plan(self) -> ServedPlan:
         """The plan."""
+
+    @property
+    def map(self) -> DrawnMap:
+        """What is drawn on the map."""
+
+    @property
+    def ways(self) -> DrawnWays:
+        """The ways of drones on it."""
+
+    @property
+    def library(self) -> PlanLibrary:
+        """The plans that are kept under names."""
 
     @property
     def image(self) -> Path | None:

@@ -5,7 +5,6 @@ No path is ever made of a request.
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,8 +13,7 @@ from gzip import compress
 from hashlib import sha256
 from pathlib import Path
 
-from ...shared.domain.errors import BadInput
-from ...shared.domain.text import shown
+from ..map.pictures import PICTURES
 from .http import Reply, Request
 
 FOLDER = Path(__file__).parent.parent / "pages"
@@ -36,14 +34,6 @@ _KINDS = {
     ".woff2": "font/woff2",
 }
 _AT_THE_TOP = {"/": "/pages/index.html", "/manifest.webmanifest": "/pages/manifest.webmanifest"}
-_PICTURES = {
-    ".jpeg": "image/jpeg",
-    ".jpg": "image/jpeg",
-    ".png": "image/png",
-    ".svg": "image/svg+xml",
-    ".webp": "image/webp",
-}
-_LARGEST = 20 * 1024 * 1024
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,33 +60,15 @@ def pages(folder: Path = FOLDER) -> Mapping[str, StaticFile]:
     return table | {top: table[page] for top, page in _AT_THE_TOP.items() if page in table}
 
 
-def floor_plan(folder: Path, name: str) -> Path:
-    """Return the picture that a fleet file names, if it is valid and beside that file."""
-    place = folder / name
-    if place.suffix.lower() not in _PICTURES:
-        kinds = ", ".join(_PICTURES)
-        raise BadInput(f"map.image: {shown(name)} is no picture that can be shown: {kinds}")
-    inside = not os.path.isabs(name) and ".." not in Path(name).parts
+def picture(place: Path | None) -> tuple[Path | None, StaticFile | None]:
+    """Return a floor plan with its path; no file if there is none, or it cannot be read any more."""
+    kind = None if place is None else PICTURES.get(place.suffix.lower())
+    if place is None or kind is None:
+        return place, None
     try:
-        found = place.resolve(strict=True)
-        inside = inside and found.is_relative_to(folder.resolve(strict=True))
-        size = found.stat().st_size if found.is_file() else None
-    except (OSError, ValueError):  # ValueError: a NUL in the name
-        raise BadInput(f"map.image: {shown(name)} cannot be read") from None
-    if not inside:
-        raise BadInput(f"map.image: {shown(name)} must lie in the folder of the fleet file")
-    if size is None or size > _LARGEST:
-        raise BadInput(f"map.image: {shown(name)} must be a file of at most 20 MB")
-    return found
-
-
-def picture(place: Path) -> StaticFile | None:
-    """Return the floor plan; None if it cannot be read any more."""
-    kind = _PICTURES.get(place.suffix.lower())
-    try:
-        return None if kind is None else _held(kind, place.read_bytes(), packs=False)
+        return place, _held(kind, place.read_bytes(), packs=False)
     except OSError:
-        return None
+        return place, None
 
 
 def file_reply(held: StaticFile, request: Request) -> Reply:

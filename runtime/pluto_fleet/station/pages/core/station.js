@@ -138,6 +138,10 @@ export async function connect() {
   keepUndo();
   line.keep();
   loadPlan();
+  effect(() => { // a drone has joined
+    const { known, fleet } = world.state.value;
+    if (known && fleet !== app.peek()?.drones.length) describe();
+  });
   effect(() => {
     const { known, plan: revision } = world.state.value;
     if (known && revision !== plan.revision && plan.isSaved) loadPlan();

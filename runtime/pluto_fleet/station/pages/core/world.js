@@ -116,7 +116,7 @@ class Tail {
 
 /** @returns {State & { known: boolean }} */
 const unknown = () => ({
-  known: false, phase: "idle", time: 0, plan: 0, map: 0, said: "", how: null, busy: "",
+  known: false, phase: "idle", time: 0, plan: 0, map: 0, fleet: 0, said: "", how: null, busy: "",
 });
 
 /** What is known of one flight. */

@@ -1,0 +1,186 @@
+"""Taking one mission out of its graph, finding out what came of its flight, and letting it go on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ..jobs.reports import reported_result
+from ..shared.domain.errors import BadInput
+from ..shared.domain.status import Status
+from ..shared.domain.text import quoted
+from ..shared.time.future import Future
+from ..shared.time.kernel import FLEET, Task
+from .mission_status import aside
+from .reconcile import (
+    PROBED,
+    Outcome,
+    ended,
+    for_brain,
+    id_of,
+    in_flight,
+    outcome_of,
+    question,
+    trip_of,
+    unheard,
+)
+
+if TYPE_CHECKING:
+    from ..journal.fold import Record
+    from .recorded_brain import RecordedBrain
+
+Then = Callable[[str, "Record"], None]
+
+
+class Suspending:
+    """The missions of one run that are out of their graphs, or about to be."""
+
+    def __init__(self, run: RecordedBrain) -> None:
+        self._run, self._link = run, run.link
+        self._busy = False
+        """Whether a command is half done: missions may be in no graph that are about to go on."""
+        self._steps_out: dict[str, Task[None]] = {}
+        """The tasks of missions whose flights are being aborted."""
+        self._probes: dict[str, Future[bool | None]] = {}
+        """The flights whose outcomes the app is asked for, by their ids."""
+        self._untold: list[tuple[int, list[Any]]] = []
+        """Results that the brain does not know yet, with their numbers."""
+
+    def _command(self, command: str, **request: Any) -> None:
+        told = {"command": command, **request}
+        self._run.driver.call(partial(self._run.app.perform, self._run.brain, told))
+
+    def _step_out(self, name: str, record: Record, then: Then) -> None:
+        """Suspend a mission; continue when the outcome of its flight is known."""
+        self._refuse_while_it_steps_out(name)
+        flight, was_aside = in_flight(record), aside(record) is not None
+        with self._half_done():
+            if not was_aside:
+                self._command("pause", mission=name)
+            if flight is None or was_aside:
+                then(name, record)
+            else:
+                self._steps_out[name] = self._run.kernel.spawn(
+                    self._broken_off(name, record, then), FLEET, f"{name} is interrupted"
+                )
+
+    def _look_into(self, name: str, record: Record) -> None:
+        """Find out what came of a flight of which no report comes; its mission goes on if that is known."""
+        self._step_out(name, record, self._resume)
+
+    @contextmanager
+    def _half_done(self) -> Iterator[None]:
+        """Let nothing end meanwhile."""
+        self._busy = True
+        try:
+            yield
+        finally:
+            self._busy = False
+        self._run.look_for_the_end()
+
+    def _refuse_while_it_steps_out(self, name: str) -> None:
+        if name in self._steps_out:
+            raise BadInput(
+                f"mission {quoted(name)} is just being interrupted: its drone is asked what it has "
+                "done; try again in a moment"
+            )
+
+    async def _broken_off(self, name: str, record: Record, then: Then) -> None:
+        """Find out the outcome of a flight from the ledger and the drone."""
+        flight = record["flight"]
+        entry = (await self._link.fleet_report()).jobs.get(id_of(name, flight))
+        what = outcome_of(entry, self._run.repeat_of(record), bool(flight["begun"]))
+        if what is Outcome.UNKNOWN:
+            what = await self.probe(name, record)
+        del self._steps_out[name]
+        if record["ended"]:
+            return  # it has ended meanwhile
+        if what is Outcome.UNKNOWN:
+            self.doubt(name, record)
+            self._run.look_for_the_end()
+            return
+        if what is Outcome.FLIES_ON and entry is not None:  # it has just ended
+            self._take_result(name, ended(name, flight, reported_result(entry)))
+        else:
+            self._settle(name, record, what)
+        if not record["ended"]:
+            then(name, record)
+        self._run.look_for_the_end()
+
+    def _settle(self, name: str, record: Record, what: Outcome) -> None:
+        """Record whether the action of an interrupted flight was done."""
+        flight = record["flight"]
+        if what is Outcome.DONE:
+            self._take_result(name, ended(name, flight))
+        else:
+            self._run.interrupted(name, flight)
+
+    def _take_result(self, name: str, event: dict[str, Any]) -> None:
+        """Record the end of a flight that the brain has not seen; a failed one loses what is aboard."""
+        record = self._run.records.missions[name]
+        carries = record["carries"]
+        if event["event"] == "trip.failed" and carries is not None:
+            event["reason"] = reason = f"{event['reason']}, with {carries['name']} aboard"
+            self._run.take(event)
+            self._command("cancel", mission=name, status=Status.FAILED.value, reason=reason)
+            return
+        number = len(self._run.records.results)
+        self._run.take(event)
+        if event["event"] == "trip.completed":
+            self._untold.append((number, self._run.records.results[number]))
+
+    def _resume(self, name: str, record: Record) -> None:
+        begun = record["attempts"] or record["interrupted"]
+        usual = Status.STANDBY.value if begun else Status.UNEXECUTED.value
+        self._run.note("mission.resumed", mission=name, status=unheard(record) or usual)
+        self._go_on(name, record)
+
+    def _go_on(self, name: str, record: Record) -> None:
+        """Give a suspended mission back to the brain."""
+        untold = [(number, one) for number, one in self._untold if one[0] == name]
+        self._untold = [(number, one) for number, one in self._untold if one[0] != name]
+        standing = {
+            "missions": {name: for_brain(self._run.app, record)},
+            "results": [one for _, one in untold],
+            "first_result": untold[0][0] if untold else 0,
+        }
+        self._run.driver.call(partial(self._run.brain.go_on, standing, {}))
+
+    # What only the app, or a person, can tell
+
+    async def probe(self, name: str, record: Record) -> Outcome:
+        """Ask the app's own hook, if there is one, whether the action of a flight was done."""
+        answer: Future[bool | None] = Future()
+        id = id_of(name, record["flight"])
+        self._probes[id] = answer
+        self._command("probe", mission=name, record=for_brain(self._run.app, record))
+        return PROBED[await answer]
+
+    def probed(self, flight: str, answer: bool | None) -> None:
+        """Called with what the app's hook says."""
+        asked = self._probes.pop(flight, None)
+        if asked is not None:
+            asked.set(answer)
+
+    def doubt(self, name: str, record: Record) -> None:
+        """Record that only the user can say whether the action of a suspended mission was done."""
+        flight, trip = record["flight"], trip_of(record, record["flight"])
+        assert trip is not None
+        why = question(trip, flight["drone"])
+        self._run.note(
+            "mission.uncertain", mission=name, trip=trip["name"], drone=flight["drone"], reason=why
+        )
+
+    def doubt_in_flight(self, name: str, id: str) -> None:
+        """Suspend a mission whose flight was called off, and whose action may be done."""
+        record = self._run.records.missions[name]
+        flight = in_flight(record)
+        if flight is None or id_of(name, flight) != id or aside(record) is not None:
+            return  # it has ended, or its mission was suspended
+        if name in self._steps_out or record["ended"]:
+            return
+        with self._half_done():
+            self._command("pause", mission=name)
+            self.doubt(name, record)

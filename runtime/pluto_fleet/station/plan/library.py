@@ -1,0 +1,211 @@
+"""Plans and templates that are kept under names: missions files in the station's folder, as `fly` reads them."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+import time
+import unicodedata
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ...shared.domain import values
+from ...shared.domain.errors import BadInput
+from ...shared.domain.text import cut_off, printable, quoted
+from ..whole_file import write_whole
+
+if TYPE_CHECKING:
+    from ..wire import SavedPlan, SavedPlans, TrashedPlan
+
+SUFFIX, TRASH = ".toml", "trash"
+MOST, MOST_IN_TRASH = 500, 100
+"""The most plans that are kept; of those in the trash the newest."""
+
+LARGEST = 1 << 20
+"""The largest plan in bytes: what may be read as a missions file."""
+
+_LONGEST, _LONGEST_BYTES = 80, 200
+_FORBIDDEN = re.compile(r'[/\\:*?"<>|]')
+_ABOUT = "# station: "
+"""How the first line begins, which tells about the plan in JSON; a plan without it may be one, too."""
+
+_IN_TRASH = re.compile(r"([0-9a-f]{12})~(.+)")
+
+Read = Callable[[str, str], tuple[int, str]]
+"""Returns how many missions a text with a name has, and what is still wrong; raises `BadInput` if it is no plan."""
+
+
+class PlanLibrary:
+    """The plans of one folder, each in a file of its name."""
+
+    def __init__(self, folder: Path, read: Read, now: Callable[[], float] = time.time) -> None:
+        self._folder, self._trash = folder, folder / TRASH
+        self._read, self._now = read, now
+        self.one_at_a_time = asyncio.Lock()
+        """To be held while a thread does any of this."""
+        self._known: dict[Path, tuple[object, SavedPlan]] = {}
+        """What was found in files that have not changed since."""
+
+    def everything(self) -> SavedPlans:
+        """Return all plans, and what is in the trash."""
+        return {"plans": self.plans(), "trash": self.trash()}
+
+    def plans(self) -> list[SavedPlan]:
+        """Return all plans, also those that cannot be read, with what is wrong; the newest first."""
+        known = {file: self._about(file) for file in _files(self._folder)}
+        self._known = known
+        return sorted((plan for _, plan in known.values()), key=lambda one: -one["saved_at"])
+
+    def trash(self) -> list[TrashedPlan]:
+        """Return what was deleted, the newest first."""
+        found: list[TrashedPlan] = []
+        for file in _files(self._trash):
+            if (parts := _IN_TRASH.fullmatch(file.stem)) is not None:
+                found.append({"id": file.stem, "name": parts[2], "deleted_at": int(parts[1], 16)})
+        return sorted(found, key=lambda one: -one["deleted_at"])
+
+    def save(self, name: str, text: str, by: str, *, template: bool, replace: bool) -> None:
+        """Keep a plan under a name; one that has it goes to the trash, if it may be replaced."""
+        file = self._file(name)
+        if not text:
+            raise BadInput("the plan is empty: there is nothing to keep yet")
+        about = json.dumps({"by": cut_off(printable(by), _LONGEST), "template": template})
+        content = f"{_ABOUT}{about}\n{text}".encode()
+        if len(content) > LARGEST:
+            raise BadInput("the plan is too large to be kept under a name: export it instead")
+        others = [one for one in _files(self._folder) if one != file]
+        if len(others) >= MOST:
+            raise BadInput(f"{MOST} plans are kept already: delete one first")
+        if file.exists() and not replace:
+            raise BadInput(
+                f"there is a plan {quoted(file.stem)} already: replace it, or take another name"
+            )
+        try:
+            self._folder.mkdir(mode=0o700, exist_ok=True)
+            if file.exists():
+                self._throw_away(file)
+            write_whole(file, content)
+        except OSError as error:
+            raise BadInput(f"the plan cannot be kept: {error.strerror or error}") from None
+
+    def text(self, name: str) -> str:
+        """Return a plan as a missions file."""
+        return _text(self._found(name))
+
+    def delete(self, name: str) -> None:
+        """Put a plan into the trash."""
+        file = self._found(name)
+        try:
+            self._throw_away(file)
+        except OSError as error:
+            raise BadInput(f"the plan cannot be deleted: {error.strerror or error}") from None
+
+    def restore(self, id: str) -> None:
+        """Take a plan out of the trash, under its name."""
+        for file in _files(self._trash):
+            parts = _IN_TRASH.fullmatch(file.stem)
+            if file.stem != id or parts is None:
+                continue
+            place = self._file(parts[2])
+            if place.exists():
+                raise BadInput(f"there is a plan {quoted(parts[2])} again: delete that one first")
+            try:
+                file.rename(place)
+            except OSError as error:
+                raise BadInput(f"the plan cannot be restored: {error.strerror or error}") from None
+            return
+        raise BadInput("this plan is not in the trash any more")
+
+    def _file(self, name: str) -> Path:
+        """Return the file of a name; raise `BadInput` if it can be none."""
+        proper = unicodedata.normalize("NFC", name)
+        try:
+            values.name(proper)
+        except ValueError as error:
+            raise BadInput(f"the plan's name {quoted(name)} {error}") from None
+        if _FORBIDDEN.search(proper) or proper.startswith("."):
+            raise BadInput(
+                f"the plan's name {quoted(name)} cannot be that of a file: it may not begin with a point,"
+                ' nor hold / \\ : * ? " < > |'
+            )
+        if len(proper) > _LONGEST or len(proper.encode()) > _LONGEST_BYTES:
+            raise BadInput(f"the plan's name {quoted(name)} is too long: write a shorter one")
+        return self._folder / f"{proper}{SUFFIX}"
+
+    def _found(self, name: str) -> Path:
+        file = self._file(name)
+        if file not in _files(self._folder):
+            raise BadInput(f"there is no plan {quoted(name)}")
+        return file
+
+    def _throw_away(self, file: Path) -> None:
+        """Move a file to the trash, of which the oldest go for good."""
+        self._trash.mkdir(mode=0o700, exist_ok=True)
+        stamp = round(self._now() * 1000)
+        while (place := self._trash / f"{stamp:012x}~{file.name}").exists():
+            stamp += 1
+        file.rename(place)
+        for old in sorted(_files(self._trash))[:-MOST_IN_TRASH]:
+            old.unlink()
+
+    def _about(self, file: Path) -> tuple[object, SavedPlan]:
+        """Return what is to be told of a plan, and when its file was like this."""
+        found = file.stat()
+        state = found.st_mtime_ns, found.st_size
+        known = self._known.get(file)
+        if known is not None and known[0] == state:
+            return known
+        plan: SavedPlan = {
+            "name": file.stem,
+            "saved_at": found.st_mtime_ns // 1_000_000,
+            "by": "",
+            "missions": None,
+            "template": False,
+            "said": "",
+        }
+        try:
+            text = _text(file)
+            about = _about_in(text)
+            plan["by"], plan["template"] = str(about.get("by", "")), about.get("template") is True
+            plan["missions"], plan["said"] = self._read(text, file.name)
+        except BadInput as error:
+            plan["said"] = str(error)
+        return state, plan
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """Yield the files of plans in a folder, links and folders left out."""
+    try:
+        found = sorted(folder.iterdir())
+    except FileNotFoundError:  # nothing was kept yet
+        return
+    for file in found:
+        if file.suffix == SUFFIX and file.is_file() and not file.is_symlink():
+            yield file
+
+
+def _text(file: Path) -> str:
+    try:
+        with file.open("rb") as opened:
+            content = opened.read(LARGEST + 1)
+        if len(content) > LARGEST:
+            raise BadInput(f"{file.name}: it is larger than any plan")
+        return content.decode("utf-8")
+    except UnicodeDecodeError:
+        raise BadInput(f"{file.name}: it is not UTF-8 text") from None
+    except OSError as error:
+        raise BadInput(f"{file.name}: it cannot be read: {error.strerror or error}") from None
+
+
+def _about_in(text: str) -> dict[str, object]:
+    """Return what the first line tells about a plan."""
+    first = text.partition("\n")[0]
+    if not first.startswith(_ABOUT):
+        return {}
+    try:
+        found = json.loads(first.removeprefix(_ABOUT))
+    except (ValueError, RecursionError):
+        return {}  # it was written over: the plan itself may be as good
+    return found if isinstance(found, dict) else {}

@@ -1,0 +1,175 @@
+"""One forecast at a time: the newest wins, nothing waits for it, and nothing of it is left behind."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.process.beside import Died, in_a_copy
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.config import StationConfig
+from pluto_fleet.station.preflight import preflight as running
+from pluto_fleet.station.preflight.preflight import Newer, Preflight
+from pluto_fleet.station.preflight.question import Question
+from pluto_fleet.station.preflight.runs import Found, Needs, Run
+from pluto_fleet.station.preflight.start import PlannedStart
+from pluto_fleet.station.station import Station
+from pluto_fleet.station.web.audit import Audit
+from pluto_fleet.station.web.forecasts import GONE
+from pluto_fleet.station.web.forecasts import preflight as answered
+from pluto_fleet.station.web.http import Request
+from pluto_fleet.station.web.served import Asked
+from pluto_fleet.station.wire import Forecast
+from tests.runtime.files.an_app import APP
+from tests.station.plan.drawing import drawn
+from tests.station.preflight.asking import FLEET, photos, question
+from tests.station.server.asking import AStation
+
+ONE = photos("mission-one", 1)
+
+
+@pytest.fixture
+def endless(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Let a forecast fly one run and then hang, until its process is ended."""
+    reads, writes = os.pipe()
+
+    def hangs(asked: Question, recording: Path | None) -> Iterator[Found]:
+        yield Needs({}, {})
+        yield Run(seed=0, seconds=1.0, ends={}, battery=None, given_up="")
+        os.read(reads, 1)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(running, "found", hangs)
+        yield
+    os.close(reads)
+    os.close(writes)
+
+
+def no_child_is_left() -> bool:
+    try:
+        os.waitid(
+            os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT
+        )  # it is reaped where it is read
+    except ChildProcessError:
+        return True
+    return False
+
+
+async def begun(preflight: Preflight) -> None:
+    """Wait until a forecast flies."""
+    flies = asyncio.Event()
+    preflight.begun = flies.set
+    await flies.wait()
+
+
+async def ended() -> None:
+    """Wait until no process of a forecast is left."""
+    while not no_child_is_left():
+        await asyncio.sleep(0)
+
+
+@pytest.mark.usefixtures("endless")
+def test_a_newer_one_ends_the_one_that_flies(tmp_path: Path) -> None:
+    async def both() -> None:
+        preflight = Preflight(tmp_path)
+        first = asyncio.ensure_future(preflight.ask(question(ONE), ["mission-one"], []))
+        await begun(preflight)
+        second = asyncio.ensure_future(preflight.ask(question(ONE), ["mission-one"], []))
+        with pytest.raises(Newer, match="a newer one was asked for"):
+            await first
+        await begun(preflight)
+        second.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await second
+        await ended()
+
+    asyncio.run(both())
+    assert not (tmp_path / "rehearsals").exists()
+
+
+@pytest.mark.usefixtures("endless")
+def test_a_stop_is_answered_and_pages_are_told_while_one_flies_and_a_new_plan_ends_it(
+    tmp_path: Path,
+) -> None:
+    async def station() -> None:
+        settings = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
+        settings.own_folder.mkdir()
+        plan = drawn(ONE, fleet=FLEET)
+        served = Station(APP, settings, plan)
+        served.begin()
+        asked = PlannedStart(revision=plan.revision)
+        making = asyncio.ensure_future(served.forecast(asked))
+        await begun(served.preflight)
+        assert await served.command("stop", "one", {"how": "land"}, "") == "nothing flies"
+        assert '"phase": "idle"' in await served.newer("", 0, 0, 0)
+        assert not making.done()
+        plan.replace(plan.revision, [{**ONE, "name": "Another"}])
+        with pytest.raises(Newer, match="the plan has changed"):
+            await making
+        with pytest.raises(Newer, match="the plan has changed"):
+            await served.forecast(asked)
+        await ended()
+
+    asyncio.run(station())
+
+
+@pytest.mark.usefixtures("endless")
+def test_it_is_given_up_when_its_client_goes_away(tmp_path: Path) -> None:
+    preflight = Preflight(tmp_path)
+
+    class Served(AStation):
+        async def forecast(self, asked: PlannedStart, /) -> Forecast:
+            return await preflight.ask(question(ONE), ["mission-one"], [])
+
+    async def gone() -> None:
+        await begun(preflight)
+
+    async def asked() -> None:
+        request = Request(method="POST", path="/api/preflight", gone=gone)
+        given: dict[str, object] = {"revision": 1, "missions": None}
+        one = Asked(
+            station=Served(), audit=Audit(None), request=request, role="fly", given=given, body=b""
+        )
+        assert await answered(one) is GONE
+        await ended()
+
+    asyncio.run(asked())
+
+
+@pytest.mark.usefixtures("endless")
+def test_one_that_has_flown_nothing_in_time_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(running, "FIRST_WITHIN", 0.0)
+
+    async def cut_off() -> None:
+        with pytest.raises(BadInput, match="not even one run of this plan was flown within"):
+            await Preflight(tmp_path).ask(question(ONE), ["mission-one"], [])
+        await ended()
+
+    asyncio.run(cut_off())
+
+
+def test_what_goes_wrong_in_a_copy_is_raised_here_and_its_death_is_told() -> None:
+    async def found(code: int | None) -> list[int]:
+        def work() -> Iterator[int]:
+            print("it is not printed")
+            yield 1
+            if code is None:
+                raise LookupError("of a hook")
+            if code == 0:
+                raise SystemExit
+            os.kill(os.getpid(), code)
+
+        return [one async for one in in_a_copy(work)]
+
+    with pytest.raises(LookupError, match="of a hook"):
+        asyncio.run(found(None))
+    with pytest.raises(Died, match="ended by SystemExit"):  # and not this process
+        asyncio.run(found(0))
+    with pytest.raises(Died, match="was killed by SIGKILL"):
+        asyncio.run(found(9))
