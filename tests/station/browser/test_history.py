@@ -99,10 +99,13 @@ def test_a_flight_is_played_by_keys_reported_and_downloaded(serve: Serve, visit:
     page = visit(station)
     open_page(page, "History")
     expect(page.get_by_text("Nothing has been flown yet.")).to_be_visible()
+    page.get_by_role("tab", name="Drones' hours").click()
+    expect(page.get_by_text("once one has flown.")).to_be_visible()
     tell(station, "start")
     until(lambda: station.phase == "over", "the flight is over")
     page.reload()
     slider = replay_of(page)
+    expect(page.locator(".replay")).to_be_focused()
     page.keyboard.press("ArrowRight")
     expect(slider).to_have_value("5")
     page.keyboard.press("Shift+ArrowRight")
@@ -145,3 +148,25 @@ def test_a_flight_is_played_by_keys_reported_and_downloaded(serve: Serve, visit:
             .filter(has_text=drone["id"])
         )
         expect(row).to_contain_text(str(drone["trips"]))
+
+
+def test_a_rehearsal_is_said_to_be_one_and_has_no_report(serve: Serve, visit: Visit) -> None:
+    station = put_in(serve("drugs_distribution"))
+    revision = station.get("/api/plan")["revision"]
+    asked = {"revision": revision, "missions": None, "runs": 3}
+    forecasts: list[dict[str, Any]] = []
+
+    def is_known() -> bool:
+        forecasts.append(station.post("/api/preflight", asked)[1])
+        return bool(forecasts[-1].get("rehearsal"))
+
+    until(is_known, lambda: f"a rehearsal is there: {forecasts[-1]}")
+    page = visit(station, path=f"/#history/{forecasts[-1]['rehearsal']}")
+    expect(page.get_by_role("note")).to_contain_text("Rehearsal. This was computed and never flown")
+    slider = page.get_by_role("slider", name="Time")
+    slider.evaluate(SCRUB, slider.get_attribute("max"))
+    for mission in PLAN:
+        row = page.locator(".replay .mission-entry").filter(has_text=mission)
+        expect(row).to_contain_text("Completed")
+    expect(page.get_by_role("tab", name="Report")).to_have_count(0)
+    expect(page.get_by_role("button", name="Stop: land now")).to_be_visible()

@@ -13,6 +13,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from pluto_fleet.station.results.heat import heat_at, newest
 from pluto_fleet.station.results.mosaic import on_top
+from tests.station.browser.axe import violations
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import put_in
 from tests.station.browser.serving import Station, until
@@ -201,6 +202,7 @@ def test_results_are_searched_filtered_sorted_and_shown_on_the_map(
     expect(card).to_contain_text(re.compile(r"Place.*When.*Mission.*Drone", re.DOTALL))
     page.keyboard.press("ArrowDown")
     expect(card).to_contain_text(f"{measured[1]:.6g} °C")
+    assert violations(page) == []
     card.get_by_role("button", name="Show in console").click()
     expect(page.get_by_role("tab", name="Monitor")).to_have_attribute("aria-selected", "true")
     open_page(page, "Results")
@@ -209,6 +211,7 @@ def test_results_are_searched_filtered_sorted_and_shown_on_the_map(
     expect(page.locator("image.heat")).to_have_count(0)
     page.reload()
     expect(page.get_by_role("checkbox", name="Temperature")).not_to_be_checked()
+    assert violations(page) == []
     page.get_by_role("tab", name="Table").click()
     page.evaluate(MANY, 5000)
     expect(page.get_by_text("5,000 of 5,000 results")).to_be_visible()

@@ -101,7 +101,7 @@ test("each pixel of a heat map has the colour of the value in its middle, or non
   ]);
   const [size, field] = [[8, 4], new Field(samplesOf(layer), layer.reach)];
   const { width, height, data } = rasterOf(field, size, layer.range);
-  assert.deepEqual([width, height], Object.values(pixelsOf(size, 2)));
+  assert.deepEqual([width, height], Object.values(pixelsOf(size, 2, 2)));
   let unknown = 0;
   for (let row = 0; row < height; row += 1) {
     for (let column = 0; column < width; column += 1) {

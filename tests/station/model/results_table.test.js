@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { World } from "../../../runtime/pluto_fleet/station/pages/core/world.js";
 import { ALL, choices, filtered, sorted, windowOf } from "../../../runtime/pluto_fleet/station/pages/results/table_model.js";
 
 const row = (number, some = {}) => {
@@ -38,4 +39,17 @@ test("of five thousand rows those are drawn that are seen, and a few around them
   assert.deepEqual(windowOf(100_000, 400, 40, 5000), { first: 2492, last: 2518 });
   assert.deepEqual(windowOf(199_600, 400, 40, 5000), { first: 4982, last: 5000 });
   assert.deepEqual(windowOf(500, 400, 40, 3), { first: 3, last: 3 });
+});
+
+test("a list that got only the newest entries is whole again with those that it missed", () => {
+  const { results } = new World();
+  const entries = (from, to) => Array.from({ length: to - from + 1 }, (_, at) => ({ number: from + at }));
+  assert.equal(results.isWhole, true);
+  results.take(entries(301, 800));
+  assert.equal(results.isWhole, false);
+  results.fill(entries(1, 790));
+  assert.equal(results.isWhole, true);
+  assert.deepEqual(results.entries.value, entries(1, 800));
+  results.take(entries(801, 6000));
+  assert.deepEqual([results.isWhole, results.entries.value.length, results.last], [true, 5000, 6000]);
 });

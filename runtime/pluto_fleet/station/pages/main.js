@@ -71,4 +71,5 @@ render(h(Station, null), document.body);
 connect();
 alarm();
 followMap();
-load(page.peek()).then(() => PAGES.forEach((name) => name !== page.peek() && load(name)));
+const first = page.peek(); // another one may be open once this is here
+load(first).then(() => PAGES.forEach((name) => name !== first && load(name)));

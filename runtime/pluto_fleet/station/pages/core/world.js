@@ -6,7 +6,7 @@ import { batch, signal } from "@preact/signals";
 /** @import { Alert, DroneRow, LiveMessage, LogLine, MissionRow, Person, Result, State } from "../wire" */
 /** @import { Signal } from "@preact/signals" */
 
-const LINES_KEPT = 5000; // of the console, and results
+export const LINES_KEPT = 5000; // of the console, and results
 
 /**
  * Rows by their key.
@@ -89,6 +89,17 @@ class Tail {
     const { last } = this;
     const newer = fresh.filter(({ number }) => number > last);
     if (newer.length) this.entries.value = [...this.entries.peek(), ...newer].slice(-LINES_KEPT);
+  }
+
+  /** Whether none is missing of those that are kept: a message has only the newest. */
+  get isWhole() {
+    return this.entries.value.length >= Math.min(this.last, LINES_KEPT);
+  }
+
+  /** Take entries that may be older than the newest. @param {Entry[]} entries */
+  fill(entries) {
+    const byNumber = new Map([...entries, ...this.entries.peek()].map((entry) => [entry.number, entry]));
+    this.replace([...byNumber.values()].sort((a, b) => a.number - b.number));
   }
 
   /** Have exactly these entries. @param {Entry[]} entries */

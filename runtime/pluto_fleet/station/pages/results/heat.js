@@ -28,7 +28,7 @@ export const samplesOf = ({ results, quantity }) => newest(results.flatMap((resu
 /**
  * The value of a heat map at a point; null: unknown, no sample is within its reach. A sample at a
  * distance d weighs (1/d - 1/reach)²: all at its own place, and nothing at its reach.
- * @param {Iterable<Sample>} samples one for each place
+ * @param {readonly Sample[]} samples one for each place
  * @param {number} x @param {number} y @param {number} reach metres
  * @returns {number | null}
  */
@@ -37,11 +37,15 @@ export function heatAt(samples, x, y, reach) {
   /** @type {number | null} */
   let there = null;
   for (const sample of samples) {
-    const distance = Math.hypot(x - sample.x, y - sample.y);
+    const dx = x - sample.x;
+    const dy = y - sample.y;
+    const distance = Math.sqrt(dx * dx + dy * dy); // ten times as fast as hypot
     if (distance <= nearest) {
-      [nearest, there] = [distance, sample.value];
+      nearest = distance;
+      there = sample.value;
     } else if (distance < reach) {
-      const weight = (1 / distance - 1 / reach) ** 2;
+      const share = 1 / distance - 1 / reach;
+      const weight = share * share;
       weights += weight;
       total += weight * sample.value;
     }
@@ -55,26 +59,30 @@ export class Field {
   /** @param {readonly Sample[]} samples one for each place @param {number} reach metres */
   constructor(samples, reach) {
     this.reach = reach;
+    this.count = samples.length;
     /** @type {Map<string, Sample[]>} */
     this.cells = new Map();
+    /** @type {Map<string, Sample[]>} those of a cell and of all around it, once they were asked for */
+    this.around = new Map();
     for (const sample of samples) {
-      const key = this.cell(sample.x, sample.y).join(" ");
+      const key = `${Math.floor(sample.x / reach)} ${Math.floor(sample.y / reach)}`;
       const others = this.cells.get(key);
       if (others) others.push(sample);
       else this.cells.set(key, [sample]);
     }
   }
 
-  /** @param {number} x @param {number} y */
-  cell(x, y) {
-    return [Math.floor(x / this.reach), Math.floor(y / this.reach)];
-  }
-
   /** The samples that may speak for a point. @param {number} x @param {number} y */
   near(x, y) {
-    const [i, j] = this.cell(x, y);
-    const steps = [-1, 0, 1];
-    return steps.flatMap((di) => steps.flatMap((dj) => this.cells.get(`${i + di} ${j + dj}`) ?? []));
+    const [i, j] = [Math.floor(x / this.reach), Math.floor(y / this.reach)];
+    const key = `${i} ${j}`;
+    let found = this.around.get(key);
+    if (!found) {
+      const steps = [-1, 0, 1];
+      found = steps.flatMap((di) => steps.flatMap((dj) => this.cells.get(`${i + di} ${j + dj}`) ?? []));
+      this.around.set(key, found);
+    }
+    return found;
   }
 
   /** @param {number} x @param {number} y @returns {number | null} */
@@ -85,10 +93,17 @@ export class Field {
 
 const FINEST = 24; // pixels in a reach
 const MOST = 240; // pixels along the longer side
+const WORK = 6e6; // samples looked at for one picture: a tenth of a second
 
-/** How many pixels the raster of a map has: fine enough for its reach, and no finer. @param {readonly number[]} size metres @param {number} reach metres */
-export function pixelsOf([width, height], reach) {
-  const scale = Math.min(FINEST / reach, MOST / Math.max(width, height));
+/**
+ * How many pixels the raster of a map has: fine enough for its reach, and no finer; fewer where there
+ * are so many samples that it would take long.
+ * @param {readonly number[]} size metres @param {number} reach metres @param {number} count of samples
+ */
+export function pixelsOf([width, height], reach, count) {
+  const near = Math.min(count, (count * 9 * reach * reach) / (width * height));
+  const fast = Math.sqrt(WORK / (Math.max(1, near) * width * height));
+  const scale = Math.min(FINEST / reach, MOST / Math.max(width, height), fast);
   return { columns: Math.max(1, Math.ceil(width * scale)), rows: Math.max(1, Math.ceil(height * scale)) };
 }
 
@@ -100,7 +115,7 @@ export function pixelsOf([width, height], reach) {
  * @returns {Raster}
  */
 export function rasterOf(field, size, range) {
-  const { columns, rows } = pixelsOf(size, field.reach);
+  const { columns, rows } = pixelsOf(size, field.reach, field.count);
   const data = new Uint8ClampedArray(columns * rows * 4);
   const [across, up] = [size[0] / columns, size[1] / rows];
   for (let row = 0; row < rows; row += 1) {

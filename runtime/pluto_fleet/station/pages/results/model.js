@@ -3,6 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import { language } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
+import { LINES_KEPT } from "../core/world.js";
 import { hit, spotsOf } from "./hit.js";
 import { countsOf, layersOn, photosOf, pinsOf, placeOf, shownLayers } from "./layers.js";
 import { ALL, filtered, sorted } from "./table_model.js";
@@ -19,6 +20,8 @@ export class ResultsModel {
     this.world = world;
     this.flight = flight;
     this.results = world.results.entries;
+    /** Whether there were more than a page keeps. */
+    this.isCut = computed(() => this.results.value.length >= LINES_KEPT && this.results.value[0].number > 1);
     this.layers = computed(() => shownLayers(layers, this.results.value));
     this.on = computed(() => layersOn(this.layers.value, prefs.layers.value));
     this.shown = computed(() => this.layers.value.filter(({ id }) => this.on.value.has(id)));

@@ -6,6 +6,7 @@ import { prefs } from "../core/prefs.js";
 import { go } from "../core/route.js";
 import { selectMission, world } from "../core/station.js";
 import { ResultsView } from "./view.js";
+import { useWhole } from "./whole.js";
 
 /** @import { Result } from "../wire" */
 
@@ -18,5 +19,6 @@ function showInConsole({ mission }) {
 }
 
 export default function Results() {
+  useWhole(world);
   return h(ResultsView, { world, flight: null, onConsole: showInConsole, consoleWords: t("results.show-in-console") });
 }

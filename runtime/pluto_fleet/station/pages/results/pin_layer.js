@@ -15,6 +15,7 @@ import { shortNumber } from "./words.js";
 /** @import { Pin, ShownLayer } from "./layers.js" */
 /** @import { ResultsModel } from "./model.js" */
 
+const MOST_DOTS = 1000; // more would hide the colours under them
 const APART = 18; // pixels between pins at one place
 const DROP = "M0 0C-3 -6 -8 -9 -8 -15A8 8 0 0 1 8 -15C8 -9 3 -6 0 0Z";
 
@@ -52,12 +53,21 @@ export function PinLayer({ model }) {
 const Chosen = ({ place }) => place && h(Mark, { x: place[0], y: place[1], class: "chosen-place" },
   h("circle", { r: 13 }));
 
-/** @param {{ layer: ShownLayer }} props */
-const Dots = ({ layer }) => h("g", null, spotsOf(layer.results, placeOf).map(({ x, y, results: [result] }) => {
-  const number = numberOf(result, layer.quantity);
-  return number && layer.range && h(Mark, { key: `${x} ${y}`, x, y, class: "value" },
-    h("circle", { r: 5, fill: css(colourAt(shareOf(number.value, layer.range))), "data-value": number.value }));
-}));
+/** Where values were measured, as far as that is in view. @param {{ layer: ShownLayer }} props */
+function Dots({ layer }) {
+  const camera = useCamera();
+  const view = useCalm(camera.view, 200).value;
+  const { width, height } = camera.box.value;
+  const seen = spotsOf(layer.results, placeOf).filter(({ x, y }) => {
+    const at = toPixels(view, x, y);
+    return at.x > 0 && at.y > 0 && at.x < width && at.y < height;
+  });
+  return h("g", null, seen.slice(-MOST_DOTS).map(({ x, y, results: [result] }) => {
+    const number = numberOf(result, layer.quantity);
+    return number && layer.range && h(Mark, { key: `${x} ${y}`, x, y, class: "value" },
+      h("circle", { r: 5, fill: css(colourAt(shareOf(number.value, layer.range))), "data-value": number.value }));
+  }));
+}
 
 /** The values themselves and the names of places, as far as there is room. @param {{ model: ResultsModel }} props */
 export function MapLabels({ model }) {

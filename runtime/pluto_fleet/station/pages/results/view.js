@@ -76,6 +76,7 @@ export function ResultsView({ world, flight, onConsole, consoleWords }) {
         photos: () => h(PhotosTab, { model }),
         verdicts: () => h(VerdictsTab, { model }),
       }[tab]()),
+      model.isCut.value && h("p", { key: "cut", class: "hint results-cut" }, t("results.only-newest", { n: model.results.value.length })),
       h(Exports, {
         key: "exports", flight, disabled: isEmpty,
         hasPictures: model.album.value.some(({ value }) => typeof value === "object" && Boolean(value?.picture)),
