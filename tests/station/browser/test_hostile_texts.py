@@ -90,6 +90,7 @@ def test_script_in_every_text_is_shown_as_text_and_never_runs(serve: Serve, visi
     sees_all(page, "Completed", HOSTILE)
     page.get_by_role("button", name=SCRIPT).first.click()
     nothing_ran(page)
+    page.get_by_role("tab", name="Console").click()
     expect(page.get_by_role("log")).to_contain_text(SCRIPT)
     for name in ("Missions", "Trips", "Monitor", "Help"):
         open_page(page, name)
