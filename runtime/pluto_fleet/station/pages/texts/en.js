@@ -659,6 +659,7 @@ export default {
   "help.LOST": "It waits for a person, over every end and start: repair it, put it into its dock, and press Bring back.",
   "help.RETIRED": "It is given to no mission until it is brought back.",
 
+  "keys.several": "On a pin: select all, duplicate what is selected",
   "keys.tabs": "on the tabs: the next page",
   "keys.map": "on the map: move it",
   "keys.zoom": "on the map: zoom",
@@ -667,8 +668,11 @@ export default {
   "keys.fine": "with that: by 0.01 m",
   "keys.delete": "delete the selected mission or trip",
   "keys.undo": "undo, redo",
+  "keys.places": "With an action in hand: the next named place",
   "keys.reorder": "move the selected mission or trip",
+  "keys.new": "On the page Trips: make a new mission",
   "keys.open": "open the selected mission",
   "keys.hold": "held down on Start: start at once",
+  "keys.actions": "On the page Trips: take the first to ninth action in hand",
   "keys.close": "close what is open over the page",
 };
