@@ -12,8 +12,15 @@ if TYPE_CHECKING:
         FlightReport,
         FlightSummary,
         Forecast,
+        Laid,
         LiveMessage,
+        MapData,
+        Place,
         Replay,
+        SavedPlans,
+        Swept,
+        Ways,
+        Zone,
     )
     from ..station.wire_app import AppData, PlanData, PlanMission, PlanTrip
 
@@ -48,7 +55,7 @@ class Calls(Connection):
 
     def console(self, *, flight: str = "") -> str:
         """What has happened in the flight, line by line."""
-        return self._text("GET", "/api/console.txt")
+        return self._text("GET", "/api/console.txt", {"flight": flight})
 
     def description(self) -> dict[str, object]:
         """This description."""
@@ -72,9 +79,9 @@ class Calls(Connection):
         answer: FlightReport = self._json("GET", "/api/flights/report", query={"flight": flight})
         return answer
 
-    def mcap(self, *, flight: str) -> str:
+    def mcap(self, *, flight: str) -> bytes:
         """A flight as an MCAP file."""
-        return self._text("GET", "/api/flights/mcap")
+        return self._bytes("GET", "/api/flights/mcap", {"flight": flight})
 
     def hours(self) -> list[DroneHours]:
         """What each drone has flown, over all flights that are kept."""
@@ -88,19 +95,19 @@ class Calls(Connection):
 
     def results_table(self, *, flight: str = "") -> str:
         """What a flight has brought, a row a value."""
-        return self._text("GET", "/api/results.csv")
+        return self._text("GET", "/api/results.csv", {"flight": flight})
 
     def results_on_map(self, *, flight: str = "") -> str:
         """What a flight has brought, by places, in metres of the map."""
-        return self._text("GET", "/api/results.geojson")
+        return self._text("GET", "/api/results.geojson", {"flight": flight})
 
-    def pictures(self, *, flight: str = "") -> str:
+    def pictures(self, *, flight: str = "") -> bytes:
         """The pictures that a flight has taken, with a table of them."""
-        return self._text("GET", "/api/results.zip")
+        return self._bytes("GET", "/api/results.zip", {"flight": flight})
 
-    def photo(self, *, flight: str = "", result: int, size: str = "") -> str:
+    def photo(self, *, flight: str = "", result: int, size: str = "") -> bytes:
         """The picture of a photo, as it was taken or small."""
-        return self._text("GET", "/api/photo")
+        return self._bytes("GET", "/api/photo", {"flight": flight, "result": result, "size": size})
 
     def replace_plan(self, *, revision: int, missions: list[PlanMission]) -> PlanData:
         """Replace the plan's missions, but for those that fly."""
@@ -123,6 +130,103 @@ class Calls(Connection):
     def add_example(self, *, revision: int) -> PlanData:
         """Add missions that this fleet can fly."""
         answer: PlanData = self._json("POST", "/api/plan/example", body={"revision": revision})
+        return answer
+
+    def map_data(self) -> MapData:
+        """The places and zones that have names, north, and where the floor plan lies."""
+        answer: MapData = self._json("GET", "/api/map")
+        return answer
+
+    def change_map(
+        self,
+        *,
+        revision: int,
+        places: list[Place] | None = None,
+        zones: list[Zone] | None = None,
+        north: float | None = None,
+        image: Laid | None = None,
+    ) -> MapData:
+        """Keep what was drawn on the map in the fleet file; what is not sent stays."""
+        answer: MapData = self._json(
+            "PUT",
+            "/api/map",
+            body={
+                "revision": revision,
+                "places": places,
+                "zones": zones,
+                "north": north,
+                "image": image,
+            },
+        )
+        return answer
+
+    def take_floor_plan(
+        self, body: str | bytes, *, media: str, revision: int, name: str = ""
+    ) -> MapData:
+        """Take a picture as the floor plan."""
+        answer: MapData = self._sent(
+            "PUT", "/api/map/image", {"revision": revision, "name": name}, body, media
+        )
+        return answer
+
+    def find_ways(self, *, ways: list[list[list[float]]]) -> Ways:
+        """The ways that drones fly between pairs of places, around walls."""
+        answer: Ways = self._json("POST", "/api/ways", body={"ways": ways})
+        return answer
+
+    def sweep_area(
+        self,
+        *,
+        polygon: list[list[float]],
+        spacing: str | float,
+        height: str | float | None = None,
+        before: list[float] | None = None,
+    ) -> Swept:
+        """The targets with which an area is covered, in their order."""
+        answer: Swept = self._json(
+            "POST",
+            "/api/plan/sweep",
+            body={"polygon": polygon, "spacing": spacing, "height": height, "before": before},
+        )
+        return answer
+
+    def saved_plans(self) -> SavedPlans:
+        """The plans and templates that are kept under names, and those that were deleted."""
+        answer: SavedPlans = self._json("GET", "/api/plans")
+        return answer
+
+    def save_plan(
+        self,
+        *,
+        name: str,
+        by: str | None = None,
+        template: bool | None = None,
+        replace: bool | None = None,
+    ) -> SavedPlans:
+        """Keep the plan under a name."""
+        answer: SavedPlans = self._json(
+            "PUT",
+            "/api/plans",
+            query={"name": name},
+            body={"by": by, "template": template, "replace": replace},
+        )
+        return answer
+
+    def delete_plan(self, *, name: str) -> SavedPlans:
+        """Put a plan that is kept into the trash."""
+        answer: SavedPlans = self._json("DELETE", "/api/plans", query={"name": name})
+        return answer
+
+    def open_plan(self, *, name: str, revision: int, add: bool | None = None) -> PlanData:
+        """Take a plan that is kept in place of what has not been started, or beside it."""
+        answer: PlanData = self._json(
+            "POST", "/api/plans/open", body={"name": name, "revision": revision, "add": add}
+        )
+        return answer
+
+    def restore_plan(self, *, id: str | None = None) -> SavedPlans:
+        """Take a plan out of the trash."""
+        answer: SavedPlans = self._json("POST", "/api/plans/restore", body={})
         return answer
 
     def preflight(

@@ -71,7 +71,8 @@ class Connection:
         body: Mapping[str, object] | None = None,
     ) -> Any:
         """Return an answer in JSON."""
-        sent = None if body is None else json.dumps(body).encode()
+        given = None if body is None else {key: one for key, one in body.items() if one is not None}
+        sent = None if given is None else json.dumps(given).encode()
         return json.loads(self._ask(method, path, query, sent, JSON))
 
     def _command(self, path: str, id: str | None, arguments: Mapping[str, object]) -> str:
@@ -79,9 +80,13 @@ class Connection:
         body = {"id": id or secrets.token_hex(8), **arguments}
         return str(self._json("POST", path, body=body)["said"])
 
-    def _text(self, method: str, path: str) -> str:
+    def _text(self, method: str, path: str, query: Mapping[str, object] | None = None) -> str:
         """Return an answer that is text."""
-        return self._ask(method, path, None, None, JSON).decode()
+        return self._bytes(method, path, query).decode()
+
+    def _bytes(self, method: str, path: str, query: Mapping[str, object] | None = None) -> bytes:
+        """Return an answer of any other kind."""
+        return self._ask(method, path, query, None, JSON)
 
     def _sent(
         self, method: str, path: str, query: Mapping[str, object], body: str | bytes, kind: str

@@ -13,6 +13,7 @@ from tests.station.browser.steps import (
     action_called,
     card_of,
     missions_listed,
+    pin_of,
     sees_all,
 )
 
@@ -48,16 +49,6 @@ def add(page: Page) -> None:
     page.keyboard.press("Enter")
 
 
-def go_to(page: Page, name: str) -> None:
-    """Go to a page by the arrow keys of its tabs."""
-    tab_to(page, page.get_by_role("tab", selected=True))
-    for _ in range(8):
-        if page.get_by_role("tab", selected=True).inner_text() == name:
-            return
-        page.keyboard.press("ArrowRight")
-    raise AssertionError(f"no tab is called {name}")
-
-
 def drawn(station: Station) -> dict[str, list[Place]]:
     """Return where the trips of each mission go, as the station keeps it."""
     return {
@@ -66,34 +57,86 @@ def drawn(station: Station) -> dict[str, list[Place]]:
     }
 
 
+MOST_PRESSES = 70
+"""Presses of keys for the whole exercise, the letters and numbers that are typed among them."""
+
+COUNTED = """
+addEventListener("keydown", ({ key }) => {
+  if (key !== "Shift") sessionStorage.presses = Number(sessionStorage.presses ?? 0) + 1;
+}, true);
+"""
+
+
+NUMBERS = {"measure": "1", "take_photo": "2", "pick_item": "3", "release_item": "4"}
+"""The digits that take the actions in hand."""
+
+
+def press_keys(page: Page, *keys: str) -> None:
+    """Press keys, one after another."""
+    for key in keys:
+        page.keyboard.press(key)
+
+
+class Putting:
+    """Writes where the action in hand goes: down to a named place if that is shorter, else its numbers."""
+
+    def __init__(self, page: Page, station: Station) -> None:
+        self._page = page
+        self._places = [(one["x"], one["y"]) for one in station.get("/api/map")["places"]]
+        self._at = -1
+
+    def __call__(self, place: Place) -> None:
+        x, y = (f"{value:g}" for value in place)
+        keys = [*x, "Tab", *y]
+        if place in self._places:
+            at = self._places.index(place)
+            steps = ["ArrowDown"] * ((at - self._at) % len(self._places))
+            if len(steps) < len(keys):
+                keys, self._at = steps, at
+        press_keys(self._page, *keys, "Enter")
+
+
 @pytest.mark.long  # a whole flight once more
-def test_the_exercise_is_drawn_and_flown_without_a_mouse(serve: Serve, visit: Visit) -> None:
+def test_the_exercise_is_drawn_and_flown_by_few_keys_and_without_a_mouse(
+    serve: Serve, visit: Visit
+) -> None:
     station = serve("drugs_distribution", "--speed", "60")
-    page = visit(station)
-    for mission, trips in PLAN.items():
-        go_to(page, "Missions")
-        add(page)
-        page.keyboard.type(mission)
-        page.keyboard.press("Enter")  # goes on to its trips
-        page.keyboard.press("Enter")
+    page = visit(station, prepare=lambda page: page.add_init_script(COUNTED))
+    put = Putting(page, station)
+    x = page.get_by_role("textbox", name="x", exact=True)
+    add(page)
+    for index, trips in enumerate(PLAN.values()):
+        if index:
+            press_keys(page, "n")
+            expect(page.get_by_label("Name of the mission")).to_be_focused()
+            press_keys(page, "Enter")  # its name stays
+        else:
+            expect(page.get_by_role("textbox", name="Name")).to_be_focused()
+            press_keys(page, "Enter", "Enter")  # on to its trips
+        expect(action_called(page, "measure")).to_be_focused()
+        in_hand = ""
         for number, trip in enumerate(trips, start=1):
-            tab_to(page, action_called(page, trip.action))
-            page.keyboard.press("Enter")
-            page.keyboard.type(str(trip.at[0]))
-            page.keyboard.press("Tab")
-            page.keyboard.type(str(trip.at[1]))
-            page.keyboard.press("Enter")
+            if trip.action != in_hand:
+                press_keys(page, *(["Escape"] if in_hand else []), NUMBERS[trip.action])
+            in_hand = trip.action
+            expect(x).to_be_focused()
+            put(trip.at)
+            expect(pin_of(page, number)).to_be_visible()
             if trip.action == "pick_item":
-                card = card_of(page, number)
-                tab_to(page, card.get_by_label("Item").first)
-                page.keyboard.type(trip.item)
-                tab_to(page, card.get_by_label("Mass"))
-                page.keyboard.type("8")
+                expect(card_of(page, number).get_by_label("Item")).to_be_focused()
+                press_keys(page, *trip.item, "Tab", "8")
+        press_keys(page, "Escape")
     until(lambda: drawn(station) == PLACES, "the plan is kept")
     until(lambda: station.get("/api/plan")["problems"] == [], "the plan is sound")
-    press(page, "Start 3 missions")
+    press_keys(page, "Shift+Tab")
+    expect(page.get_by_role("button", name="Start 3 missions")).to_be_focused()
+    with page.expect_request("**/api/start"):
+        page.keyboard.down("Enter")
+    page.keyboard.up("Enter")
     sees_all(page, "Completed")
     assert station.done() == DONE
+    presses = page.evaluate("() => Number(sessionStorage.presses)")
+    assert presses <= MOST_PRESSES
 
 
 def test_missions_change_places_and_go_by_keys_and_come_back(serve: Serve, visit: Visit) -> None:

@@ -161,7 +161,7 @@ def test_what_was_filled_in_is_kept_handed_out_and_flown_with(serve: Serve, visi
     assert [trip["softly"] for trip in one["trip"]] == [False]
     start(page)
     expect(row_of(page, BED)).to_contain_text("Amato")
-    row_of(page, OTHER).get_by_role("button").click()
+    row_of(page, OTHER).locator(".opener").click()
     expect(page.get_by_text("Patient: Bianchi · Most: 12.5 · Margin: 3 min")).to_be_visible()
     for bed in BEDS:
         expect(row_of(page, bed)).to_contain_text("Completed", timeout=A_FLIGHT)

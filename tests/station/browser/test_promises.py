@@ -60,7 +60,7 @@ def test_promises_are_drawn_kept_exported_and_seen(serve: Serve, visit: Visit) -
     assert (written[0]["deadline"], written[1]["after"]) == ("5 s", [FIRST])
     start(page)
     expect(row_of(page, SECOND)).to_contain_text(f"comes after {FIRST}")
-    expect(row_of(page, FIRST).locator(".due.bad")).to_have_text("Late", timeout=A_FLIGHT)
+    expect(row_of(page, FIRST).locator(".chip.bad")).to_have_text("Late", timeout=A_FLIGHT)
     sees_all(page, "Completed")
 
 

@@ -187,18 +187,30 @@ def test_the_map_fills_its_box_in_the_first_frame_that_shows_it(
     assert page.evaluate(FIRST_FRAME) > 20, "pixels that a metre takes"
 
 
-def test_trips_of_a_mission_that_was_started_can_be_read_and_not_changed(
+def test_of_a_mission_that_flies_only_what_has_not_flown_can_be_changed(
     serve: Serve, visit: Visit
 ) -> None:
-    station = serve("drugs_distribution", "--speed", "1")
-    page = draw(station, visit, ("take_photo", (3.0, 7.5)))
+    """Once it is stopped nothing can, and the page says why."""
+    station = serve("drugs_distribution", "--speed", "2")
+    page = draw(station, visit, ("take_photo", (15.0, 8.5)), ("measure", (9.0, 5.0)))
     start(page)
-    until(lambda: station.get("/api/plan")["missions"][0]["launched"], "it flies")
-    expect(page.get_by_role("tab", name="Monitor", selected=True)).to_be_visible()  # shown by Start
+    until(lambda: list(station.statuses().values()) == ["RUNNING"], "it flies")
     page.get_by_role("tab", name="Trips").click()
+    expect(page.get_by_text("This mission is under way.")).to_be_visible()
+    card_of(page, 1).locator(".trip-head").click()
+    expect(card_of(page, 1).get_by_label("x (m)")).to_be_disabled()
+    card_of(page, 2).locator(".trip-head").click()
+    x = card_of(page, 2).get_by_label("x (m)")
+    x.fill("10")
+    assert targets(station)[1] == [9.0, 5.0], "nothing is flown letter by letter"
+    x.press("Tab")
+    until(lambda: targets(station)[1] == [10.0, 5.0], "it is in the plan")
+    assert station.now()["missions"][0]["trips"][1]["x"] == 10.0
+    page.get_by_role("button", name="Stop: fly home").click()
+    until(lambda: station.phase == "stopped", "all are down")
     expect(page.get_by_text("This mission has been started")).to_be_visible()
     expect(action_called(page, "take_photo")).to_be_hidden()
-    expect(card_of(page, 1).get_by_label("x (m)")).to_be_disabled()
+    expect(x).to_be_disabled()
 
 
 def test_several_pins_are_selected_by_a_rectangle_and_go_together(

@@ -51,7 +51,7 @@ def test_a_page_that_saves_its_plan_changes_what_has_not_flown(serve: Serve) -> 
     station.start()
     tell(station, "resume")
     until(lambda: flown(station)[-1:] == ["C"], "the trip that was moved is flown")
-    assert [one["name"] for one in row(station, FIRST)["trips"]] == ["A", "C", "1"]
+    assert [one[0] for one in row(station, FIRST)["trips"]] == ["A", "C", "1"]
     _, mission = drawn(station)
     assert [one["target"] for one in mission["trips"]] == [a["target"], [14.0, 8.5], [15.0, 8.0]]
 
@@ -123,7 +123,7 @@ def test_a_drone_joins_and_stays(serve: Serve) -> None:
     station.start()
     assert station.get("/api/app")["drones"][-1] == shown
     tell(station, "resume")
-    until(lambda: bool(row(station, FIRST)["at"]), "it goes on")
+    until(lambda: station.phase == "flying" and not station.now()["state"]["busy"], "it goes on")
     tell(station, "cancel", mission=None)
     comes_to(station, "over")
     assert drone(station, "cf9")["status"] in ("FREE", "LANDED", "CHARGING")

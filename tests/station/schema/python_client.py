@@ -11,6 +11,8 @@ import black
 from pluto_fleet.station import requests, wire, wire_app
 from pluto_fleet.station.requests import Said
 from pluto_fleet.station.web.addresses import ADDRESSES, Address
+from pluto_fleet.station.web.reads import TOML
+from pluto_fleet.station.web.results import GEOJSON
 
 _HEAD = '''"""Every address of a station as a method; made by `python -m tests.station.schema`."""
 
@@ -59,9 +61,10 @@ def _method(address: Address) -> str:
     parameters, body = [], ""
     query = ", ".join(f'"{name}": {name}' for name in address.query)
     query = f"{{{query}}}"
+    takes = []
     if isinstance(address.body, tuple):
         parameters.append("body: str | bytes")
-    takes = []
+        takes += ["media: str"] if len(address.body) > 1 else []
     for name, one in address.query.items():
         kind = one.type.__name__
         takes.append(f"{name}: {kind}" + ("" if one.needed else f" = {one.type()!r}"))
@@ -85,14 +88,17 @@ def _arguments(body: Any) -> tuple[list[str], list[str]]:
         if name == "id":
             optional.append("id: str | None = None")
         elif get_origin(hint) is NotRequired:
-            optional.append(f"{name}: {_written(get_args(hint)[0])} = None")
+            kind = _written(get_args(hint)[0])
+            optional.append(f"{name}: {kind if 'None' in kind else f'{kind} | None'} = None")
         else:
             needed.append(f"{name}: {_written(hint)}")
     return needed, optional
 
 
 def _answer(address: Address) -> str:
-    if isinstance(address.answers, str) or address.answers is Said:
+    if isinstance(address.answers, str):
+        return "str" if address.answers.startswith(("text/", TOML, GEOJSON)) else "bytes"
+    if address.answers is Said:
         return "str"
     return _written(address.answers)
 
@@ -100,12 +106,13 @@ def _answer(address: Address) -> str:
 def _call(address: Address, query: str, body: str) -> str:
     where = f'"{address.method}", "{address.path}"'
     if isinstance(address.answers, str):
-        return f"return self._text({where})"
+        asked = f"{where}, {query}" if address.query else where
+        return f"return self._{'text' if _answer(address) == 'str' else 'bytes'}({asked})"
     if address.answers is Said:
         return f'return self._command("{address.path}", id, {body})'
     if isinstance(address.body, tuple):
-        [media] = address.body
-        call = f'self._sent({where}, {query}, body, "{media}")'
+        media = "media" if len(address.body) > 1 else f'"{address.body[0]}"'
+        call = f"self._sent({where}, {query}, body, {media})"
     else:
         sent = [f"query={query}"] if address.query else []
         sent += [f"body={body}"] if body else []

@@ -50,11 +50,22 @@ export interface AppData {
   /** How results are shown on the map. */
   layers: Layer[];
   map: MapShape;
+  /** Whether what has not flown can be changed while its mission is under way. */
+  replans: boolean;
   /** Whether the graph flies a failed trip again. */
   retries: boolean;
   /** Whether missions may be flown in rounds. */
   rounds: boolean;
   graph: GraphDrawing | null;
+}
+
+/** An area that is to be swept, as `[[mission.area]]` has it: POST /api/plan/sweep. */
+export interface AreaAsked {
+  polygon: number[][];
+  spacing: string | number;
+  height?: string | number;
+  /** From where the drones come; without it the sweep begins wherever it is shortest. */
+  before?: number[];
 }
 
 /** A block of the app's graph, as it is drawn: its upper left corner and its size. */
@@ -317,6 +328,15 @@ export interface Join {
   options?: Record<string, unknown> | null;
 }
 
+/** Where the floor plan is to lie. */
+export interface Laid {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+  turn?: number;
+}
+
 /** A layer of the map: what of the results it shows, and how. The id of a layer of `measure` without a quantity stands for a layer for each quantity that is measured and has none of its own. */
 export interface Layer {
   id: string;
@@ -379,6 +399,16 @@ export interface MapData {
   writable: boolean;
   /** Why nothing that is drawn can be kept; empty: it can. */
   said: string;
+}
+
+/** What a page has drawn on the map: PUT /api/map. What it does not send stays. */
+export interface MapEdit {
+  revision: number;
+  places?: Place[];
+  zones?: Zone[];
+  north?: number;
+  /** Where the floor plan lies; null: there is to be none. */
+  image?: Laid | null;
 }
 
 /** What of the map does not change while the station runs. */
@@ -528,6 +558,14 @@ export interface PlanMission {
   [field: string]: unknown;
 }
 
+/** Which plan is to be opened: POST /api/plans/open. */
+export interface PlanOpened {
+  name: string;
+  revision: number;
+  /** Beside what is drawn, and not in place of what has not been started. */
+  add?: boolean;
+}
+
 /** What keeps the plan from being flown. */
 export interface PlanProblemData {
   /** The key of the mission. */
@@ -535,6 +573,19 @@ export interface PlanProblemData {
   trip: string | null;
   field: string | null;
   text: string;
+}
+
+/** What is to be taken out of the trash: POST /api/plans/restore. */
+export interface PlanRestored {
+  id: string;
+}
+
+/** How the plan is to be kept: PUT /api/plans?name=… */
+export interface PlanSaved {
+  by?: string;
+  template?: boolean;
+  /** Whether one that has the name already goes to the trash. */
+  replace?: boolean;
 }
 
 /** A trip of the plan, with the fields that the app's trips have beside these. */
@@ -706,6 +757,24 @@ export interface Said {
   said: string;
 }
 
+/** A plan, or a template, that is kept under a name. */
+export interface SavedPlan {
+  name: string;
+  saved_at: number;
+  by: string;
+  /** How many it has; None: it cannot be read. */
+  missions: number | null;
+  template: boolean;
+  /** What is wrong with it, or still to be done before it can fly; empty: nothing. */
+  said: string;
+}
+
+/** All plans that are kept under names, and what was deleted of them. */
+export interface SavedPlans {
+  plans: SavedPlan[];
+  trash: TrashedPlan[];
+}
+
 /** Leave a trip out. */
 export interface Skip {
   id: string;
@@ -750,6 +819,22 @@ export interface Stop {
   how: "rtl" | "land";
 }
 
+/** How an area is flown over: the targets of its trips, in their order. */
+export interface Swept {
+  targets: number[][];
+  /** The way from the first to the last. */
+  metres: number;
+  /** The share of the area that may not be flown over. */
+  forbidden: number;
+}
+
+/** A plan that was deleted, and can be restored. */
+export interface TrashedPlan {
+  id: string;
+  name: string;
+  deleted_at: number;
+}
+
 /** A trip as the Monitor shows it. */
 export interface TripRow {
   name: string;
@@ -758,6 +843,16 @@ export interface TripRow {
   y: number;
   priority: number | number | null;
   action: string;
+}
+
+/** The way of each pair of places, both ends included; None: there is none. */
+export interface Ways {
+  ways: (number[][] | null)[];
+}
+
+/** Pairs of places, at most 500, whose ways are asked for: POST /api/ways. */
+export interface WaysAsked {
+  ways: number[][][];
 }
 
 /** A sentence that each page says in its own language: a key of its catalogue, and its facts. `text` is the sentence in English, for whatever does not know the key. */

@@ -70,9 +70,9 @@ export function moved(items, key, to) {
   return items.toSpliced(at, 1).toSpliced(Math.max(0, to), 0, items[at]);
 }
 
-/** @param {string} mission @param {(trips: PlanTrip[]) => PlanTrip[]} change */
-export const inTrips = (mission, change) =>
-  inMission(mission, (one) => ({ ...one, trips: change(one.trips) }));
+/** Change a mission's trips, also while it flies: the station takes what is not too late. @param {string} mission @param {(trips: PlanTrip[]) => PlanTrip[]} change */
+export const inTrips = (mission, change) => (/** @type {PlanMission[]} */ missions) =>
+  missions.map((one) => (one.key === mission ? { ...one, trips: change(one.trips) } : one));
 
 /** @param {string} mission @param {string} trip @param {(trip: PlanTrip) => PlanTrip} change */
 export const inTrip = (mission, trip, change) =>

@@ -79,13 +79,19 @@ export function between(before, after) {
   return { kind: "fields", fields };
 }
 
+/** What of a mission that flies can still be changed. @param {Difference} difference @returns {Difference | null} */
+const ofTrips = (difference) => (difference.kind === "fields" && difference.fields.trips
+  ? { kind: "fields", fields: { trips: difference.fields.trips } } : null);
+
 /** @param {KeyedDifference} difference @param {Keyed[]} now @returns {Keyed[]} */
 function listWithout({ removed, added, changed, order }, now) {
   const left = new Map(added.map((one) => [one.key, one]));
   let items = now
     .filter((one) => !left.has(one.key) || one.launched === true || !isSame(one, left.get(one.key)))
-    .map((one) => (changed[one.key] && one.launched !== true
-      ? /** @type {Keyed} */ (without(changed[one.key], one)) : one));
+    .map((one) => {
+      const its = changed[one.key] && (one.launched === true ? ofTrips(changed[one.key]) : changed[one.key]);
+      return its ? /** @type {Keyed} */ (without(its, one)) : one;
+    });
   if (order) {
     const known = new Set(order.to);
     const these = items.filter(({ key }) => known.has(key));

@@ -69,7 +69,7 @@ export class PlanStore {
     /** @type {ShownProblem[]} */
     const found = [];
     for (const [at, { mission, trip, field, typed, why, now }] of this.drafts) {
-      const of = this.missions.peek().find(({ key, launched }) => key === mission && !launched);
+      const of = this.missions.peek().find(({ key, launched }) => key === mission && (trip !== null || !launched));
       const thing = trip ? of?.trips.find(({ key }) => key === trip) : of;
       if (!thing) this.drafts.delete(at);
       else {

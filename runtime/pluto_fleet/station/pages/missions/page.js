@@ -10,6 +10,7 @@ import { Others } from "../ui/people.js";
 import { UndoButtons } from "../ui/undo.js";
 import { add } from "./commands.js";
 import { exportFile, importFile } from "./files.js";
+import { Library, LibraryButton } from "./library.js";
 import { MissionList } from "./list.js";
 import { isMarking } from "./marked.js";
 import { Panel } from "./panel.js";
@@ -40,7 +41,7 @@ export default function Page() {
   if (!plan.isLoaded.value) return null;
   const isEmpty = !plan.missions.value.length;
   return h("div", { ref: page, class: "missions" },
-    isEmpty ? h(Welcome, { onAdd }, h(UndoButtons, null)) : h("div", { class: "missions-split" },
+    isEmpty ? h(Welcome, { onAdd }, h(LibraryButton, { small: false }), h(UndoButtons, null)) : h("div", { class: "missions-split" },
       h("section", { class: "card mission-side stack", "aria-label": t("missions.all") },
         h("div", { class: "row" }, h("h2", null, t("page.missions")), h(Others, null),
           h("span", { class: "spread row" }, mayFly.value && h(UndoButtons, null),
@@ -50,6 +51,8 @@ export default function Page() {
         h("div", { class: "row" },
           h(Button, { small: true, pressed: isMarking.value, onClick: () => { isMarking.value = !isMarking.peek(); } }, t("missions.select-several")),
           mayFly.value && h(Button, { small: true, onClick: importFile }, t("missions.import")),
-          h(Button, { small: true, onClick: () => { exportFile(); } }, t("missions.export")))),
-      h("div", null, h(Panel, { wanted: wanted?.field ?? null }))));
+          h(Button, { small: true, onClick: () => { exportFile(); } }, t("missions.export")),
+          h(LibraryButton, null))),
+      h("div", null, h(Panel, { wanted: wanted?.field ?? null }))),
+    h(Library, null));
 }

@@ -3,14 +3,14 @@
 import { h } from "preact";
 import { capital } from "../core/format.js";
 import { t } from "../core/i18n.js";
-import { app } from "../core/station.js";
+import { app, selected } from "../core/station.js";
 import { ownFirst } from "../missions/words.js";
 import { Button } from "../ui/button.js";
 import { Field } from "../ui/field.js";
 import { Icon } from "../ui/icon.js";
 import { RELEASE } from "./carried.js";
 import { copy, remove, setAxis, setDraft, setField, setIn, shift } from "./commands.js";
-import { abouts, isLocked } from "./state.js";
+import { abouts } from "./state.js";
 
 /** @import { ActionShape, AppShape, FieldShape, PlanTrip } from "../app" */
 /** @import { Changed } from "../ui/field.js" */
@@ -66,7 +66,7 @@ export function TripCard({ about, onRemoved }) {
   const action = shape.actions.find(({ name }) => name === trip.action);
   const all = slots(key, action, trip.action, shape);
   const known = all.map(({ field }) => field.name);
-  const locked = isLocked.value;
+  const locked = about.isFixed;
   const isMisplaced = problems.some(({ field }) => field === "target");
   const elsewhere = problems.filter(({ field }) => !known.includes(field ?? ""));
   const mass = trip.item?.mass === undefined ? "" : ` (${trip.item.mass})`;
@@ -80,6 +80,7 @@ export function TripCard({ about, onRemoved }) {
       return h(Field, {
         key: field.name, field, value: own[0]?.typed ?? value(trip, about), locked, onChange, wrong,
         problem: own.map(({ text }) => text).join(" "), evaluators: shape.evaluators,
+        isLazy: selected.value?.launched === true, // letter by letter is no way to steer a flight
         isWrong: isMisplaced && (field.name === "x" || field.name === "y"),
         hint: field.name === "name" ? String(number) : "",
       });

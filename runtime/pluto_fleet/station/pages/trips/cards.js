@@ -61,7 +61,7 @@ function Card({ about, isDragged, isChosen, isOpen }) {
   function onKeyDown(event) {
     const by = { ArrowUp: -1, ArrowDown: 1 }[event.key];
     const isHead = /** @type {Element} */ (event.target).closest(".trip-head") !== null;
-    if (event.altKey && by && !isLocked.peek()) {
+    if (event.altKey && by && !about.isFixed) {
       shift(key, by);
       if (isHead) focusHead(key); // moving it in the list takes the focus away
     } else if (event.key === "Escape" && !isHead) focusHead(key);
@@ -74,7 +74,7 @@ function Card({ about, isDragged, isChosen, isOpen }) {
     ref: element, class: `trip-card ${isChosen ? "chosen" : ""} ${isDragged ? "dragged" : ""}`, "data-key": key, onKeyDown,
   },
   h("div", { class: "trip-line" },
-    !isLocked.value && h("span", { class: "grip" }, h(Icon, { name: "grip" })),
+    h("span", { class: "grip" }, h(Icon, { name: about.isFixed ? "lock" : "grip" })),
     h("button", { type: "button", class: "trip-head", "aria-expanded": isOpen, "aria-controls": id, onClick: press },
       h("span", { class: "number num" }, number), h(ActionIcon, { action: trip.action }),
       h("span", { class: "what" }, h("span", { class: "called" }, what), " ",

@@ -6,10 +6,10 @@ import { capital, number, place as inWords } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { newKey } from "../core/keys.js";
 import { speakOut } from "../core/notices.js";
-import { plan, selected, selection } from "../core/station.js";
+import { plan, selection } from "../core/station.js";
 import { linked, PICK } from "./carried.js";
 import { rounded } from "./snapping.js";
-import { isLocked, markAll, marked, markOne } from "./state.js";
+import { abouts, isLocked, markAll, marked, markOne } from "./state.js";
 
 /** @import { ActionShape, PlanTrip, Point } from "../app" */
 /** @import { Draft } from "../core/plan.js" */
@@ -18,6 +18,12 @@ import { isLocked, markAll, marked, markOne } from "./state.js";
 const trips = () => plan.missions.peek().find(({ key }) => key === selection.peek().key)?.trips ?? [];
 /** @param {string} key */
 const at = (key) => trips().findIndex((trip) => trip.key === key);
+
+/** Those of them that can be changed. @param {Iterable<string>} keys */
+function free(keys) {
+  const all = new Set(keys);
+  return abouts.peek().filter(({ key, isFixed }) => all.has(key) && !isFixed).map(({ key }) => key);
+}
 
 /** What the selected mission's trips become; it finds what it changes by key, as others may have drawn meanwhile. @param {(all: PlanTrip[]) => PlanTrip[]} change */
 const inSelected = (change) => inTrips(selection.peek().key ?? "", (all) => linked(change(all)));
@@ -70,10 +76,11 @@ export const setDraft = (key, name, draft) => plan.draft(selection.peek().key ??
 
 /** Put pins elsewhere. @param {ReadonlyMap<string, Point>} targets @param {boolean} [typing] */
 export function place(targets, typing = false) {
-  if (isLocked.peek()) return;
-  for (const key of targets.keys()) ["x", "y"].forEach((name) => setDraft(key, name, null));
+  const keys = free(targets.keys());
+  if (!keys.length) return;
+  for (const key of keys) ["x", "y"].forEach((name) => setDraft(key, name, null));
   edit((all) => all.map((trip) => {
-    const target = targets.get(trip.key);
+    const target = keys.includes(trip.key) ? targets.get(trip.key) : undefined;
     return target ? { ...trip, target: [...target.slice(0, 2), ...(trip.target ?? []).slice(2)] } : trip;
   }), typing);
   const [first] = targets.values();
@@ -90,7 +97,7 @@ export function nudge(keys, dx, dy) {
 
 /** @param {string} key @param {number} to */
 export function move(key, to) {
-  if (isLocked.peek() || to < 0 || to >= trips().length) return;
+  if (!free([key]).length || to < 0 || to >= trips().length) return;
   edit((all) => moved(all, key, to));
   speakOut(t("trips.moved", { n: to + 1 }));
 }
@@ -114,12 +121,13 @@ export function copy(keys) {
 
 /** @param {readonly string[]} keys */
 export function remove(keys) {
-  const gone = trips().filter(({ key }) => keys.includes(key));
-  if (isLocked.peek() || !gone.length) return null;
+  const able = free(keys);
+  const gone = trips().filter(({ key }) => able.includes(key));
+  if (!gone.length) return null;
   const index = at(gone[0].key);
   const said = gone.length === 1
     ? t("trips.deleted", { n: index + 1, action: capital(gone[0].action) }) : t("trips.deleted-many", { n: gone.length });
-  drawTelling(inSelected((all) => all.filter(({ key }) => !keys.includes(key))), said);
+  drawTelling(inSelected((all) => all.filter(({ key }) => !able.includes(key))), said);
   const next = trips()[index] ?? trips().at(-1);
   markOne(next?.key ?? null);
   return next?.key ?? null;
@@ -130,6 +138,3 @@ export const where = (target) => target.map((one) => number(one, { maximumFracti
 
 /** The keys that a command on this pin is for: all that are selected, if it is one of them. @param {string} key */
 export const meant = (key) => (marked.peek().includes(key) ? marked.peek() : [key]);
-
-/** Whether there is a mission to draw in. */
-export const hasMission = () => selected.value !== null;

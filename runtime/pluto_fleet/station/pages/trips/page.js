@@ -82,7 +82,7 @@ export default function Page() {
   const canDraw = mission !== null && !isLocked.value;
   const isAiming = inHand.value !== null || tool.value !== null;
   return h("div", { class: "trips" }, h(MapSplit, {
-    tools: [canDraw && h(UndoButtons, { key: "undo" }), canDraw && h(ToolButtons, { key: "tools" })],
+    tools: [mayFly.value && h(UndoButtons, { key: "undo" }), canDraw && h(ToolButtons, { key: "tools" })],
     stage: h(Drawing, { camera, class: `trips-stage ${canDraw ? "drawable" : ""}`, onMove },
       canDraw && h(Palette, { camera, onAdded, onNew: newMission }),
       h(Floor, {
@@ -157,7 +157,7 @@ function Trips({ mission }) {
   const { key, launched, trips } = mission;
   const own = plan.problems.value.filter((one) => one.mission === key && !one.trip && one.field !== "name");
   return h("section", { class: "stack", "aria-label": t("trips.of-mission") },
-    launched && h("p", { class: "hint row" }, h(Icon, { name: "lock" }), h("span", null, t("trips.locked"))),
+    launched && h("p", { class: "hint" }, t(isLocked.value ? "trips.locked" : "trips.under-way")),
     h("div", { class: "trips-head" }, h(MissionField, { key, mission, field: { name: "name", type: "text", label: t("trips.mission-name") }, onKeyDown: toPalette })),
     trips.length > 0 && own.map(({ text }) => h("p", { key: text, class: "problem" }, h(Icon, { name: "warning" }), h("span", null, text))),
     h(SeveralTrips, null), h(TripCards, null),

@@ -23,13 +23,13 @@ export const Pins = ({ onOpen, onRemoved }) => h("g", { class: "layer pins" }, a
     h(Pin, { about, onOpen, onRemoved }))));
 
 /** What is read out of a pin. @param {About} about */
-function described({ number, trip, target, place: name, problems }) {
+function described({ number, trip, target, place: name, problems, isFixed }) {
   const what = [capital(trip.action), ...(trip.name ? [trip.name] : [])].join(" · ");
   const at = [name, t("trips.at", { place: where(/** @type {Point} */ (target)) })].filter(Boolean).join(", ");
   return [
     t("trips.pin", { n: number, what, at }),
     problems.length > 0 && t("trips.pin-problem", { text: problems[0].text }),
-    !isLocked.value && t("trips.pin-keys"),
+    !isFixed && t("trips.pin-keys"),
   ].filter(Boolean).join(" ");
 }
 
@@ -53,13 +53,13 @@ function Pin({ about, onOpen, onRemoved }) {
       return;
     }
     if (!isChosen) markOne(key);
-    if (isLocked.peek()) return;
+    if (about.isFixed) return;
     const disc = /** @type {Element} */ (pin.querySelector(".disc")).getBoundingClientRect();
     const keys = meant(key);
     taken.current = {
       x: event.clientX, y: event.clientY, keys,
       dx: event.clientX - disc.left - disc.width / 2 + beside, dy: event.clientY - disc.top - disc.height / 2,
-      from: new Map(abouts.peek().flatMap((one) => (keys.includes(one.key) && one.target ? [[one.key, one.target]] : []))),
+      from: new Map(abouts.peek().flatMap((one) => (keys.includes(one.key) && one.target && !one.isFixed ? [[one.key, one.target]] : []))),
     };
     pin.setPointerCapture(event.pointerId);
   }
@@ -103,7 +103,7 @@ function Pin({ about, onOpen, onRemoved }) {
     event.stopPropagation();
   }
   return h("g", {
-    class: `pin ${isChosen ? "chosen" : ""} ${problems.length ? "bad" : ""}`, transform: `translate(${beside} 0)`,
+    class: `pin ${isChosen ? "chosen" : ""} ${problems.length ? "bad" : ""} ${about.isFixed ? "fixed" : ""}`, transform: `translate(${beside} 0)`,
     role: "button", tabIndex: 0, "data-own": true, "data-key": key, "aria-label": described(about),
     onFocus: () => { if (marked.peek().length < 2) markOne(key); },
     onPointerDown: take, onPointerMove: drag, onPointerUp: () => letGo(true),

@@ -3,7 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import { landmarks } from "../core/landmarks.js";
 import { marking } from "../core/marking.js";
-import { app, plan, selected, selection, selectKey } from "../core/station.js";
+import { app, mayFly, plan, selected, selection, selectKey, world } from "../core/station.js";
 import { whyNot } from "../map/view.js";
 import { t } from "../core/i18n.js";
 import { picks } from "./carried.js";
@@ -39,6 +39,24 @@ export const { marked, markOne, markAll, toggle, extendTo } = marking(
 
 export const places = computed(() => landmarks.value?.places ?? []);
 
+/** Whether what has not flown of missions that are under way can be changed now. */
+const canReplan = computed(() => app.value?.replans === true && world.state.value.phase === "flying");
+
+/** The selected mission in the flight, if it is under way. */
+const row = computed(() => (selected.value?.launched ? world.missions.get(selected.value.name) : undefined));
+
+/** Whether nothing at all can be changed of the selected mission's trips. */
+export const isLocked = computed(() => {
+  const mission = selected.value;
+  if (!mission || !mayFly.value) return true;
+  return mission.launched && (!canReplan.value || row.value === undefined);
+});
+
+/** The names of the trips that fly or have flown, a line each, so that it is the same until one takes off. */
+const offLines = computed(() => (row.value?.trips ?? []).filter(({ status }, at) =>
+  status !== "WAITING" || (at === row.value?.current && row.value.status === "RUNNING")).map(({ name }) => name).join("\n"));
+const offNames = computed(() => (offLines.value ? offLines.value.split("\n") : []));
+
 /**
  * A trip as its pin and its card show it.
  * @typedef {object} About
@@ -49,6 +67,7 @@ export const places = computed(() => landmarks.value?.places ?? []);
  * @property {boolean} isHeld
  * @property {number} beside so many trips before it are at the same place
  * @property {string} place the name of the place where it is
+ * @property {boolean} isFixed it cannot be changed, or not any more
  * @property {ShownProblem[]} problems
  * @property {number | null} pickedIn the number of the trip that picks what this one puts down
  */
@@ -85,9 +104,8 @@ function about(trip, at, wrong, pick) {
   return {
     key: trip.key, trip, number: at + 1, target, isHeld: drag !== undefined,
     place: target ? placeAt(target, places.value)?.name ?? "" : "",
+    isFixed: isLocked.value || offNames.value.includes(trip.name ?? String(at + 1)),
     problems, pickedIn: pick === undefined ? null : pick + 1,
   };
 }
 
-/** Whether the trips of the selected mission can be changed. */
-export const isLocked = computed(() => selected.value?.launched !== false || app.value?.role === "watch");

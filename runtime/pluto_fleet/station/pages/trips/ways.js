@@ -5,6 +5,7 @@ import { t } from "../core/i18n.js";
 import { app, plan, selected, selection } from "../core/station.js";
 import { Mark } from "../map/camera.js";
 import { called } from "../missions/words.js";
+import { way } from "../map/routes.js";
 import { abouts } from "./state.js";
 
 /** @import { Point } from "../app" */
@@ -16,11 +17,16 @@ function nearest(drones, [x, y]) {
 }
 
 export function Ways() {
-  const points = abouts.value.flatMap(({ target }) => (target ? [target.slice(0, 2)] : []));
-  const home = points.length ? nearest(app.value?.drones ?? [], points[0]) : undefined;
-  return h("g", { class: "layer ways" },
-    home && h("polyline", { class: "from-home", points: `${home.slice(0, 2)} ${points[0]}` }),
-    h("polyline", { points: points.join(" ") }));
+  const placed = abouts.value.flatMap(({ target, isHeld }) => (target ? [{ target, isHeld }] : []));
+  const home = placed.length ? nearest(app.value?.drones ?? [], placed[0].target) : undefined;
+  const legs = [...(home ? [{ target: home.slice(0, 2), isHeld: false }] : []), ...placed];
+  return h("g", { class: "layer ways" }, legs.slice(1).map(({ target, isHeld }, at) => {
+    const from = legs[at];
+    const found = isHeld || from.isHeld ? undefined : way([from.target, target]);
+    const points = (found ?? [from.target, target]).map(([x, y]) => `${x},${y}`).join(" ");
+    const kind = found === null ? "no-way" : home && at === 0 ? "from-home" : "";
+    return h("polyline", { key: at, class: kind, points }, found === null && h("title", null, t("trips.no-way")));
+  }));
 }
 
 /** @param {{ shown: boolean }} props of all other missions, also while one is selected */

@@ -26,6 +26,7 @@ import { Icon } from "./icon.js";
  * @property {string} [problem]
  * @property {boolean} [isWrong] it is marked, though its problem is told elsewhere
  * @property {boolean} [locked]
+ * @property {boolean} [isLazy] what is typed counts only when the field is left
  * @property {string} [hint] what stands in an empty field
  * @property {readonly string[]} [evaluators]
  * @property {(value: unknown) => string} [wrong] why a value cannot be in the plan; empty: it can
@@ -59,7 +60,7 @@ const shared = ({ id, text, isWrong, field, locked }) => ({
 
 /** @param {ControlProps} props */
 function Typed(props) {
-  const { field, value, hint, wrong, onChange, onKeyDown } = props;
+  const { field, value, hint, wrong, isLazy, onChange, onKeyDown } = props;
   /** What stands in the field while one types, and what that was sent as. */
   const [typed, setTyped] = useState(/** @type {string | null} */ (null));
   const sent = useRef("");
@@ -83,7 +84,8 @@ function Typed(props) {
     onInput: (/** @type {InputEvent} */ { currentTarget }) => {
       const input = /** @type {HTMLInputElement} */ (currentTarget);
       setTyped(input.value);
-      send(input, true);
+      if (isLazy) sent.current = now;
+      else send(input, true);
     },
     onChange: (/** @type {Event} */ { currentTarget }) => {
       send(/** @type {HTMLInputElement} */ (currentTarget), false);
