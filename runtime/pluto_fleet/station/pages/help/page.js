@@ -1,7 +1,7 @@
 // Help: the three steps, what the colours and signs mean, the keys, and the settings of this browser.
 
 import { h } from "preact";
-import { t } from "../core/i18n.js";
+import { t, tOr } from "../core/i18n.js";
 import { Standing } from "../ui/standing.js";
 import { Settings } from "./settings.js";
 
@@ -14,6 +14,9 @@ const KEYS = [
   [["Ctrl+Z", "Ctrl+Y"], "keys.undo"], [["Alt+↑", "Alt+↓"], "keys.reorder"], [["Enter"], "keys.open"],
   [["Space"], "keys.hold"], [["Esc"], "keys.close"],
 ];
+
+/** "Ctrl+Z", as the reader's keyboard calls it. @param {string} key */
+const named = (key) => key.split(/(?<=.)\+/).map((one) => tOr(`key.${one}`, one)).join("+");
 
 export default function Help() {
   return h("div", { class: "help-columns" },
@@ -30,5 +33,5 @@ export default function Help() {
     h("section", { class: "card stack", "aria-labelledby": "keys" },
       h("h2", { id: "keys" }, t("help.keys")),
       h("table", { class: "table" }, h("tbody", null, KEYS.map(([keys, what]) => h("tr", { key: what },
-        h("td", null, keys.map((key) => h("kbd", { key, class: "key" }, key))), h("td", null, t(what))))))));
+        h("td", null, keys.map((key) => h("kbd", { key, class: "key" }, named(key)))), h("td", null, t(what))))))));
 }
