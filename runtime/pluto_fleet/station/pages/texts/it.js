@@ -276,7 +276,7 @@ const texts = {
   "stop.home": "Stop: rientro alla base",
   "stop.land": "Stop: atterraggio ora",
   "stop.home-short": "Rientro",
-  "stop.land-short": "Atterra ora",
+  "stop.land-short": "Atterra",
   "stop.trying": "Lo Stop non ha ancora raggiunto la stazione: nuovi tentativi in corso. Se è urgente, usare gli interruttori dei droni.",
   "stop.failed": "Lo Stop non ha raggiunto la stazione. Se è urgente, usare gli interruttori dei droni.",
 
@@ -620,7 +620,7 @@ const texts = {
 
   "settings": "Impostazioni di questo browser",
   "settings.name": "Il proprio nome",
-  "settings.name-hint": "per gli altri, e per i registri",
+  "settings.name-hint": "per altri e registri",
   "settings.language": "Lingua",
   "settings.language-auto": "Quella del browser",
   "settings.theme": "Colori",
