@@ -32,9 +32,9 @@ def looked_at(page: Page, keep: Callable[[Scheme, bytes], object] | None = None)
         # nothing is caught half-way
         page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
         settled(page)
-        found += violations(page, None if scheme == SCHEMES[0] else COLOURS)
-        if keep is not None:
+        if keep is not None:  # first: a page stands still as long as axe looks at it
             keep(scheme, picture(page))
+        found += violations(page, None if scheme == SCHEMES[0] else COLOURS)
     return [*found, *laid_out_badly(page)]
 
 

@@ -75,7 +75,7 @@ def test_every_page_in_every_phase_can_be_seen_and_pressed_and_read_aloud(
     serve: Serve, visit: Visit, update: bool
 ) -> None:
     """Nothing lies over anything, all words fit, and axe finds no violation of WCAG A or AA."""
-    station = serve("drugs_distribution", "--speed", "10")
+    station = serve("drugs_distribution", "--speed", "5")
     page = visit(station, size=SIZES["laptop"])
     look_through(page, station, a_flight, "laptop", update=update)
 

@@ -75,7 +75,7 @@ const Part = ({ title, isEmpty, children }) => h("section", { class: "report-par
   isEmpty ? h("p", { class: "muted" }, t("report.none")) : children);
 
 /** @param {{ heads: string[], rows: ComponentChildren[][] }} props */
-const Table = ({ heads, rows }) => h("div", { class: "report-table" }, h("table", { class: "table" },
+const Table = ({ heads, rows }) => h("div", { class: "report-table", role: "region", tabIndex: 0, "aria-label": heads.join(", ") }, h("table", { class: "table" },
   h("thead", null, h("tr", null, heads.map((head) => h("th", { key: head, scope: "col" }, head)))),
   h("tbody", null, rows.map((row, at) => h("tr", { key: at }, row.map((cell, place) => h("td", { key: place }, cell)))))));
 
