@@ -10,6 +10,7 @@ import { World } from "../core/world.js";
 import { ResultsModel } from "../results/model.js";
 import { withUnit } from "../results/words.js";
 import { Button } from "../ui/button.js";
+import { Said } from "../ui/parts.js";
 import { useAsked } from "./asked.js";
 import { BatteryChart, Times } from "./battery_chart.js";
 import { ReportMap } from "./report_map.js";
@@ -46,7 +47,7 @@ function Report({ report, replay, model }) {
     h("div", { class: "row report-head" }, h("div", null, h("p", { class: "muted" }, shape.title),
       h("h2", null, t("report.title", { when: flight.begun_at === null ? flight.id : dated(flight.begun_at) }))),
     h("div", { class: "spread no-print" }, h(Button, { kind: "primary", icon: "save", onClick: () => window.print() }, t("report.print")))),
-    flight.said && h("p", { class: "problem" }, flight.said),
+    flight.said && h("p", { class: "problem" }, h(Said, { text: flight.said })),
     h("dl", { class: "report-facts" },
       h(Fact, { name: t("history.column.end"), words: t(`history.end.${flight.end}`) }),
       h(Fact, { name: t("history.column.missions"), words: outcomeWords(flight) }),
@@ -58,8 +59,9 @@ function Report({ report, replay, model }) {
     h(Part, { title: t("report.missions"), isEmpty: !missions.length }, h(Missions, { missions })),
     h(Part, { title: t("report.results"), isEmpty: !results.length }, h(ReportMap, { shape, model }), h(Results, { results })),
     h(Part, { title: t("report.incidents"), isEmpty: !incidents.length }, h(Table, {
+      title: t("report.incidents"),
       heads: [t("results.column.time"), t("results.column.mission"), t("results.column.drone"), t("report.what")],
-      rows: incidents.map(({ time, mission, drone, text }) => [clock(time), mission ?? "", drone ?? "", text]),
+      rows: incidents.map(({ time, mission, drone, text }) => [clock(time), mission ?? "", drone ?? "", h(Said, { text })]),
     })),
     h(Part, { title: t("report.batteries"), isEmpty: !drones.length },
       h("div", { class: "report-chart" }, h(BatteryChart, { batteries: replay.batteries, seconds: replay.seconds, marks }), h(Times, { seconds: replay.seconds })),
@@ -74,27 +76,29 @@ const Fact = ({ name, words }) => h("div", null, h("dt", null, name), h("dd", nu
 const Part = ({ title, isEmpty, children }) => h("section", { class: "report-part" }, h("h3", null, title),
   isEmpty ? h("p", { class: "muted" }, t("report.none")) : children);
 
-/** @param {{ heads: string[], rows: ComponentChildren[][] }} props */
-const Table = ({ heads, rows }) => h("div", { class: "report-table", role: "region", tabIndex: 0, "aria-label": heads.join(", ") }, h("table", { class: "table" },
+/** @param {{ title: string, heads: string[], rows: ComponentChildren[][] }} props */
+const Table = ({ title, heads, rows }) => h("div", { class: "report-table", tabIndex: 0, role: "group", "aria-label": title }, h("table", { class: "table" },
   h("thead", null, h("tr", null, heads.map((head) => h("th", { key: head, scope: "col" }, head)))),
   h("tbody", null, rows.map((row, at) => h("tr", { key: at }, row.map((cell, place) => h("td", { key: place }, cell)))))));
 
 /** @param {{ missions: ReportMission[] }} props */
 const Missions = ({ missions }) => h(Table, {
+  title: t("report.missions"),
   heads: [t("results.column.mission"), t("report.outcome"), t("report.began"), t("report.took"), t("history.column.trips")],
   rows: missions.map(({ name, status, why, began, ended, late, trips }) => [
     h("strong", null, name),
-    [tOr(`status.${status}`, status), late && ` · ${t("monitor.late")}`, why && h("p", { class: "hint" }, why)],
+    [tOr(`status.${status}`, status), late && ` · ${t("monitor.late")}`, why && h("p", { class: "hint" }, h(Said, { text: why }))],
     began === null ? "" : clock(began), tookWords(began, ended),
     h("ul", { class: "report-trips" }, trips.map((trip) => h("li", { key: trip.name },
       `${trip.name} (${plain(trip.action)}): ${tOr(`status.${trip.status}`, trip.status)}`,
       trip.drone && ` · ${trip.drone}`, trip.attempts > 1 && ` · ${t("report.attempts", { n: trip.attempts })}`,
-      trip.why && h("span", { class: "hint" }, ` · ${trip.why}`)))),
+      trip.why && h("span", { class: "hint" }, " · ", h(Said, { text: trip.why }))))),
   ]),
 });
 
 /** @param {{ results: ReportResults[] }} props */
 const Results = ({ results }) => h(Table, {
+  title: t("report.results"),
   heads: [t("results.column.what"), t("report.count"), t("report.lowest"), t("report.mean"), t("report.highest")],
   rows: results.map(({ action, kind, quantity, unit, count, lowest, mean, highest }) => [
     kind === "verdict" ? t("results.verdict") : capital(quantity ?? action ?? kind), number(count),
@@ -104,6 +108,7 @@ const Results = ({ results }) => h(Table, {
 
 /** @param {{ drones: ReportDrone[] }} props */
 const Drones = ({ drones }) => h(Table, {
+  title: t("report.batteries"),
   heads: [t("results.column.drone"), t("history.column.trips"), t("report.in-the-air"), t("report.battery-first"), t("report.battery-lowest"), t("report.battery-last"), t("history.hours.lost")],
   rows: drones.map((drone) => [
     drone.id, number(drone.trips), drone.hours === null ? t("unknown.short") : duration(drone.hours * 3600),
@@ -113,11 +118,12 @@ const Drones = ({ drones }) => h(Table, {
 
 /** @param {{ commands: ReportCommand[] }} props */
 const Commands = ({ commands }) => h(Table, {
+  title: t("report.commands"),
   heads: [t("results.column.time"), t("report.command"), t("history.column.by"), t("report.said")],
   rows: commands.map(({ time, at, command, given, by, client, said }) => [
     time !== null ? clock(time) : at !== null ? moment(at) : "",
     [capital(command), ...Object.entries(given).filter(([name, value]) => value !== null && name !== "revision")
       .map(([name, value]) => `${plain(name)} ${inWords(/** @type {import("../app").Scalar} */ (value))}`)].join(", "),
-    by ?? client ?? "", said,
+    by ?? client ?? "", h(Said, { text: said }),
   ]),
 });
