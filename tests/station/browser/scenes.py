@@ -181,6 +181,7 @@ def heat(page: Page, station: Station) -> Iterator[str]:
     until(lambda: station.phase == "over", "the flight is over")
     open_page(page, "Results")
     expect(page.locator("image.heat")).to_have_count(1)
+    expect(page.locator(".results .name").nth(9)).to_be_visible()  # names come after all else
     yield "results"
 
 
