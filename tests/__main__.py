@@ -12,7 +12,7 @@ REWRITES = {
     "pytest tests/explain --update": "the list of diagnostics",
     "pytest tests/examples/test_typed_pages.py --update": "what the tutorial, and the page on sizes, show of commands' output",
     "pytest tests/navigation --update": "the code that the page on navigation shows",
-    "pytest tests/station/browser/test_every_page.py --update": "the pictures of the ground station",
+    "pytest tests/station/browser/test_every_page.py -m 'long or not long' --update": "the pictures of the ground station",
     "python -m tests.station.schema": "the description of the station's interface, and what is made of it",
     "pytest tests/editor/browser --update": "the pictures of the graph editor",
     "pytest tests/journal --update": "what kept journals come to, after a change of the records",
@@ -41,6 +41,7 @@ CAMPAIGNS = {
     "python -m tests.calibrating --cases 100": "fit journals of drones whose motion is known: is it told right?",
     "python -m tests.prediction": "hold what is promised of a plan against simulated Crazyflies, some ten minutes",
     "python -m tests.prediction.phases": "what each phase of a Crazyflie's flight takes besides its trajectory, some ten minutes",
+    "python -m tests.station.browser.every_page": "look at all of a station's pages in all sizes and languages, by day and by night, some twenty minutes; needs Chromium",
     "python -m tests.flights_crazyflie.pauses": "land and take off again, after pauses of 0 to 6 s",
 }
 MEASURES = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from importlib.resources import files
 from typing import Any
 
@@ -12,12 +13,19 @@ STANDARDS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]
 SCRIPT = files("axe_playwright_python").joinpath("axe.min.js").read_text(encoding="utf-8")
 
 
-def violations(page: Page) -> list[str]:
-    """Return the violations of WCAG A and AA, each with the elements that it is seen at."""
-    page.evaluate(SCRIPT)
-    only = {"type": "tag", "values": STANDARDS}
+COLOURS = ["color-contrast"]
+"""The rule that depends on whether it is day or night."""
+
+
+def violations(page: Page, rules: Sequence[str] | None = None) -> list[str]:
+    """Return the violations of WCAG A and AA, or of these rules, each with the elements that it is seen at."""
+    if not page.evaluate("() => 'axe' in window"):
+        page.evaluate(SCRIPT)
+    only = (
+        {"type": "tag", "values": STANDARDS} if rules is None else {"type": "rule", "values": rules}
+    )
     # It would fetch imported style sheets from where they are not, and put them inline.
-    asked = json.dumps({"runOnly": only, "preload": False})
+    asked = json.dumps({"runOnly": only, "preload": False, "resultTypes": ["violations"]})
     found: list[dict[str, Any]] = page.evaluate(
         f"async () => (await axe.run(document, {asked})).violations"
     )

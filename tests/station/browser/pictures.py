@@ -11,7 +11,7 @@ from playwright.sync_api import Page
 from tests.release.environments import ROOT
 
 FOLDER = ROOT / "docs" / "station"
-COLOURS = 128
+COLOURS = 192
 
 
 def picture(page: Page, colours: int = COLOURS) -> bytes:

@@ -16,6 +16,9 @@ const KEYS = [
   [["Space"], "keys.hold"], [["Esc"], "keys.close"],
 ];
 
+/** @param {{ name: typeof STEPS[number] | "stop" }} props */
+const Step = ({ name }) => [h("h3", null, t(`tour.${name}`)), h("p", { class: "muted" }, t(`tour.${name}-text`))];
+
 /** "Ctrl+Z", as the reader's keyboard calls it. @param {string} key */
 const named = (key) => key.split(/(?<=.)\+/).map((one) => tOr(`key.${one}`, one)).join("+");
 
@@ -23,9 +26,8 @@ export default function Help() {
   return h("div", { class: "help-columns" },
     h("section", { class: "card stack", "aria-labelledby": "steps" },
       h("h2", { id: "steps" }, t("help.steps")),
-      h("ol", { class: "stack" }, STEPS.map((name) => h("li", { key: name },
-        h("h3", null, t(`tour.${name}`)), h("p", { class: "muted" }, t(`tour.${name}-text`))))),
-      h("h3", null, t("tour.stop")), h("p", { class: "muted" }, t("tour.stop-text"))),
+      h("ol", { class: "stack" }, STEPS.map((name) => h("li", { key: name }, h(Step, { name })))),
+      h("div", null, h(Step, { name: "stop" }))),
     h(Settings, null),
     h("section", { class: "card stack", "aria-labelledby": "signs" },
       h("h2", { id: "signs" }, t("help.signs")),

@@ -94,10 +94,12 @@ function Drone({ drone: { id, battery, ready, why, ready_in: soon, assumed } }) 
     h(Battery, { level: battery }), h("span", { class: "hint" }, joined(facts)));
 }
 
+/** @param {string} median @param {string} high */
+const span = (median, high) => (median === high ? median : t("preflight.span", { median, high }));
+
 /** @param {{ mission: MissionForecast }} props */
 const Mission = ({ mission: { name, median, high, late, fails } }) => h("li", null,
   h("span", { class: "called" }, name),
-  h("span", { class: "num muted" }, median === null ? t("preflight.never")
-    : t("preflight.span", { median: duration(median), high: duration(high ?? median) })),
+  h("span", { class: "num muted" }, median === null ? t("preflight.never") : span(duration(median), duration(high ?? median))),
   late > OFTEN && h(Chip, { kind: "warn" }, t("preflight.late", { share: percent(late) })),
   fails > OFTEN && h(Chip, { kind: "bad" }, t("preflight.fails", { share: percent(fails) })));

@@ -244,7 +244,7 @@ const texts = {
   "phase.flying": "Im Flug",
   "phase.stopping": "Hält an",
   "phase.stopped": "Gestoppt",
-  "phase.over": "Alle Missionen sind zu Ende",
+  "phase.over": "Beendet",
   "phase.interrupted": "Unterbrochen",
   "phase.unknown": "Verbindet",
   "simulated": "simuliert",

@@ -238,7 +238,7 @@ export default {
   "phase.flying": "Flying",
   "phase.stopping": "Stopping",
   "phase.stopped": "Stopped",
-  "phase.over": "All missions have ended",
+  "phase.over": "Ended",
   "phase.interrupted": "Interrupted",
   "phase.unknown": "Connecting",
   "simulated": "simulated",

@@ -244,7 +244,7 @@ const texts = {
   "phase.flying": "In volo",
   "phase.stopping": "Arresto in corso",
   "phase.stopped": "Fermata",
-  "phase.over": "Tutte le missioni sono finite",
+  "phase.over": "Concluso",
   "phase.interrupted": "Interrotta",
   "phase.unknown": "Connessione",
   "simulated": "simulazione",
