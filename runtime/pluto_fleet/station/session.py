@@ -32,6 +32,7 @@ from .history.recorder import Recorder
 from .plan.missing import settled
 from .plan.shape import BROKEN_OFF
 from .results.meaning import SIMULATED_UNITS
+from .results.rows import NameOf, nowhere
 from .wait_reasons import WaitReasons
 
 if TYPE_CHECKING:
@@ -84,15 +85,16 @@ class FlightSession:
         ended: Callable[[], object],
         seen: Callable[[], object],
         known: Records | None = None,
+        name_of: NameOf = nowhere,
     ) -> None:
         """`seen` is called at each update of telemetry, `ended` when the run has ended.
 
-        `known` has the drones' states before the first record.
+        `known` has the drones' states before the first record; `name_of` says what a place is called.
         """
         self.flight = flight
         self.id = flight.journal.stem
         units = SIMULATED_UNITS if flight.sim else {}
-        self.feed = Feed(flight.app, units, self.id)
+        self.feed = Feed(flight.app, units, self.id, name_of)
         self.missions: VersionedRows[MissionRow] = VersionedRows()
         self.drones: VersionedRows[DroneRow] = VersionedRows()
         self.stops = Stops()

@@ -104,7 +104,7 @@ class Station:
         """The forecast that is being made, if any."""
         self.past = PastFlights(app, config, self._ours)
         """The flights of the past."""
-        self.exports = Exports(app, config, self._flight_now)
+        self.exports = Exports(app, config, self._flight_now, self.map.name_of)
         self._before: Path | None = None
         """The folder of the last discarded flight's gateway, whose drones may still be landing."""
 
@@ -142,7 +142,10 @@ class Station:
                 self.plan.unlock()
             return
         self.session = FlightSession(
-            taken.flight(self._config.speed), self._over, self._updates.hurry
+            taken.flight(self._config.speed),
+            self._over,
+            self._updates.hurry,
+            name_of=self.map.name_of,
         )
         self.session.heard = self._follow
         self.session.read(taken.known)
@@ -353,7 +356,9 @@ class Station:
         )
         known = Records()
         known.take(begun)
-        self.session = FlightSession(flight, self._over, self._updates.hurry, known)
+        self.session = FlightSession(
+            flight, self._over, self._updates.hurry, known, self.map.name_of
+        )
         self.session.heard = self._follow
         self._begin(self.session, store, None)
 

@@ -3,11 +3,22 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import FloatRect, Page
+from playwright.sync_api import FloatRect, Locator, Page, expect
 
 from tests.station.browser.conftest import TABLET, Serve, Visit
+from tests.station.browser.exercise import DONE, PLAN
 from tests.station.browser.serving import Station, until
-from tests.station.browser.steps import action_called, add_mission, on_the_screen, pin_of
+from tests.station.browser.steps import (
+    action_called,
+    add_mission,
+    card_of,
+    new_mission,
+    on_the_screen,
+    pin_of,
+    sees_all,
+)
+
+PHONE = (390, 844)
 
 
 def slide(page: Page, start: tuple[float, float], end: tuple[float, float]) -> None:
@@ -46,3 +57,41 @@ def test_a_finger_drags_an_action_onto_the_map_and_its_pin_elsewhere(
     assert pin_of(page, 1).is_visible()
     slide(page, on_the_screen(page, (3.0, 7.5)), on_the_screen(page, (9.0, 2.5)))
     until(lambda: target(station) == pytest.approx([9.0, 2.5], abs=0.15), "its pin has moved")
+
+
+def hold(page: Page, what: Locator) -> None:
+    """Put a finger on something, and leave it there until the flight is asked for."""
+    box = what.bounding_box()
+    assert box is not None
+    x, y = middle(box)
+    finger = page.context.new_cdp_session(page)
+    with page.expect_request("**/api/start"):
+        finger.send(
+            "Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]}
+        )
+    finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+@pytest.mark.long  # a whole flight once more
+def test_the_exercise_is_drawn_and_flown_by_fingers_on_a_phone(serve: Serve, visit: Visit) -> None:
+    station = serve("drugs_distribution", "--speed", "60")
+    page = visit(station, size=PHONE, touch=True)
+    for number, (mission, trips) in enumerate(PLAN.items()):
+        if number:
+            new_mission(page, mission)
+        else:
+            add_mission(page, mission)
+        for count, trip in enumerate(trips, start=1):
+            box = action_called(page, trip.action).bounding_box()
+            assert box is not None
+            slide(page, middle(box), on_the_screen(page, trip.at))
+            expect(pin_of(page, count)).to_be_visible()
+            if trip.action == "pick_item":
+                card_of(page, count).get_by_label("Mass").fill("8 g")
+    until(lambda: station.get("/api/plan")["problems"] == [], "the plan is sound")
+    for kept in station.get("/api/plan")["missions"]:
+        for drawn, trip in zip(kept["trips"], PLAN[kept["name"]], strict=True):
+            assert drawn["target"][:2] == pytest.approx(trip.at, abs=0.3)
+    hold(page, page.get_by_role("button", name="Start 3 missions"))
+    sees_all(page, "Completed")
+    assert station.done() == DONE

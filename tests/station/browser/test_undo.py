@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.station.browser.conftest import Serve, Visit
+from tests.station.browser.conftest import Visit
 from tests.station.browser.exercise import put_in
 from tests.station.browser.serving import Station, until
 from tests.station.browser.steps import missions_listed, open_page, select_mission
@@ -41,7 +41,9 @@ def test_all_is_undone_and_done_again_step_by_step_over_a_reload(
     rename(page, "Mission 1", "Beds")
     select_mission(page, "Mission 3")
     page.keyboard.press("Shift+ArrowUp")
-    page.get_by_role("region", name="Selected missions").get_by_role("button", name="Delete").click()
+    page.get_by_role("region", name="Selected missions").get_by_role(
+        "button", name="Delete"
+    ).click()
     until(lambda: names(planned) == ["Beds"], "they are gone")
     page.reload()
     expect(missions_listed(page)).to_have_text(["Beds"])

@@ -13,6 +13,7 @@ from ...shared.domain.errors import BadInput
 from . import pictures
 from .archive import write_archive
 from .flights import FlightResults, ResultsOfFlights
+from .rows import NameOf, nowhere
 from .tables import cells, csv_text, geojson
 
 if TYPE_CHECKING:
@@ -65,9 +66,15 @@ class Exports:
     `flight` is the id of a flight, its journal's name without the ending; empty: the current one.
     """
 
-    def __init__(self, app: App, place: Place, current: Callable[[], CurrentFlight | None]) -> None:
+    def __init__(
+        self,
+        app: App,
+        place: Place,
+        current: Callable[[], CurrentFlight | None],
+        name_of: NameOf = nowhere,
+    ) -> None:
         self._app, self._place, self._current = app, place, current
-        self._flights = ResultsOfFlights(app, place.folder)
+        self._flights = ResultsOfFlights(app, place.folder, name_of)
         self._reading, self._packing = asyncio.Lock(), asyncio.Lock()
         self._cleared = False
         self._pictures = asyncio.Semaphore(AT_ONCE)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ...jobs.flown import ACTS_BESIDE
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...shared.domain.trace import Event
     from ..wire import PhotoValue, Result
 
-NameOf = Callable[[Iterable[float]], str | None]
+NameOf = Callable[[Sequence[float]], str | None]
 """Returns the named place or zone that contains a point, or None."""
 
 LONGEST_VALUE = 1_000
@@ -32,7 +32,7 @@ LONGEST_TAG = 80
 VERDICTS = {"mission.judged": "not accepted", "mission.extended": "more to do"}
 
 
-def nowhere(_: Iterable[float]) -> str | None:
+def nowhere(_: Sequence[float]) -> str | None:
     """Name no place: the map has no named ones."""
     return None
 

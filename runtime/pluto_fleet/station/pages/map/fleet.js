@@ -8,6 +8,7 @@ import { percent } from "../core/format.js";
 import { t, tOr } from "../core/i18n.js";
 import { Mark, useCamera } from "./camera.js";
 import { LINE, placed } from "./labels.js";
+import { way } from "./routes.js";
 import { toPixels } from "./view.js";
 
 /** @import { Signal } from "@preact/signals" */
@@ -49,12 +50,16 @@ function Drone({ world, id, isChosen, onPick }) {
     const trip = drone?.mission ? target(world.missions.get(drone.mission)) : undefined;
     return trip ? `${trip.x} ${trip.y}` : "";
   }), [world, id]);
+  const bound = to.value;
+  const from = useRef(/** @type {{ bound: string, at: number[] }} */ ({ bound: "", at: [] }));
   const { x, y } = row;
   if (x === null || y === null) return null;
-  const [toX, toY] = to.value.split(" ").map(Number);
+  if (from.current.bound !== bound) from.current = { bound, at: [x, y] }; // it sets out from here
+  const goal = bound.split(" ").map(Number);
+  const route = bound ? way([from.current.at, goal]) ?? [from.current.at, goal] : [];
   const status = tOr(`status.${row.status}`, row.status);
   return h("g", { class: `drone ${isChosen ? "chosen" : ""}`, "data-status": row.status, "data-drone": id },
-    to.value && h("line", { class: "bound", x1: x, y1: y, x2: toX, y2: toY }),
+    bound && h("polyline", { class: "bound", points: route.map(([px, py]) => `${px},${py}`).join(" ") }),
     h(Tail, { world, id }),
     h(Mark, { x, y }, h("g", {
       role: "button", tabIndex: 0, "data-own": true, class: "drone-mark",

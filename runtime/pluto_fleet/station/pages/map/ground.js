@@ -5,6 +5,7 @@ import { h } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
 import { fetchFile, token } from "../core/api.js";
 import { t } from "../core/i18n.js";
+import { landmarks } from "../core/landmarks.js";
 import { useCamera } from "./camera.js";
 import { lines, step } from "./view.js";
 
@@ -45,7 +46,9 @@ export function Ground({ map }) {
   const [width, height] = map.size;
   const id = useId();
   const image = useRef(/** @type {SVGImageElement | null} */ (null));
-  const address = pictureAt(map.image);
+  const laid = landmarks.value?.image;
+  const address = pictureAt(laid?.address ?? map.image);
+  const place = laid ?? { x: 0, y: 0, width, height, turn: 0 };
   useEffect(() => {
     if (!address) return;
     const probe = new Image();
@@ -56,8 +59,9 @@ export function Ground({ map }) {
     h(Hatch, { id }),
     h("rect", { class: "paper", width, height }),
     address && h("image", {
-      ref: image, class: "picture", width, height, href: address, preserveAspectRatio: "none",
-      transform: `translate(0 ${height}) scale(1 -1)`,
+      ref: image, class: "picture", width: place.width, height: place.height, href: address,
+      preserveAspectRatio: "none",
+      transform: `translate(${place.x} ${place.y}) rotate(${-place.turn}) translate(0 ${place.height}) scale(1 -1)`,
     }),
     h(Grid, { map }),
     map.no_fly.map((corners, at) => h("polygon", {

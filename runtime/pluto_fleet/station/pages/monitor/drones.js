@@ -10,6 +10,8 @@ import { Battery, Empty } from "../ui/parts.js";
 import { Slide } from "../ui/slide.js";
 import { Standing, toneOf } from "../ui/standing.js";
 import { walking } from "../ui/walk.js";
+import { Join } from "./join.js";
+import { Mishaps } from "./mishaps.js";
 
 /** @import { AppShape } from "../app" */
 /** @import { DroneRow } from "../wire" */
@@ -33,8 +35,9 @@ function seen({ seen_at: at, x, y }) {
 export function DroneList({ world, live }) {
   const ids = world.drones.keys.value;
   if (!ids.length) return h(Empty, null, t("monitor.no-drones"));
-  return h("ul", { class: "drone-rows", "aria-label": t("monitor.drones"), onKeyDown: walking(".opener") },
-    ids.map((id) => h(DroneLine, { key: id, world, id, live })));
+  const canJoin = live && mayFly.value && world.state.value.phase === "flying";
+  return h("div", null, canJoin && h(Join, null), h("ul", { class: "drone-rows", "aria-label": t("monitor.drones"), onKeyDown: walking(".opener") },
+    ids.map((id) => h(DroneLine, { key: id, world, id, live }))));
 }
 
 /** @param {{ world: World, id: string, live: boolean }} props */
@@ -66,7 +69,7 @@ function WhyNot({ row, live }) {
 export function DroneCard({ world, id, live }) {
   const row = world.drones.get(id);
   if (!row) return null;
-  const { categories, drones } = /** @type {AppShape} */ (app.value);
+  const { categories, drones, sim } = /** @type {AppShape} */ (app.value);
   const category = categories.length > 1 ? drones.find((one) => one.id === id)?.category : undefined;
   const can = live && mayFly.value;
   const isAway = row.retired || row.status === "LOST";
@@ -86,7 +89,8 @@ export function DroneCard({ world, id, live }) {
       (isAway || isRunning) && h(Button, {
         small: true, onClick: () => { perform(isAway ? "bring-back" : "retire", { drone: id }); },
       }, t(isAway ? "drone.bring-back" : "drone.retire"))),
-    can && flies && h(CutMotors, { id }));
+    can && flies && h(CutMotors, { id }),
+    can && sim && isRunning && h(Mishaps, { id }));
 }
 
 /** The motors off at once: by a slide, or by a word that is typed, for screen readers and voices. @param {{ id: string }} props */

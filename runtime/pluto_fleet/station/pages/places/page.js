@@ -7,7 +7,8 @@ import { freeName } from "../core/keys.js";
 import { number, typedNumber } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { changeMap, landmarks, uploadPlan } from "../core/landmarks.js";
-import { app, mayFly, world } from "../core/station.js";
+import { app, mayFly } from "../core/station.js";
+import { World } from "../core/world.js";
 import { Camera, Mark } from "../map/camera.js";
 import { Homes, Names } from "../map/fleet.js";
 import { Floor } from "../map/floor.js";
@@ -24,6 +25,8 @@ import { calibrated } from "./calibration.js";
 /** @typedef {"look" | "place" | "zone" | "scale"} Tool */
 const STEP = 0.1; // metres to which what is drawn snaps
 const FINE = 0.01; // with Shift
+
+const NO_FLIGHT = new World(); // of the drones only the homes are drawn
 
 /** What a press on the map does, and the points that were pressed so far. */
 const tool = signal(/** @type {Tool} */ ("look"));
@@ -71,7 +74,7 @@ export default function MapPage() {
   return h(MapSplit, {
     stage: h(Floor, {
       map: shape.map, camera, onPlace: press, class: tool.value === "look" ? "" : "aiming",
-      overlay: [h(Names, { key: "names", world, chosen: null, more: landmarkNames }), h(North, { key: "north" })],
+      overlay: [h(Names, { key: "names", world: NO_FLIGHT, chosen: null, more: landmarkNames }), h(North, { key: "north" })],
       children: [h(Landmarks, { key: "landmarks" }), h(Homes, { key: "homes", app: shape }), h(Sketch, { key: "sketch" })],
     }),
     rail: h("div", { class: "rail-body stack" },

@@ -5,7 +5,7 @@ import { t } from "../core/i18n.js";
 import { app, plan, selected, selection } from "../core/station.js";
 import { Mark } from "../map/camera.js";
 import { called } from "../missions/words.js";
-import { way } from "./routes.js";
+import { way } from "../map/routes.js";
 import { abouts } from "./state.js";
 
 /** @import { Point } from "../app" */
