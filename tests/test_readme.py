@@ -30,7 +30,7 @@ def test_ci_sees_to_a_browser_and_runs_the_readmes_test_command_and_then_the_lon
     lines = (ROOT / ".ci/run").read_text().splitlines()
     said = [line for line in lines if line and not line.startswith(("#", "set ", "cd ", "export "))]
     install, tests = command.rsplit(" && ", 1)
-    assert said == [".ci/chromium &", install, "wait $!", tests, f"{tests} -m long"]
+    assert said == [".ci/browser &", install, "wait $!", tests, f"{tests} -m long"]
 
 
 def test_every_page_that_the_readme_names_exists() -> None:

@@ -13,9 +13,9 @@ from plutoc.source import Source
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES, MOST_FILES = 7_120, 66
+MOST_LINES, MOST_FILES = 7_130, 66
 """Of the package of the thesis's basic flow: all of its Python, its tests included."""
-MOST_LINES_OF_ANY = 8_970
+MOST_LINES_OF_ANY = 8_990
 LONGEST_FILE = 300
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}

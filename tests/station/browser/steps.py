@@ -36,7 +36,7 @@ def settled(page: Page) -> None:
 
 def open_page(page: Page, name: str) -> None:
     """Go to one of the pages."""
-    page.get_by_role("tab", name=name).click()
+    page.get_by_role("tablist", name="Pages").get_by_role("tab", name=name).click()
 
 
 def add_mission(page: Page, name: str) -> None:

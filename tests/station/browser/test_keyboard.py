@@ -131,8 +131,8 @@ def test_the_exercise_is_drawn_and_flown_by_few_keys_and_without_a_mouse(
     press_keys(page, "Shift+Tab")
     expect(page.get_by_role("button", name="Start 3 missions")).to_be_focused()
     with page.expect_request("**/api/start"):
-        page.keyboard.down("Enter")
-    page.keyboard.up("Enter")
+        page.keyboard.down(" ")
+    page.keyboard.up(" ")
     sees_all(page, "Completed")
     assert station.done() == DONE
     presses = page.evaluate("() => Number(sessionStorage.presses)")

@@ -161,10 +161,10 @@ def test_what_was_filled_in_is_kept_handed_out_and_flown_with(serve: Serve, visi
     assert [trip["softly"] for trip in one["trip"]] == [False]
     start(page)
     expect(row_of(page, BED)).to_contain_text("Amato")
-    row_of(page, OTHER).locator(".opener").click()
     expect(page.get_by_text("Patient: Bianchi · Most: 12.5 · Margin: 3 min")).to_be_visible()
     for bed in BEDS:
         expect(row_of(page, bed)).to_contain_text("Completed", timeout=A_FLIGHT)
-    console = page.get_by_role("region", name="Console")
+    page.get_by_role("tab", name="Console").click()
+    console = page.get_by_role("log")
     expect(console).to_contain_text("Amato sleeps: 14 breaths a minute")
     expect(console).to_contain_text("LOOK IN: Bianchi breathes 14 times a minute")

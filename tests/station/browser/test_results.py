@@ -195,7 +195,7 @@ def test_results_are_searched_filtered_sorted_and_shown_on_the_map(
     expect(page.get_by_role("columnheader", name="Value")).to_have_attribute(
         "aria-sort", "ascending"
     )
-    shown = rows.locator(".cell.value").all_inner_texts()
+    shown = rows.locator(".cell.of-value").all_inner_texts()
     assert shown == [f"{value:.6g} °C" for value in measured]
     rows.first.click()
     card = page.get_by_role("region", name="Temperature")

@@ -28,7 +28,7 @@ test("a copy has a name and keys of its own, and nothing in common with its orig
 });
 
 test("what is changed is found by its key, wherever it is by then", () => {
-  const change = changes.inTrip("a", "t2", (trip) => ({ ...trip, target: [5, 5] }));
+  const change = changes.inTrips("a", (trips) => trips.map((trip) => (trip.key === "t2" ? { ...trip, target: [5, 5] } : trip)));
   const [, moved] = change(PLAN.toReversed());
   assert.deepEqual(moved.trips.map(({ target }) => target), [[1, 2], [5, 5]]);
   assert.deepEqual(change([PLAN[1]]), [PLAN[1]]);

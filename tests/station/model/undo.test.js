@@ -1,8 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { addMission, addTrips, inTrip, moved, removeMission, removeTrips, setField, withField } from "../../../runtime/pluto_fleet/station/pages/core/changes.js";
+import { addMission, inTrips, moved, removeMission, setField, withField } from "../../../runtime/pluto_fleet/station/pages/core/changes.js";
 import { between, isSame, reverting } from "../../../runtime/pluto_fleet/station/pages/core/difference.js";
 import { Undo } from "../../../runtime/pluto_fleet/station/pages/core/undo.js";
+
+const addTrips = (/** @type {string} */ mission, /** @type {any[]} */ fresh, at = 0) =>
+  inTrips(mission, (trips) => trips.toSpliced(at, 0, ...fresh));
+const removeTrips = (/** @type {string} */ mission, /** @type {string[]} */ keys) =>
+  inTrips(mission, (trips) => trips.filter(({ key }) => !keys.includes(key)));
+const inTrip = (/** @type {string} */ mission, /** @type {string} */ trip, /** @type {(one: any) => any} */ change) =>
+  inTrips(mission, (trips) => trips.map((one) => (one.key === trip ? change(one) : one)));
 
 /** The same numbers for the same seed. @param {number} seed */
 function dice(seed) {

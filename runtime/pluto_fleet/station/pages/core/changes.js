@@ -74,18 +74,6 @@ export function moved(items, key, to) {
 export const inTrips = (mission, change) => (/** @type {PlanMission[]} */ missions) =>
   missions.map((one) => (one.key === mission ? { ...one, trips: change(one.trips) } : one));
 
-/** @param {string} mission @param {string} trip @param {(trip: PlanTrip) => PlanTrip} change */
-export const inTrip = (mission, trip, change) =>
-  inTrips(mission, (trips) => trips.map((one) => (one.key === trip ? change(one) : one)));
-
-/** @param {string} mission @param {PlanTrip[]} fresh @param {number} [at] the end, if it is left out */
-export const addTrips = (mission, fresh, at) => inTrips(mission, (trips) =>
-  trips.toSpliced(at ?? trips.length, 0, ...fresh.filter(({ key }) => !trips.some((one) => one.key === key))));
-
-/** @param {string} mission @param {readonly string[]} keys */
-export const removeTrips = (mission, keys) =>
-  inTrips(mission, (trips) => trips.filter(({ key }) => !keys.includes(key)));
-
 /** Each value of a plan, by where it stands. @param {PlanMission[]} missions @returns {Map<string, string>} */
 export const leaves = (missions) => new Map(missions.flatMap(({ key, trips, launched, ...own }) =>
   [[key, own], ...trips.map(({ key: trip, ...its }) => [`${key} ${trip}`, its])])

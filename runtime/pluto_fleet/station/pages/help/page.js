@@ -7,11 +7,12 @@ import { Settings } from "./settings.js";
 
 const STEPS = /** @type {const} */ (["missions", "trips", "start"]);
 const DRONES = ["FREE", "BUSY", "RETURNING", "CHARGING", "LOW", "UNKNOWN", "LOST", "RETIRED"];
-/** @type {readonly (readonly [string[], "keys.tabs" | "keys.map" | "keys.zoom" | "keys.whole" | "keys.pins" | "keys.fine" | "keys.delete" | "keys.undo" | "keys.reorder" | "keys.open" | "keys.hold" | "keys.close"])[]} */
+/** @type {readonly (readonly [string[], "keys.tabs" | "keys.map" | "keys.zoom" | "keys.whole" | "keys.pins" | "keys.fine" | "keys.delete" | "keys.undo" | "keys.reorder" | "keys.open" | "keys.hold" | "keys.close" | "keys.actions" | "keys.places" | "keys.new" | "keys.several"])[]} */
 const KEYS = [
   [["←", "→"], "keys.tabs"], [["←", "→", "↑", "↓"], "keys.map"], [["+", "−"], "keys.zoom"], [["0"], "keys.whole"],
   [["←", "→", "↑", "↓"], "keys.pins"], [["Shift"], "keys.fine"], [["Delete"], "keys.delete"],
   [["Ctrl+Z", "Ctrl+Y"], "keys.undo"], [["Alt+↑", "Alt+↓"], "keys.reorder"], [["Enter"], "keys.open"],
+  [["1", "9"], "keys.actions"], [["↓"], "keys.places"], [["N"], "keys.new"], [["Ctrl+A", "Ctrl+D"], "keys.several"],
   [["Space"], "keys.hold"], [["Esc"], "keys.close"],
 ];
 

@@ -1,5 +1,6 @@
-// The batteries over a flight: a line for each drone, and marks where something went wrong. A chart of
-// our own, of fifty lines: the smallest library for it weighs as much as half of all pages.
+// The batteries over a flight: a line for each drone, and marks where something went wrong. An SVG of our
+// own: uPlot as an ES module is 42 kB gzipped, as much as these two pages together, and draws on a canvas,
+// which is printed as pixels.
 
 import { h } from "preact";
 import { useMemo } from "preact/hooks";

@@ -22,7 +22,7 @@ export function FlightView({ flight }) {
   const isRehearsal = flight.startsWith("rehearsal-");
   const query = `?flight=${encodeURIComponent(flight)}`;
   return h("div", { class: "flight-view" },
-    h("div", { class: "flight-bar row no-print" },
+    h("div", { class: "flight-bar row no-print", "data-tab": tab.value },
       h(Button, { kind: "quiet", icon: "back", onClick: () => go("history") }, t("history.all-flights")),
       !isRehearsal && h(Tabs, {
         label: t("history.of-flight"), names: TABS, now: tab.value, title: (/** @type {TabName} */ name) => t(`history.tab.${name}`),

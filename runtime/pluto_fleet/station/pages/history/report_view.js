@@ -58,6 +58,7 @@ function Report({ report, replay, model }) {
     h(Part, { title: t("report.missions"), isEmpty: !missions.length }, h(Missions, { missions })),
     h(Part, { title: t("report.results"), isEmpty: !results.length }, h(ReportMap, { shape, model }), h(Results, { results })),
     h(Part, { title: t("report.incidents"), isEmpty: !incidents.length }, h(Table, {
+      title: t("report.incidents"),
       heads: [t("results.column.time"), t("results.column.mission"), t("results.column.drone"), t("report.what")],
       rows: incidents.map(({ time, mission, drone, text }) => [clock(time), mission ?? "", drone ?? "", text]),
     })),
@@ -74,13 +75,14 @@ const Fact = ({ name, words }) => h("div", null, h("dt", null, name), h("dd", nu
 const Part = ({ title, isEmpty, children }) => h("section", { class: "report-part" }, h("h3", null, title),
   isEmpty ? h("p", { class: "muted" }, t("report.none")) : children);
 
-/** @param {{ heads: string[], rows: ComponentChildren[][] }} props */
-const Table = ({ heads, rows }) => h("div", { class: "report-table" }, h("table", { class: "table" },
+/** @param {{ title: string, heads: string[], rows: ComponentChildren[][] }} props */
+const Table = ({ title, heads, rows }) => h("div", { class: "report-table", tabIndex: 0, role: "group", "aria-label": title }, h("table", { class: "table" },
   h("thead", null, h("tr", null, heads.map((head) => h("th", { key: head, scope: "col" }, head)))),
   h("tbody", null, rows.map((row, at) => h("tr", { key: at }, row.map((cell, place) => h("td", { key: place }, cell)))))));
 
 /** @param {{ missions: ReportMission[] }} props */
 const Missions = ({ missions }) => h(Table, {
+  title: t("report.missions"),
   heads: [t("results.column.mission"), t("report.outcome"), t("report.began"), t("report.took"), t("history.column.trips")],
   rows: missions.map(({ name, status, why, began, ended, late, trips }) => [
     h("strong", null, name),
@@ -95,6 +97,7 @@ const Missions = ({ missions }) => h(Table, {
 
 /** @param {{ results: ReportResults[] }} props */
 const Results = ({ results }) => h(Table, {
+  title: t("report.results"),
   heads: [t("results.column.what"), t("report.count"), t("report.lowest"), t("report.mean"), t("report.highest")],
   rows: results.map(({ action, kind, quantity, unit, count, lowest, mean, highest }) => [
     kind === "verdict" ? t("results.verdict") : capital(quantity ?? action ?? kind), number(count),
@@ -104,6 +107,7 @@ const Results = ({ results }) => h(Table, {
 
 /** @param {{ drones: ReportDrone[] }} props */
 const Drones = ({ drones }) => h(Table, {
+  title: t("report.batteries"),
   heads: [t("results.column.drone"), t("history.column.trips"), t("report.in-the-air"), t("report.battery-first"), t("report.battery-lowest"), t("report.battery-last"), t("history.hours.lost")],
   rows: drones.map((drone) => [
     drone.id, number(drone.trips), drone.hours === null ? t("unknown.short") : duration(drone.hours * 3600),
@@ -113,6 +117,7 @@ const Drones = ({ drones }) => h(Table, {
 
 /** @param {{ commands: ReportCommand[] }} props */
 const Commands = ({ commands }) => h(Table, {
+  title: t("report.commands"),
   heads: [t("results.column.time"), t("report.command"), t("history.column.by"), t("report.said")],
   rows: commands.map(({ time, at, command, given, by, client, said }) => [
     time !== null ? clock(time) : at !== null ? moment(at) : "",

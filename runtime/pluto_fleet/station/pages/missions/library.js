@@ -14,9 +14,7 @@ import { Chip, Dialog, Empty } from "../ui/parts.js";
 import { Icon } from "../ui/icon.js";
 import { take, tellError } from "./files.js";
 
-/** @typedef {{ name: string, saved_at: number, by: string, missions: number | null, template: boolean, said: string }} SavedPlan */
-/** @typedef {{ id: string, name: string, deleted_at: number }} TrashedPlan */
-/** @typedef {{ plans: SavedPlan[], trash: TrashedPlan[] }} SavedPlans */
+/** @import { SavedPlan, SavedPlans, TrashedPlan } from "../wire" */
 
 const isOpen = signal(false);
 /** @type {import("@preact/signals").Signal<SavedPlans | null>} */

@@ -97,7 +97,7 @@ function Table({ model, listed, onPick }) {
       class: `virtual-row ${row.result.number === chosen ? "chosen" : ""}`,
       style: { transform: `translateY(${(first + at) * ROW}px)` },
       onClick: () => onPick(row),
-    }, COLUMNS.map((column) => h("span", { key: column, role: "cell", class: `cell ${column}`, title: row.words[column] },
+    }, COLUMNS.map((column) => h("span", { key: column, role: "cell", class: `cell of-${column}`, title: row.words[column] },
       column === "what" ? h("button", {
         type: "button", class: "cell-button", tabIndex: -1, "aria-current": row.result.number === chosen ? "true" : undefined,
       }, row.words.what) : row.words[column]))))));
@@ -108,7 +108,7 @@ function Headings({ model }) {
   const { column: by, down } = model.order.value;
   return h("div", { role: "rowgroup", class: "virtual-head" }, h("div", { role: "row", "aria-rowindex": 1, class: "virtual-row" },
     COLUMNS.map((column) => h("span", {
-      key: column, role: "columnheader", class: `cell ${column}`, "aria-sort": column !== by ? "none" : down ? "descending" : "ascending",
+      key: column, role: "columnheader", class: `cell of-${column}`, "aria-sort": column !== by ? "none" : down ? "descending" : "ascending",
     }, h(Button, { kind: "quiet", small: true, onClick: () => model.sortBy(column) }, [
       t(`results.column.${column}`), column === by && h("span", { key: "sign", "aria-hidden": true }, down ? " ↓" : " ↑")])))));
 }

@@ -32,6 +32,7 @@ import { layerWords, placeWords, valueWords, whatWords, withUnit } from "./words
 /** @import { Result } from "../wire" */
 /** @import { Signal } from "@preact/signals" */
 
+const PHONE = matchMedia("(max-width: 760px)");
 const TABS = /** @type {const} */ (["layers", "table", "photos", "verdicts"]);
 /** @typedef {typeof TABS[number]} TabName */
 
@@ -67,7 +68,10 @@ export function ResultsView({ world, flight, onConsole, consoleWords }) {
       h(Tabs, {
         key: "tabs", label: t("results.tabs"), names: TABS, now: tab,
         title: (/** @type {TabName} */ name) => t(`results.tab.${name}`),
-        onPick: (/** @type {TabName} */ name) => { prefs.resultsTab.value = name; },
+        onPick: (/** @type {TabName} */ name) => {
+          prefs.resultsTab.value = name;
+          if (PHONE.matches) model.chosen.value = null; // its card lies over the list
+        },
       }),
       h("div", { key: "body", class: "rail-body", role: "tabpanel", "aria-label": t(`results.tab.${tab}`), tabIndex: 0 }, {
         layers: () => h(LayersTab, { model }),

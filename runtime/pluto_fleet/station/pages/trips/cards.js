@@ -64,7 +64,9 @@ function Card({ about, isDragged, isChosen, isOpen }) {
     if (event.altKey && by && !about.isFixed) {
       shift(key, by);
       if (isHead) focusHead(key); // moving it in the list takes the focus away
-    } else if (event.key === "Escape" && !isHead) focusHead(key);
+    } else if (event.key === "Escape" && !isHead) {
+      /** @type {HTMLElement | null | undefined} */ (element.current?.querySelector(".trip-head"))?.focus();
+    }
     else if (event.key === "Delete" && isHead) focusHead(remove(meant(key)));
     else return;
     event.preventDefault();

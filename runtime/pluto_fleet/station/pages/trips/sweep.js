@@ -11,7 +11,7 @@ import { abouts, pattern } from "./state.js";
 import { CornerFields, corners, MOST, ToolField } from "./tool_parts.js";
 
 /** @import { Point } from "../app" */
-/** @typedef {{ targets: Point[], metres: number, forbidden: number }} Swept */
+/** @import { Swept } from "../wire" */
 /** @import { Corners } from "./tool_parts.js" */
 
 const PAUSE = 250; // ms until what is being drawn is asked for
