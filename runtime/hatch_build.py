@@ -1,4 +1,7 @@
-"""What a wheel is built with: the pages of the station, minified; a checkout serves its sources."""
+"""What a wheel is built with: the pages of the station, minified; a checkout serves its sources.
+
+Where there is no minifier to be had, a wheel has the sources, too: it does the same, and is larger.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-import minify
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 PAGES = "pluto_fleet/station/pages"
@@ -21,21 +23,26 @@ class PagesHook(BuildHookInterface[Any]):
         """Minify for all wheels but those of an editable install."""
         if self.target_name != "wheel" or version == "editable":
             return
+        try:
+            import minify
+        except ImportError:
+            self.app.display_warning("pages are not minified: tdewolff-minify is not installed")
+            return
         self._made = TemporaryDirectory()
         root = Path(self.root)
         for source in sorted((root / PAGES).rglob("*")):
             if source.suffix in KINDS:
                 where = source.relative_to(root).as_posix()
-                build_data["force_include"][str(self._minified(source, where))] = where
+                small = minify.string(KINDS[source.suffix], source.read_text(encoding="utf-8"))
+                build_data["force_include"][str(self._written(where, small))] = where
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
         """Leave nothing behind."""
         if hasattr(self, "_made"):
             self._made.cleanup()
 
-    def _minified(self, source: Path, where: str) -> Path:
-        into = Path(self._made.name, where)
-        into.parent.mkdir(parents=True, exist_ok=True)
-        small = minify.string(KINDS[source.suffix], source.read_text(encoding="utf-8"))
-        into.write_text(small, encoding="utf-8")
-        return into
+    def _written(self, where: str, text: str) -> Path:
+        file = Path(self._made.name, where)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        return file

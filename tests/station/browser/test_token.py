@@ -7,23 +7,30 @@ import re
 import pytest
 from playwright.sync_api import expect
 
+from pluto_fleet.station.web.static import FOLDER
 from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.exercise import put_in
 from tests.station.browser.serving import until
 from tests.station.browser.steps import missions_listed, open_page, row_of, sees_all, start
 from tests.station.browser.watched import Watch
 
+LOGO_IS_DRAWN = "() => document.querySelector('.head img').naturalWidth > 0"
+
 
 def test_the_printed_address_lets_one_fly_and_the_token_leaves_it(
     serve: Serve, visit: Visit
 ) -> None:
-    """The floor plan is seen, too: it needs the token as well."""
-    station = serve("drugs_distribution", "--name", "ward.example", "--speed", "60")
+    """The floor plan is seen, too: it needs the token as well; and whose station it is."""
+    whose = ("--title", "Ward 3", "--logo", str(FOLDER / "icon.svg"))
+    station = serve("drugs_distribution", "--name", "ward.example", "--speed", "60", *whose)
     assert "#token=" in station.url
     put_in(station)
     page = visit(station)
     expect(missions_listed(page)).to_have_count(3)
     assert "token" not in page.url
+    expect(page.get_by_role("heading", name="Ward 3", level=1)).to_be_visible()
+    expect(page).to_have_title(re.compile("Ward 3$"))
+    until(lambda: page.evaluate(LOGO_IS_DRAWN), "the logo is drawn")
     start(page)
     sees_all(page, "Completed")
     expect(page.locator("image[href^='blob:']").first).to_be_attached()
