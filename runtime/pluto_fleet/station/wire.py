@@ -20,6 +20,42 @@ AlertKind = Literal[
     "lost", "crashed", "battery", "uncertain", "finding", "late", "waiting", "failed"
 ]
 Role = Literal["watch", "fly"]
+SaidKey = Literal[
+    "alert.battery",
+    "alert.battery-stays",
+    "alert.crashed",
+    "alert.failed",
+    "alert.finding",
+    "alert.late",
+    "alert.lost",
+    "alert.uncertain",
+    "alert.waiting",
+    "preflight.beside",
+    "preflight.brought-back",
+    "preflight.busy",
+    "preflight.cannot",
+    "preflight.charges",
+    "preflight.charging",
+    "preflight.endless",
+    "preflight.few",
+    "preflight.few-lift",
+    "preflight.flies",
+    "preflight.given-up",
+    "preflight.heard-before",
+    "preflight.in-the-air",
+    "preflight.lost",
+    "preflight.low",
+    "preflight.low-away",
+    "preflight.never-heard",
+    "preflight.no-rehearsal",
+    "preflight.not-apart",
+    "preflight.not-ready",
+    "preflight.promise",
+    "preflight.refused",
+    "preflight.retired",
+    "preflight.room",
+    "preflight.too-far",
+]
 
 
 class Words(TypedDict):
@@ -28,7 +64,7 @@ class Words(TypedDict):
     `text` is the sentence in English, for whatever does not know the key.
     """
 
-    key: str
+    key: SaidKey
     facts: dict[str, Scalar | list[str]]
     text: str
 

@@ -1,4 +1,4 @@
-// The little of a browser that the pages' model asks for, so that it runs in Node.
+// The little of a browser that the pages' model asks for, so that it runs in Node; it speaks English.
 
 /** @type {Map<string, string>} */
 const kept = new Map();
@@ -13,4 +13,7 @@ Object.assign(globalThis, {
   document: { documentElement: { lang: "", dataset: {} }, hidden: false },
   location: { hash: "", pathname: "/", origin: "http://localhost" },
 });
+Object.defineProperty(globalThis, "navigator", { value: { languages: ["en-GB"] }, configurable: true });
 
+const { speak } = await import("../../../runtime/pluto_fleet/station/pages/core/i18n.js");
+await speak("en");

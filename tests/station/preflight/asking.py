@@ -15,8 +15,8 @@ from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.station.preflight.preflight import Preflight
 from pluto_fleet.station.preflight.present import Present
 from pluto_fleet.station.preflight.question import Question
-from pluto_fleet.station.preflight.words import words
 from pluto_fleet.station.wire import Forecast, Words
+from pluto_fleet.station.words import words
 from tests.runtime.files.an_app import APP
 from tests.station.plan.drawing import Json, drawn, mission, trip
 
@@ -66,7 +66,7 @@ def question(
 
 def present(fleet: FleetFile, level: float, out: Sequence[str] = ()) -> list[Present]:
     """Return the drones in their docks, with one level of battery; those that are `out` are lost."""
-    lost = words("lost", "lost")
+    lost = words("preflight.lost", "lost")
     return [
         Present(id=one.id, at=one.home, battery=level, out=lost if one.id in out else None)
         for one in fleet.drones

@@ -111,7 +111,7 @@ def test_it_names_the_drones_that_are_too_few(
     warehouse: tuple[App, Example], tmp_path: Path
 ) -> None:
     forecast = in_the_hall(warehouse, tmp_path, 1.0, ["lifter2"])
-    (few,) = [one for one in forecast["bottlenecks"] if one["key"] == "preflight.few"]
+    (few,) = [one for one in forecast["bottlenecks"] if one["key"] == "preflight.few-lift"]
     assert few["text"] == "1 of 6 missions waits for the one drone that can lift 38 g"
     assert few["facts"]["drones"] == ["lifter1"]
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ...flight.control import ANSWERS
 from ...shared.domain.status import Status
 from ...shared.domain.text import cut_off, quoted
+from ..words import words
 
 if TYPE_CHECKING:
     from ..wire import AlertKind, DroneRow, MissionRow, Point, Result, Scalar, Words
@@ -31,11 +32,6 @@ class Cause:
     at: Point | None = None
 
 
-def words(key: str, text: str, **facts: Scalar | list[str]) -> Words:
-    """Return a sentence by the key of its translations, its facts, and the sentence in English."""
-    return {"key": f"alert.{key}", "facts": facts, "text": text}
-
-
 def of_drones(drones: Iterable[DroneRow], crashed: Collection[str]) -> Iterator[Cause]:
     """Yield the drones that are lost; `crashed` are those of which the gateway knows that they fell."""
     for row in drones:
@@ -45,7 +41,7 @@ def of_drones(drones: Iterable[DroneRow], crashed: Collection[str]) -> Iterator[
         text = f"{id} {'crashed' if fell else 'is lost'}" + (f": {why}" if why else "")
         kind: AlertKind = "crashed" if fell else "lost"
         at = None if row["x"] is None or row["y"] is None else [row["x"], row["y"]]
-        said = words(kind, text, drone=id, why=why)
+        said = words("alert.crashed" if fell else "alert.lost", text, drone=id, why=why)
         yield Cause(kind=kind, about=id, said=said, urgent=True, drone=id, at=at)
 
 
@@ -58,7 +54,7 @@ def of_missions(missions: Iterable[MissionRow]) -> Iterator[Cause]:
             question = row["question"]
             asked = question["text"] if question is not None else reason
             said = words(
-                "uncertain",
+                "alert.uncertain",
                 f"{called} needs you: {asked}",
                 mission=name,
                 question=asked,
@@ -76,12 +72,12 @@ def of_missions(missions: Iterable[MissionRow]) -> Iterator[Cause]:
             )
         elif row["status"] == Status.FAILED.value:
             text = f"{called} has failed" + (f": {reason}" if reason else "")
-            said = words("failed", text, mission=name, why=reason)
+            said = words("alert.failed", text, mission=name, why=reason)
             yield Cause(kind="failed", about=name, said=said, mission=name, at=_place_of(row))
         elif row["late"] and row["at"] != ["end"]:
             due = row["due"]
             facts: dict[str, Scalar | list[str]] = {} if due is None else {"due": due}
-            said = words("late", f"{called} is late", mission=name, **facts)
+            said = words("alert.late", f"{called} is late", mission=name, **facts)
             yield Cause(kind="late", about=name, said=said, mission=name)
 
 
@@ -100,12 +96,13 @@ def of_results(findings: Iterable[Result]) -> Iterator[Cause]:
         text = f"{', '.join(tags)}: found by {quoted(cut_off(one['mission'], _LONGEST_NAME))}"
         text += f" at {one['place'] or trip}" if one["place"] or trip else ""
         said = words(
-            "finding",
+            "alert.finding",
             text,
             tags=tags,
             mission=one["mission"],
             trip=trip,
             place=one["place"] or "",
+            where=one["place"] or trip,
             number=one["number"],
         )
         yield Cause(

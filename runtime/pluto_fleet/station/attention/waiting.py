@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from ...shared.domain.text import counted, duration, percent
 from ..rows import WAITS_FOR_A_DRONE
-from .causes import Cause, words
+from ..words import words
+from .causes import Cause
 
 if TYPE_CHECKING:
     from ..wire import DroneRow, MissionRow, Scalar
@@ -74,7 +75,7 @@ def of_waiting(waiting: int, drones: Sequence[DroneRow], takes: float | None) ->
     parts += [f"{number} {_SAID.get(what, what)}" for what, number in count.items() if number]
     wait = "waits" if waiting == 1 else "wait"
     text = f"{counted(waiting, 'mission')} {wait}: {', '.join(parts)}"
-    return Cause(kind="waiting", about="", said=words("waiting", text, **facts))
+    return Cause(kind="waiting", about="", said=words("alert.waiting", text, **facts))
 
 
 _SAID = {"recovering": "being recovered", "offline": "not asked yet"}
@@ -98,8 +99,8 @@ def of_batteries(drones: Sequence[DroneRow], wait: bool) -> Iterator[Cause]:
         text += "it does not charge: look whether it stands in its dock"
     else:
         text += "they do not charge: look whether they stand in their docks"
-    said, drone = words("battery", text, **facts), ids[0] if one else None
-    yield Cause(kind="battery", about="", said=said, drone=drone)
+    said = words("alert.battery-stays" if soonest is None else "alert.battery", text, **facts)
+    yield Cause(kind="battery", about="", said=said, drone=ids[0] if one else None)
 
 
 def _low(drones: Iterable[DroneRow]) -> list[DroneRow]:

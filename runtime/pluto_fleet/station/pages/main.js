@@ -8,6 +8,7 @@ import { alarm } from "./attention/alarm.js";
 import { takeTokenFromAddress } from "./core/api.js";
 import { bestLanguage, speak, t } from "./core/i18n.js";
 import { followMap } from "./core/landmarks.js";
+import { tell } from "./core/notices.js";
 import { applyLook, prefs } from "./core/prefs.js";
 import { page, PAGES } from "./core/route.js";
 import { app, connect, refusal } from "./core/station.js";
@@ -64,11 +65,23 @@ function Station() {
     h(Over, null), h(Notices, null));
 }
 
+// Without its texts the page is drawn all the same, with their keys: Stop works.
+/** @param {string} chosen */
+async function speakBest(chosen) {
+  try {
+    await speak(bestLanguage([chosen, ...navigator.languages]));
+  } catch (error) {
+    console.error(error);
+    tell(t("api.silent"), { bad: true });
+  }
+}
+
 takeTokenFromAddress();
 applyLook();
-prefs.language.subscribe((chosen) => { speak(bestLanguage([chosen, ...navigator.languages])); });
-render(h(Station, null), document.body);
 connect();
+await speakBest(prefs.language.peek());
+render(h(Station, null), document.body);
+prefs.language.subscribe(speakBest);
 alarm();
 followMap();
 const first = page.peek(); // another one may be open once this is here

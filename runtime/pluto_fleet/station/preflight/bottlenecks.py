@@ -9,7 +9,7 @@ from ...shared.domain.actions import PICK
 from ...shared.domain.text import counted, duration, mass, percent
 from ...shared.fleet.reach import docked
 from ..charging import ready_in
-from .words import words
+from ..words import words
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -61,7 +61,7 @@ def _low(question: Question, waits: Waits) -> Iterator[Words]:
     are = "is" if len(short) == 1 else "are"
     text = f"{_wait(number)}: {counted(len(short), 'drone')} {are} below {percent(level)}{first}"
     facts = {} if soonest is None else {"ready_in": soonest}
-    yield words("low", text, missions=number, drones=len(short), level=level, **facts)
+    yield words("preflight.low", text, missions=number, drones=len(short), level=level, **facts)
 
 
 def _few(question: Question, waits: Waits) -> Iterator[Words]:
@@ -82,7 +82,7 @@ def _few(question: Question, waits: Waits) -> Iterator[Words]:
         of = counted(len(question.all), "mission")
         text = f"{number} of {of} {wait} for {who} that can {does}"
         yield words(
-            "few",
+            "preflight.few-lift" if action == PICK else "preflight.few",
             text,
             missions=number,
             of=len(question.all),
@@ -98,7 +98,7 @@ def _charging(question: Question, waits: Waits) -> Iterator[Words]:
     if late:
         mean = sum(waits.low[name] for name in late) / len(late)
         text = f"{_wait(len(late))} for batteries to be charged, {duration(mean)} on average"
-        yield words("charging", text, missions=len(late), seconds=mean)
+        yield words("preflight.charging", text, missions=len(late), seconds=mean)
 
 
 def _busy(question: Question, waits: Waits) -> Iterator[Words]:
@@ -109,7 +109,7 @@ def _busy(question: Question, waits: Waits) -> Iterator[Words]:
         number = len(question.flown.drones)
         who = "the one drone is" if number == 1 else f"all {number} drones are"
         text = f"{_wait(len(busy))} {duration(mean)} on average: {who} busy then"
-        yield words("busy", text, missions=len(busy), seconds=mean, drones=number)
+        yield words("preflight.busy", text, missions=len(busy), seconds=mean, drones=number)
 
 
 def _room(question: Question, waits: Waits) -> Iterator[Words]:
@@ -118,7 +118,7 @@ def _room(question: Question, waits: Waits) -> Iterator[Words]:
     held = _notable(waits, waits.room)
     if held and most is not None:
         text = f"{_wait(len(held))}, as no more than {counted(most, 'drone')} may fly at once"
-        yield words("room", text, missions=len(held), drones=most)
+        yield words("preflight.room", text, missions=len(held), drones=most)
 
 
 def _notable(waits: Waits, seconds: Mapping[str, float]) -> list[str]:

@@ -11,10 +11,10 @@ from ...flight.simulate import has_traffic
 from ...shared.domain.text import counted, duration, percent
 from ...shared.fleet.reach import docked
 from ..charging import ready_in
+from ..words import words
 from .bottlenecks import bottlenecks
 from .question import UNTIL
 from .runs import Needs, Rehearsed, Run, telling
-from .words import words
 
 if TYPE_CHECKING:
     from ...shared.domain.model import Mission
@@ -113,20 +113,22 @@ def _why_not(
     one: Present, wanted: float, seconds: float | None, needs: Needs, *, docked: bool
 ) -> Words | None:
     if one.id in needs.why:
-        return words("cannot", needs.why[one.id], why=needs.why[one.id])
+        return words("preflight.cannot", needs.why[one.id], why=needs.why[one.id])
     if one.battery >= wanted:
         return None
     has = f"its battery has {percent(one.battery)}"
     if wanted > 1.0:
-        return words("too-far", "no battery lasts for any of these missions and the way home")
+        return words(
+            "preflight.too-far", "no battery lasts for any of these missions and the way home"
+        )
     facts = {"battery": one.battery, "needs": wanted}
     if seconds is None:
         text = (
             f"{has}, any of these missions takes {percent(wanted)}: it flies home first to charge"
         )
-        return words("low-away", text, **facts)
+        return words("preflight.low-away", text, **facts)
     text = f"{has}, any of these missions takes {percent(wanted)}: in {duration(seconds)}"
-    return words("charges", text, ready_in=seconds, **facts)
+    return words("preflight.charges", text, ready_in=seconds, **facts)
 
 
 def _mission(mission: Mission[Any], key: str, runs: Sequence[Run]) -> MissionForecast:
@@ -150,19 +152,19 @@ def _assumed(question: Question, rehearsed: Rehearsed | None) -> list[Words]:
             f"{counted(len(question.beside), 'mission')} that fly already are flown to their end,"
             " by drones that are supposed to be back in their docks"
         )
-        found.append(words("beside", text, missions=len(question.beside)))
+        found.append(words("preflight.beside", text, missions=len(question.beside)))
     if question.until is not None:
         text = f"some missions repeat until they are stopped: they are flown for {duration(UNTIL)}"
-        found.append(words("endless", text, seconds=UNTIL))
+        found.append(words("preflight.endless", text, seconds=UNTIL))
     if question.is_simpler:
         text = (
             "drones are not kept apart in these runs, as that takes too long to work out for so many:"
             " it will take longer than they say"
         )
-        found.append(words("not-apart", text))
+        found.append(words("preflight.not-apart", text))
     if rehearsed is not None and rehearsed.trouble:
         text = f"there is no rehearsal: {rehearsed.trouble}"
-        found.append(words("no-rehearsal", text, why=rehearsed.trouble))
+        found.append(words("preflight.no-rehearsal", text, why=rehearsed.trouble))
     return found
 
 
@@ -172,4 +174,4 @@ def _given_up(runs: Sequence[Run]) -> list[Words]:
         return []
     why = found[0].partition(";")[0]
     text = f"{len(found)} of {counted(len(runs), 'run')} were given up: {why}"
-    return [words("given-up", text, runs=len(found), why=why)]
+    return [words("preflight.given-up", text, runs=len(found), why=why)]

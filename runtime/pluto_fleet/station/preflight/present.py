@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ...shared.domain.text import duration, percent
 from ..between_flights import BACK, FRESH_FOR, HOVERED, NEVER
 from ..charging import level_after
-from .words import words
+from ..words import words
 
 if TYPE_CHECKING:
     from ...files.drones import DroneEntry
@@ -52,10 +52,10 @@ def at_rest(
     out = _out(entry.id, seen, records)
     if entry.id in records.mended:
         level = seen.battery if seen is not None and seen.when else 1.0
-        back = words("brought-back", BACK)
+        back = words("preflight.brought-back", BACK)
         return Present(id=entry.id, at=entry.home, battery=level, assumed=back, known=False)
     if seen is None:
-        never = words("never-heard", f"{NEVER}: supposed to be charged, in its dock")
+        never = words("preflight.never-heard", f"{NEVER}: supposed to be charged, in its dock")
         assumed = None if simulated or out else never
         return Present(
             id=entry.id, at=entry.home, battery=1.0, out=out, assumed=assumed, known=simulated
@@ -69,7 +69,11 @@ def at_rest(
             f" supposed to be at {percent(level)} by now"
         )
         assumed = words(
-            "heard-before", text, seconds=now - seen.when, battery=seen.battery, supposed=level
+            "preflight.heard-before",
+            text,
+            seconds=now - seen.when,
+            battery=seen.battery,
+            supposed=level,
         )
     return Present(id=entry.id, at=seen.at, battery=level, out=out, assumed=assumed)
 
@@ -77,14 +81,14 @@ def at_rest(
 def _out(id: str, seen: Sighting | None, records: Records) -> Words | None:
     if id in records.lost:
         why = str(records.lost[id]["reason"])
-        return words("lost", f"lost: {why}" if why else "lost", why=why)
+        return words("preflight.lost", f"lost: {why}" if why else "lost", why=why)
     if id in records.retired:
-        return words("retired", "retired")
+        return words("preflight.retired", "retired")
     if id in records.mended or seen is None:
         return None
     if seen.why:
-        return words("not-ready", seen.why, why=seen.why)
-    return None if seen.landed else words("in-the-air", HOVERED)
+        return words("preflight.not-ready", seen.why, why=seen.why)
+    return None if seen.landed else words("preflight.in-the-air", HOVERED)
 
 
 def in_flight(
@@ -96,12 +100,14 @@ def in_flight(
         out = assumed = None
         if drone["status"] == "LOST":
             why = str(drone["unready"])
-            out = words("lost", f"lost: {why}" if why else "lost", why=why)
+            out = words("preflight.lost", f"lost: {why}" if why else "lost", why=why)
         elif drone["retired"]:
-            out = words("retired", "retired")
+            out = words("preflight.retired", "retired")
         elif drone["unready"]:
-            out = words("not-ready", str(drone["unready"]), why=str(drone["unready"]))
+            out = words("preflight.not-ready", str(drone["unready"]), why=str(drone["unready"]))
         elif not drone["landed"]:
-            assumed = words("flies", "it flies: supposed to be in its dock, with what it has now")
+            assumed = words(
+                "preflight.flies", "it flies: supposed to be in its dock, with what it has now"
+            )
         at = (x, y, z) if drone["landed"] else entries[id].home
         yield Present(id=id, at=at, battery=drone["battery"], out=out, assumed=assumed)

@@ -13,11 +13,11 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.status import TripStatus
 from ...trials.case import fresh
 from ..plan.promised import broken, promised
+from ..words import words
 from .forecast import without_runs
 from .preflight import MOST_RUNS, Newer, Preflight
 from .present import Present, at_rest, in_flight
 from .question import Question
-from .words import words
 
 if TYPE_CHECKING:
     from ...app import App
@@ -75,7 +75,9 @@ class StartForecasts:
             if not missions:
                 raise BadInput("there is no mission to start: make one first")
         except BadInput as error:
-            problems = [words("refused", text, why=text) for text in str(error).split("\n")]
+            problems = [
+                words("preflight.refused", text, why=text) for text in str(error).split("\n")
+            ]
             return without_runs(None, asked.revision, problems)
         now = time.localtime()
         fleet = replace(
@@ -102,7 +104,7 @@ class StartForecasts:
             revision=asked.revision,
         )
         late = await broken(promised(missions), self._app, fleet)
-        problems = [words("promise", text, why=text) for text in late]
+        problems = [words("preflight.promise", text, why=text) for text in late]
         if asked.revision != self._plan.revision:
             raise Newer("the plan has changed")
         return await self.preflight.ask(question, keys, problems)

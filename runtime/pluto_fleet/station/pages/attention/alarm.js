@@ -1,7 +1,7 @@
 // A sound and a notification of the browser for what is new and urgent: each only where it was asked for.
 
 import { effect } from "@preact/signals";
-import { say } from "../core/i18n.js";
+import { say } from "../core/said.js";
 import { prefs } from "../core/prefs.js";
 import { app } from "../core/station.js";
 import { unheeded } from "./button.js";

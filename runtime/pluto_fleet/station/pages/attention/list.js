@@ -1,12 +1,12 @@
 // The list of what wants attention: why, since when, and who has seen it.
 
 import { h } from "preact";
-import { say, t } from "../core/i18n.js";
+import { t } from "../core/i18n.js";
 import { moment } from "../core/format.js";
 import { go } from "../core/route.js";
 import { mayFly, perform, selectDrone, selectMission } from "../core/station.js";
 import { Button } from "../ui/button.js";
-import { Dialog, Empty } from "../ui/parts.js";
+import { Dialog, Empty, SaidWords } from "../ui/parts.js";
 import { Icon } from "../ui/icon.js";
 import { isOpen, open } from "./button.js";
 
@@ -22,7 +22,7 @@ function Item({ alert }) {
   };
   return h("li", { class: `alert ${alert.urgent ? "urgent" : ""}` },
     h(Icon, { name: alert.urgent ? "warning" : "info" }),
-    h("div", null, h("p", null, say(alert.said)),
+    h("div", null, h("p", null, h(SaidWords, { words: alert.said })),
       h("p", { class: "hint" }, moment(alert.since_at),
         alert.by !== null && ` · ${t("attention.by", { who: alert.by || t("attention.unnamed") })}`)),
     h("div", { class: "row" },

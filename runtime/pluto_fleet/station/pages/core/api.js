@@ -9,10 +9,11 @@ const RETRY_EVERY = 400; // ms
 
 /** A request that failed: `status` is the answer's, or 0 where there was none. */
 export class StationError extends Error {
-  /** @param {string} message @param {number} status */
-  constructor(message, status) {
+  /** @param {string} message @param {number} status @param {boolean} [isSaid] the sentence is the station's own */
+  constructor(message, status, isSaid = status > 0) {
     super(message);
     this.status = status;
+    this.isSaid = isSaid;
   }
 }
 
@@ -65,7 +66,7 @@ async function request(method, path, { body, type = "application/json", timeout 
   }
   if (answer.ok || answer.status === 409) return answer; // 409 says how things stand
   const { said } = await answer.json().catch(() => ({}));
-  throw new StationError(said ?? t("api.silent"), answer.status);
+  throw new StationError(said ?? t("api.silent"), answer.status, said !== undefined);
 }
 
 /**

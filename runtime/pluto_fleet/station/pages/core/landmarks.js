@@ -61,7 +61,7 @@ async function sent(ask) {
     return status === 200;
   } catch (error) {
     if (!(error instanceof StationError)) throw error;
-    tell(error.message, { bad: true });
+    tell(error.message, { bad: true, isSaid: error.isSaid });
     return false;
   }
 }

@@ -8,6 +8,7 @@ import { signal } from "@preact/signals";
  * @typedef {object} Notice
  * @property {string} text
  * @property {boolean} bad
+ * @property {boolean} isSaid it is the station's own sentence
  * @property {(() => void) | null} undo
  */
 
@@ -26,11 +27,11 @@ let timer = 0;
 /**
  * Tell the user something.
  * @param {string} text
- * @param {{ bad?: boolean, undo?: (() => void) | null, settles?: boolean }} [how] settles: the bad one is over
+ * @param {{ bad?: boolean, isSaid?: boolean, undo?: (() => void) | null, settles?: boolean }} [how] settles: the bad one is over
  */
-export function tell(text, { bad = false, undo = null, settles = false } = {}) {
+export function tell(text, { bad = false, isSaid = false, undo = null, settles = false } = {}) {
   if (settles) badNotice.value = null;
-  (bad ? badNotice : goodNotice).value = { text, bad, undo };
+  (bad ? badNotice : goodNotice).value = { text, bad, isSaid, undo };
   if (bad) return;
   clearTimeout(timer);
   timer = setTimeout(() => { goodNotice.value = null; }, undo ? UNDO_FOR : SHOWN_FOR);

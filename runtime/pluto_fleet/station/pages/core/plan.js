@@ -22,7 +22,7 @@ const MOST_TOLD = 3; // collisions in one message
  * @property {(thing: PlanMission | PlanTrip) => unknown} now its value in the plan
  */
 /** @typedef {Draft & { mission: string, trip: string | null, field: string }} PlacedDraft */
-/** @typedef {PlanProblem & { typed?: string }} ShownProblem */
+/** @typedef {PlanProblem & { typed?: string, isOwn?: boolean }} ShownProblem isOwn: this page says it, in its language */
 
 export class PlanStore {
   /**
@@ -74,7 +74,7 @@ export class PlanStore {
       if (!thing) this.drafts.delete(at);
       else {
         const kept = now(thing) ?? t("plan.nothing-there");
-        found.push({ mission, trip, field, text: t("plan.still-has", { why, kept }), typed });
+        found.push({ mission, trip, field, text: t("plan.still-has", { why, kept }), typed, isOwn: true });
       }
     }
     this.problems.value = [...found, ...this.base.problems];

@@ -157,11 +157,11 @@ export async function connect() {
  */
 export async function perform(name, given = {}) {
   try {
-    tell(await command(name, given));
+    tell(await command(name, given), { isSaid: true });
     return true;
   } catch (error) {
     if (!(error instanceof StationError)) throw error;
-    tell(error.message, { bad: true });
+    tell(error.message, { bad: true, isSaid: error.isSaid });
     return false;
   }
 }

@@ -1,7 +1,7 @@
 // Help: the three steps, what the colours and signs mean, the keys, and the settings of this browser.
 
 import { h } from "preact";
-import { t } from "../core/i18n.js";
+import { t, tOr } from "../core/i18n.js";
 import { Standing } from "../ui/standing.js";
 import { Settings } from "./settings.js";
 
@@ -15,6 +15,9 @@ const KEYS = [
   [["1", "9"], "keys.actions"], [["↓"], "keys.places"], [["N"], "keys.new"], [["Ctrl+A", "Ctrl+D"], "keys.several"],
   [["Space"], "keys.hold"], [["Esc"], "keys.close"],
 ];
+
+/** "Ctrl+Z", as the reader's keyboard calls it. @param {string} key */
+const named = (key) => key.split(/(?<=.)\+/).map((one) => tOr(`key.${one}`, one)).join("+");
 
 export default function Help() {
   return h("div", { class: "help-columns" },
@@ -31,5 +34,5 @@ export default function Help() {
     h("section", { class: "card stack", "aria-labelledby": "keys" },
       h("h2", { id: "keys" }, t("help.keys")),
       h("table", { class: "table" }, h("tbody", null, KEYS.map(([keys, what]) => h("tr", { key: what },
-        h("td", null, keys.map((key) => h("kbd", { key, class: "key" }, key))), h("td", null, t(what))))))));
+        h("td", null, keys.map((key) => h("kbd", { key, class: "key" }, named(key)))), h("td", null, t(what))))))));
 }

@@ -10,6 +10,7 @@ import { World } from "../core/world.js";
 import { ResultsModel } from "../results/model.js";
 import { withUnit } from "../results/words.js";
 import { Button } from "../ui/button.js";
+import { Said } from "../ui/parts.js";
 import { useAsked } from "./asked.js";
 import { BatteryChart, Times } from "./battery_chart.js";
 import { ReportMap } from "./report_map.js";
@@ -46,7 +47,7 @@ function Report({ report, replay, model }) {
     h("div", { class: "row report-head" }, h("div", null, h("p", { class: "muted" }, shape.title),
       h("h2", null, t("report.title", { when: flight.begun_at === null ? flight.id : dated(flight.begun_at) }))),
     h("div", { class: "spread no-print" }, h(Button, { kind: "primary", icon: "save", onClick: () => window.print() }, t("report.print")))),
-    flight.said && h("p", { class: "problem" }, flight.said),
+    flight.said && h("p", { class: "problem" }, h(Said, { text: flight.said })),
     h("dl", { class: "report-facts" },
       h(Fact, { name: t("history.column.end"), words: t(`history.end.${flight.end}`) }),
       h(Fact, { name: t("history.column.missions"), words: outcomeWords(flight) }),
@@ -60,7 +61,7 @@ function Report({ report, replay, model }) {
     h(Part, { title: t("report.incidents"), isEmpty: !incidents.length }, h(Table, {
       title: t("report.incidents"),
       heads: [t("results.column.time"), t("results.column.mission"), t("results.column.drone"), t("report.what")],
-      rows: incidents.map(({ time, mission, drone, text }) => [clock(time), mission ?? "", drone ?? "", text]),
+      rows: incidents.map(({ time, mission, drone, text }) => [clock(time), mission ?? "", drone ?? "", h(Said, { text })]),
     })),
     h(Part, { title: t("report.batteries"), isEmpty: !drones.length },
       h("div", { class: "report-chart" }, h(BatteryChart, { batteries: replay.batteries, seconds: replay.seconds, marks }), h(Times, { seconds: replay.seconds })),
@@ -86,12 +87,12 @@ const Missions = ({ missions }) => h(Table, {
   heads: [t("results.column.mission"), t("report.outcome"), t("report.began"), t("report.took"), t("history.column.trips")],
   rows: missions.map(({ name, status, why, began, ended, late, trips }) => [
     h("strong", null, name),
-    [tOr(`status.${status}`, status), late && ` · ${t("monitor.late")}`, why && h("p", { class: "hint" }, why)],
+    [tOr(`status.${status}`, status), late && ` · ${t("monitor.late")}`, why && h("p", { class: "hint" }, h(Said, { text: why }))],
     began === null ? "" : clock(began), tookWords(began, ended),
     h("ul", { class: "report-trips" }, trips.map((trip) => h("li", { key: trip.name },
       `${trip.name} (${plain(trip.action)}): ${tOr(`status.${trip.status}`, trip.status)}`,
       trip.drone && ` · ${trip.drone}`, trip.attempts > 1 && ` · ${t("report.attempts", { n: trip.attempts })}`,
-      trip.why && h("span", { class: "hint" }, ` · ${trip.why}`)))),
+      trip.why && h("span", { class: "hint" }, " · ", h(Said, { text: trip.why }))))),
   ]),
 });
 
@@ -123,6 +124,6 @@ const Commands = ({ commands }) => h(Table, {
     time !== null ? clock(time) : at !== null ? moment(at) : "",
     [capital(command), ...Object.entries(given).filter(([name, value]) => value !== null && name !== "revision")
       .map(([name, value]) => `${plain(name)} ${inWords(/** @type {import("../app").Scalar} */ (value))}`)].join(", "),
-    by ?? client ?? "", said,
+    by ?? client ?? "", h(Said, { text: said }),
   ]),
 });

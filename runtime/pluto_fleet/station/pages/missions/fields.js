@@ -12,7 +12,7 @@ export function MissionField({ mission, field, onKeyDown }) {
   const { key, launched } = mission;
   const problem = plan.problems.value.find((one) => one.mission === key && !one.trip && one.field === field.name);
   return h(Field, {
-    key: `${key} ${field.name}`, field, value: problem?.typed ?? mission[field.name], problem: problem?.text ?? "",
+    key: `${key} ${field.name}`, field, value: problem?.typed ?? mission[field.name], problem: problem?.text ?? "", isOwn: problem?.isOwn,
     locked: launched || !mayFly.value, evaluators: app.value?.evaluators ?? [], onKeyDown,
     onChange: (value, typing, wrong) => {
       plan.draft(key, null, field.name, wrong && { ...wrong, now: (one) => one[field.name] });

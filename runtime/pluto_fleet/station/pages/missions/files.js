@@ -10,7 +10,7 @@ import { markOne } from "./marked.js";
 /** @param {unknown} error */
 export function tellError(error) {
   if (!(error instanceof StationError)) throw error;
-  tell(error.message, { bad: true });
+  tell(error.message, { bad: true, isSaid: error.isSaid });
 }
 
 /**
@@ -24,7 +24,7 @@ export async function take(ask, said) {
     const { status, data } = await ask(plan.revision);
     if (!data.missions) throw new StationError(data.said, status);
     plan.take(data);
-    if (status === 409) throw new StationError(t("missions.changed-meanwhile"), status);
+    if (status === 409) throw new StationError(t("missions.changed-meanwhile"), status, false);
   } catch (error) {
     tellError(error);
     return;

@@ -10,7 +10,7 @@ import { tell } from "../core/notices.js";
 import { mayFly, plan } from "../core/station.js";
 import { prefs } from "../core/prefs.js";
 import { Button } from "../ui/button.js";
-import { Chip, Dialog, Empty } from "../ui/parts.js";
+import { Chip, Dialog, Empty, Said } from "../ui/parts.js";
 import { Icon } from "../ui/icon.js";
 import { take, tellError } from "./files.js";
 
@@ -79,7 +79,7 @@ function Item({ one }) {
   const about = [missions !== null && many("many.missions", missions), moment(at_), by].filter(Boolean).join(" · ");
   return h("li", { class: "saved-plan" },
     h("div", { class: "row" }, h("strong", { class: "called" }, name), template && h(Chip, null, t("library.template"))),
-    h("p", { class: "hint" }, about), said && h("p", { class: "problem" }, h(Icon, { name: "warning" }), h("span", null, said)),
+    h("p", { class: "hint" }, about), said && h("p", { class: "problem" }, h(Icon, { name: "warning" }), h(Said, { text: said })),
     mayFly.value && h("div", { class: "row" },
       missions !== null && h(Button, { small: true, kind: "primary", onClick: () => { open(one, template); } }, t(template ? "library.add" : "library.open")),
       missions !== null && h(Button, { small: true, onClick: () => { open(one, !template); } }, t(template ? "library.open" : "library.add")),

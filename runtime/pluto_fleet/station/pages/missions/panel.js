@@ -7,6 +7,7 @@ import { app, mayFly, plan, selected } from "../core/station.js";
 import { preflight, start } from "../start/commands.js";
 import { Button, HoldButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
+import { Said } from "../ui/parts.js";
 import { Touching } from "../ui/people.js";
 import { copy, open, remove, selectedInWords, unlocked } from "./commands.js";
 import { MissionField } from "./fields.js";
@@ -71,10 +72,10 @@ function One({ mission, wanted }) {
     h("div", { class: "panel-title" },
       h(MissionField, { mission, field: { name: "name", type: "text", label: t("missions.name") }, onKeyDown: toTrips }),
       h(Touching, { keys: [key] })),
-    told.length > 0 && h("div", { class: "stack" }, told.slice(0, MOST_TOLD).map(({ trip, text }) => {
+    told.length > 0 && h("div", { class: "stack" }, told.slice(0, MOST_TOLD).map(({ trip, text, isOwn }) => {
       const n = trips.findIndex((one) => one.key === trip) + 1;
       return h("p", { key: `${trip} ${text}`, class: "problem" }, h(Icon, { name: "warning" }),
-        h("span", null, n ? t("missions.at-trip", { n, text }) : text));
+        h(Said, { text: n ? t("missions.at-trip", { n, text }) : text, isOwn }));
     })),
     fields.mission.length > 0 && h("div", { class: "fields" },
       ownFirst(fields.mission).map((field) => h(MissionField, { key: field.name, mission, field }))),

@@ -6,6 +6,7 @@ import { setField } from "../core/changes.js";
 import { t } from "../core/i18n.js";
 import { plan } from "../core/station.js";
 import { Icon } from "../ui/icon.js";
+import { Said } from "../ui/parts.js";
 import { MissionField } from "./fields.js";
 
 /** @import { PlanMission } from "../app" */
@@ -32,7 +33,7 @@ export function Promises({ mission, wanted }) {
 function After({ mission: { key, launched, after = [] } }) {
   const id = useId();
   const others = plan.missions.value.filter((one) => one.key !== key).map(({ name }) => name);
-  const text = plan.problems.value.find((one) => one.mission === key && !one.trip && one.field === "after")?.text;
+  const { text = "", isOwn } = plan.problems.value.find((one) => one.mission === key && !one.trip && one.field === "after") ?? {};
   const names = [...new Set([...others, ...after])];
   if (!names.length) return null;
   /** @param {string} name */
@@ -45,5 +46,5 @@ function After({ mission: { key, launched, after = [] } }) {
     h("div", { class: "choices" }, names.map((name) => h("label", { key: name, class: "check" },
       h("input", { type: "checkbox", value: name, checked: after.includes(name), onChange: () => tick(name) }),
       h("span", { class: "called" }, name)))),
-    h("p", { class: "problem", id, hidden: !text }, h(Icon, { name: "warning" }), h("span", null, text)));
+    h("p", { class: "problem", id, hidden: !text }, h(Icon, { name: "warning" }), h(Said, { text, isOwn })));
 }

@@ -9,6 +9,7 @@ import { t } from "../core/i18n.js";
 import { tell } from "../core/notices.js";
 import { selectMission } from "../core/station.js";
 import { Button, IconButton } from "../ui/button.js";
+import { Said } from "../ui/parts.js";
 
 /** @import { LogLine } from "../wire" */
 /** @import { World } from "../core/world.js" */
@@ -40,7 +41,7 @@ export function Console({ world, live }) {
   const unread = isFollowing.value ? 0 : shown.filter((line) => line.number > readTo.current).length;
   const save = () => download("/api/console.txt", "console.txt").catch((/** @type {unknown} */ error) => {
     if (!(error instanceof StationError)) throw error;
-    tell(error.message, { bad: true });
+    tell(error.message, { bad: true, isSaid: error.isSaid });
   });
   return h("div", { class: "console" },
     h("div", { class: "row console-tools" },
@@ -69,4 +70,4 @@ const Line = ({ line: { time, mission, text, kind } }) => h("p", { class: `log-l
   h("span", { class: "when num" }, clock(time)),
   h("span", { class: "sign", "aria-hidden": true }, SIGNS[kind]),
   mission !== null && h("button", { type: "button", class: "link", onClick: () => selectMission(mission) }, mission),
-  h("span", { class: "said" }, text));
+  h(Said, { class: "said", text, isOwn: kind === "hook" }));

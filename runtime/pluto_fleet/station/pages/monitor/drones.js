@@ -6,7 +6,7 @@ import { duration, many, number, roughly } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { app, line, mayFly, perform, selectDrone, selection, selectMission } from "../core/station.js";
 import { Button, IconButton } from "../ui/button.js";
-import { Battery, Empty } from "../ui/parts.js";
+import { Battery, Empty, Said, joined } from "../ui/parts.js";
 import { Slide } from "../ui/slide.js";
 import { Standing, toneOf } from "../ui/standing.js";
 import { walking } from "../ui/walk.js";
@@ -56,10 +56,10 @@ function DroneLine({ world, id, live }) {
 /** @param {{ row: DroneRow, live: boolean }} props */
 function WhyNot({ row, live }) {
   const facts = [
-    row.why, live ? seen(row) : "",
+    row.why && h(Said, { text: row.why }), live ? seen(row) : "",
     row.ready_in ? t("drone.ready-in", { time: duration(row.ready_in) }) : "",
   ].filter(Boolean);
-  return facts.length ? h("p", { class: "because" }, facts.join(" · ")) : null;
+  return facts.length ? h("p", { class: "because" }, joined(facts)) : null;
 }
 
 /**

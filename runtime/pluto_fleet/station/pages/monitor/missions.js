@@ -9,7 +9,7 @@ import { app, mayFly, perform, plan, selection, selectDrone, selectMission } fro
 import { hasEnded } from "../core/world.js";
 import { start } from "../start/commands.js";
 import { Button, IconButton } from "../ui/button.js";
-import { Battery, Chip, Empty } from "../ui/parts.js";
+import { Battery, Chip, Empty, Said } from "../ui/parts.js";
 import { Standing, toneOf } from "../ui/standing.js";
 import { SureButton } from "../ui/sure.js";
 import { walking } from "../ui/walk.js";
@@ -102,7 +102,7 @@ function Due({ world, row }) {
 function Because({ world, row }) {
   const now = row.until === null ? 0 : world.state.value.time;
   const said = why(row, now);
-  return said ? h("span", { class: "because" }, said) : null;
+  return said ? h(Said, { class: "because", text: said }) : null;
 }
 
 /** @param {{ world: World, id: string }} props */

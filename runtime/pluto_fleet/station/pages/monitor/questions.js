@@ -5,6 +5,7 @@ import { t, tOr } from "../core/i18n.js";
 import { mayFly, perform, selectMission } from "../core/station.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
+import { Said } from "../ui/parts.js";
 import { SureButton } from "../ui/sure.js";
 
 /** @import { MissionRow, Question } from "../wire" */
@@ -22,7 +23,7 @@ export function Questions({ world }) {
 function Asked({ row: { name }, question: { text, answers } }) {
   const decide = (/** @type {string} */ answer) => { perform("decide", { mission: name, answer }); };
   return h("div", { class: "question" },
-    h("p", null, h("button", { type: "button", class: "link", onClick: () => selectMission(name) }, name), " ", text),
+    h("p", null, h("button", { type: "button", class: "link", onClick: () => selectMission(name) }, name), " ", h(Said, { text })),
     mayFly.value && h("div", { class: "row" }, answers.map((answer) => (answer === "cancel"
       ? h(SureButton, { key: answer, label: t("monitor.cancel"), sure: t("monitor.cancel-sure"), onSure: () => decide(answer) })
       : h(Button, { key: answer, onClick: () => decide(answer) }, tOr(`answer.${answer}`, answer))))));

@@ -14,7 +14,7 @@ import { Homes, Names } from "../map/fleet.js";
 import { Floor } from "../map/floor.js";
 import { Landmarks, landmarkNames, middle, North } from "../map/landmarks.js";
 import { Button, IconButton } from "../ui/button.js";
-import { Empty } from "../ui/parts.js";
+import { Empty, Said } from "../ui/parts.js";
 import { MapSplit } from "../ui/map_split.js";
 import { calibrated } from "./calibration.js";
 
@@ -78,7 +78,7 @@ export default function MapPage() {
       children: [h(Landmarks, { key: "landmarks" }), h(Homes, { key: "homes", app: shape }), h(Sketch, { key: "sketch" })],
     }),
     rail: h("div", { class: "rail-body stack" },
-      drawn && !drawn.writable && h("p", { class: "problem" }, drawn.said),
+      drawn && !drawn.writable && h("p", { class: "problem" }, h(Said, { text: drawn.said })),
       can && h(Tools, null),
       drawn ? h(Lists, { drawn, can, onShow: (at) => camera.reveal(at.x, at.y) }) : h(Empty, null, t("map.loading"))),
   });

@@ -14,7 +14,7 @@ export async function save(path, name) {
     await download(path, name);
   } catch (error) {
     if (!(error instanceof StationError)) throw error;
-    tell(error.message, { bad: true });
+    tell(error.message, { bad: true, isSaid: error.isSaid });
   }
 }
 

@@ -8,7 +8,7 @@ import { app, line, plan, world } from "../core/station.js";
 import { AttentionButton } from "../attention/button.js";
 import { leadTo, StartButtons, Stops, words } from "../start/commands.js";
 import { isFlying } from "../core/world.js";
-import { Chip, Tabs } from "../ui/parts.js";
+import { Chip, Said, Tabs } from "../ui/parts.js";
 import { Icon } from "../ui/icon.js";
 
 /** @import { PageName } from "../core/route.js" */
@@ -78,7 +78,7 @@ function Why() {
   const { said, problem } = words.value;
   if (!said) return h("span", { class: "why" });
   return h("span", { class: "why" }, problem
-    ? h("button", { type: "button", class: "link", onClick: () => leadTo(problem) }, said)
+    ? h("button", { type: "button", class: "link", onClick: () => leadTo(problem) }, h(Said, { text: said, isOwn: problem.isOwn }))
     : h("span", { class: "muted" }, said));
 }
 

@@ -5,6 +5,7 @@ import { t } from "../core/i18n.js";
 import { badNotice, goodNotice, spoken } from "../core/notices.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
+import { Said } from "../ui/parts.js";
 
 /** @import { Signal } from "@preact/signals" */
 /** @import { Notice } from "../core/notices.js" */
@@ -15,7 +16,7 @@ function Shown({ notice }) {
   if (!now) return null;
   const away = () => { notice.value = null; };
   return h("div", { class: `notice ${now.bad ? "bad" : ""}` },
-    h(Icon, { name: now.bad ? "bad" : "info" }), h("p", null, now.text),
+    h(Icon, { name: now.bad ? "bad" : "info" }), h("p", null, h(Said, { text: now.text, isOwn: !now.isSaid })),
     now.undo && h(Button, { small: true, onClick: () => { away(); now.undo?.(); } }, t("undo")),
     h(IconButton, { icon: "close", label: t("notice.close"), onClick: away }));
 }

@@ -42,7 +42,7 @@ export async function start(missions = null, more = {}) {
   const wrong = plan.problems.peek().find(({ mission }) => mission && missions?.includes(mission));
   if (wrong) {
     leadTo(wrong);
-    tell(inFull(plan.missions.peek(), wrong), { bad: true });
+    tell(inFull(plan.missions.peek(), wrong), { bad: true, isSaid: !wrong.isOwn });
   } else if (!await plan.saved()) {
     tell(t("start.unsaved"), { bad: true });
   } else if (await perform("start", { revision: plan.revision, missions, ...more })) {
@@ -56,10 +56,10 @@ export async function start(missions = null, more = {}) {
 export async function stop(how) {
   const alarm = setTimeout(() => tell(t("stop.trying"), { bad: true }), STOP_ALARM);
   try {
-    tell(await command("stop", { how }, STOP_FOR), { settles: true });
+    tell(await command("stop", { how }, STOP_FOR), { isSaid: true, settles: true });
   } catch (error) {
     if (!(error instanceof StationError)) throw error;
-    tell(error.status ? error.message : t("stop.failed"), { bad: true });
+    tell(error.status ? error.message : t("stop.failed"), { bad: true, isSaid: error.isSaid });
   } finally {
     clearTimeout(alarm);
   }

@@ -3,13 +3,14 @@
 import { h } from "preact";
 import { useState } from "preact/hooks";
 import { duration, percent } from "../core/format.js";
-import { say, t } from "../core/i18n.js";
+import { t } from "../core/i18n.js";
+import { say } from "../core/said.js";
 import { toFly } from "../core/plan.js";
 import { go } from "../core/route.js";
 import { line, plan, world } from "../core/station.js";
 import { Button, HoldButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
-import { Battery, Chip, Dialog } from "../ui/parts.js";
+import { Battery, Chip, Dialog, SaidWords, joined } from "../ui/parts.js";
 import { preflight, start, words } from "./commands.js";
 import { useForecast } from "./forecast.js";
 import { counted } from "./words.js";
@@ -79,15 +80,18 @@ const Figure = ({ name, value }) => h("div", null, h("dt", null, name), h("dd", 
 /** @param {{ kind: string, all: Words[] }} props */
 const Sentences = ({ kind, all }) => (all.length
   ? h("ul", { class: `sentences ${kind}` }, all.map((one) => h("li", { key: say(one) },
-    h(Icon, { name: kind ? "warning" : "info" }), say(one))))
+    h(Icon, { name: kind ? "warning" : "info" }), h(SaidWords, { words: one }))))
   : null);
 
 /** @param {{ drone: Readiness }} props */
 function Drone({ drone: { id, battery, ready, why, ready_in: soon, assumed } }) {
-  const facts = [why && say(why), soon ? t("drone.ready-in", { time: duration(soon) }) : "", assumed && say(assumed)];
+  const facts = [
+    why && h(SaidWords, { words: why }), soon ? t("drone.ready-in", { time: duration(soon) }) : "",
+    assumed && h(SaidWords, { words: assumed }),
+  ].filter(Boolean);
   return h("li", null, h("span", { class: "called" }, id),
     h(Chip, { kind: ready ? "good" : "warn", icon: ready ? "good" : "wait" }, t(ready ? "preflight.ready" : "preflight.not-ready")),
-    h(Battery, { level: battery }), h("span", { class: "hint" }, facts.filter(Boolean).join(" · ")));
+    h(Battery, { level: battery }), h("span", { class: "hint" }, joined(facts)));
 }
 
 /** @param {{ mission: MissionForecast }} props */

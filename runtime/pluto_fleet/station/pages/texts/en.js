@@ -1,5 +1,6 @@
 // The catalogue of texts, in English: every other language has the same keys. {name} is a fact; a text
-// with two numbers is chosen by the fact n.
+// with two numbers is chosen by the fact n; what is in [brackets] is left out where a fact of it is
+// missing or nothing.
 
 export default {
   "close": "Close",
@@ -16,6 +17,7 @@ export default {
   "many.drones": { one: "{n} drone", other: "{n} drones" },
   "many.others": { one: "{n} other", other: "{n} others" },
   "many.lines": { one: "{n} new line", other: "{n} new lines" },
+  "many.runs": { one: "{n} run", other: "{n} runs" },
 
   "page.missions": "Missions",
   "page.trips": "Trips",
@@ -659,7 +661,14 @@ export default {
   "help.LOST": "It waits for a person, over every end and start: repair it, put it into its dock, and press Bring back.",
   "help.RETIRED": "It is given to no mission until it is brought back.",
 
-  "keys.several": "on a pin: select all, duplicate what is selected",
+  "key.Alt": "Alt",
+  "key.Ctrl": "Ctrl",
+  "key.Delete": "Delete",
+  "key.Enter": "Enter",
+  "key.Esc": "Esc",
+  "key.Shift": "Shift",
+  "key.Space": "Space",
+
   "keys.tabs": "on the tabs: the next page",
   "keys.map": "on the map: move it",
   "keys.zoom": "on the map: zoom",
@@ -667,6 +676,7 @@ export default {
   "keys.pins": "on a pin: move it by 0.1 m",
   "keys.fine": "with that: by 1 m; while it is dragged, by 0.01 m",
   "keys.delete": "delete the selected mission or trip",
+  "keys.several": "on a pin: select all, duplicate what is selected",
   "keys.undo": "undo, redo",
   "keys.places": "with an action in hand: the next named place",
   "keys.reorder": "move the selected mission or trip",
@@ -675,4 +685,39 @@ export default {
   "keys.hold": "held down on Start: start at once",
   "keys.actions": "on the page Trips: take the first to ninth action in hand",
   "keys.close": "close what is open over the page",
+
+  "said.alert.battery": { one: "{drones}: the battery is too low for what waits; it is ready in about {ready_in}", other: "{drones}: the batteries are too low for what waits; the first is ready in about {ready_in}" },
+  "said.alert.battery-stays": { one: "{drones}: the battery is too low for what waits, and does not charge: look whether the drone stands in its dock", other: "{drones}: the batteries are too low for what waits, and do not charge: look whether the drones stand in their docks" },
+  "said.alert.crashed": "{drone} crashed[: {why}]",
+  "said.alert.failed": "“{mission}” has failed[: {why}]",
+  "said.alert.finding": "{tags}: found by “{mission}”[ at {where}]",
+  "said.alert.late": "“{mission}” is late",
+  "said.alert.lost": "{drone} is lost[: {why}]",
+  "said.alert.uncertain": "“{mission}” needs you: {question}",
+  "said.alert.waiting": { one: "{missions} waits for a drone. Drones: {flying} flying[; {low} too low][, need {takes}][, the first ready in about {ready_in}][; {charging} charging][; {recovering} being recovered][; {lost} lost][; {offline} not asked yet][; {retired} retired]", other: "{missions} wait for a drone. Drones: {flying} flying[; {low} too low][, need {takes}][, the first ready in about {ready_in}][; {charging} charging][; {recovering} being recovered][; {lost} lost][; {offline} not asked yet][; {retired} retired]" },
+  "said.preflight.beside": { one: "{missions} that flies already is flown to its end, by a drone that is supposed to be back in its dock", other: "{missions} that fly already are flown to their end, by drones that are supposed to be back in their docks" },
+  "said.preflight.brought-back": "it was brought back: it is asked how it is as soon as missions fly",
+  "said.preflight.busy": { one: "{missions} waits {seconds} on average: every drone that could fly it is busy then", other: "{missions} wait {seconds} on average: every drone that could fly them is busy then" },
+  "said.preflight.cannot": "{why}",
+  "said.preflight.charges": "its battery has {battery}, any of these missions takes {needs}",
+  "said.preflight.charging": { one: "{missions} waits for a battery to charge, {seconds} on average", other: "{missions} wait for batteries to charge, {seconds} on average" },
+  "said.preflight.endless": "Some missions repeat until they are stopped: they are flown for {seconds}",
+  "said.preflight.few": { one: "{n} of {of} missions waits for {drones}: no other drone can do “{action}”", other: "{n} of {of} missions wait for {drones}: no other drone can do “{action}”" },
+  "said.preflight.few-lift": { one: "{n} of {of} missions waits for {drones}: no other drone can lift {mass}", other: "{n} of {of} missions wait for {drones}: no other drone can lift {mass}" },
+  "said.preflight.flies": "it flies: supposed to be in its dock, with what it has now",
+  "said.preflight.given-up": "{runs} of the forecast gave up: {why}",
+  "said.preflight.heard-before": "heard of {seconds} ago, at {battery}: supposed to be at {supposed} by now",
+  "said.preflight.in-the-air": "it was in the air when it was last heard of: go and look",
+  "said.preflight.lost": "lost[: {why}]",
+  "said.preflight.low": { one: "{missions} waits at first: {drones} below {level}[; the first is ready in about {ready_in}]", other: "{missions} wait at first: {drones} below {level}[; the first is ready in about {ready_in}]" },
+  "said.preflight.low-away": "its battery has {battery}, any of these missions takes {needs}: it flies home first to charge",
+  "said.preflight.never-heard": "it has not been heard of yet: supposed to be charged, in its dock",
+  "said.preflight.no-rehearsal": "There is no rehearsal: {why}",
+  "said.preflight.not-apart": "Drones are not kept apart in these runs, as that takes too long to work out for so many: it will take longer than they say",
+  "said.preflight.not-ready": "{why}",
+  "said.preflight.promise": "{why}",
+  "said.preflight.refused": "{why}",
+  "said.preflight.retired": "retired",
+  "said.preflight.room": { one: "{missions} waits, as no more than {drones} may fly at once", other: "{missions} wait, as no more than {drones} may fly at once" },
+  "said.preflight.too-far": "no battery lasts for any of these missions and the way home",
 };

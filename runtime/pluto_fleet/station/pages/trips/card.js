@@ -8,6 +8,7 @@ import { ownFirst } from "../missions/words.js";
 import { Button } from "../ui/button.js";
 import { Field } from "../ui/field.js";
 import { Icon } from "../ui/icon.js";
+import { Said } from "../ui/parts.js";
 import { RELEASE } from "./carried.js";
 import { copy, remove, setAxis, setDraft, setField, setIn, shift } from "./commands.js";
 import { abouts } from "./state.js";
@@ -71,15 +72,15 @@ export function TripCard({ about, onRemoved }) {
   const elsewhere = problems.filter(({ field }) => !known.includes(field ?? ""));
   const mass = trip.item?.mass === undefined ? "" : ` (${trip.item.mass})`;
   return h("div", { class: "trip-body" },
-    elsewhere.length > 0 && h("div", { class: "wide" }, elsewhere.map(({ text }) => h("p", { key: text, class: "problem" },
-      h(Icon, { name: "warning" }), h("span", null, text)))),
+    elsewhere.length > 0 && h("div", { class: "wide" }, elsewhere.map(({ text, isOwn }) => h("p", { key: text, class: "problem" },
+      h(Icon, { name: "warning" }), h(Said, { text, isOwn })))),
     trip.action === RELEASE && h("p", { class: "wide hint" }, pickedIn
       ? t("trips.puts-down", { item: `${trip.item?.name ?? ""}`, mass, n: pickedIn }) : t("trips.put-pick-before")),
     all.map(({ field, value, onChange, wrong }) => {
       const own = problems.filter((one) => one.field === field.name);
       return h(Field, {
         key: field.name, field, value: own[0]?.typed ?? value(trip, about), locked, onChange, wrong,
-        problem: own.map(({ text }) => text).join(" "), evaluators: shape.evaluators,
+        problem: own.map(({ text }) => text).join(" "), isOwn: own.every(({ isOwn }) => isOwn), evaluators: shape.evaluators,
         isLazy: selected.value?.launched === true, // letter by letter is no way to steer a flight
         isWrong: isMisplaced && (field.name === "x" || field.name === "y"),
         hint: field.name === "name" ? String(number) : "",

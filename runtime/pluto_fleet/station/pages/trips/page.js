@@ -17,6 +17,7 @@ import { called } from "../missions/words.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
 import { MapSplit } from "../ui/map_split.js";
+import { Said } from "../ui/parts.js";
 import { Others } from "../ui/people.js";
 import { UndoButtons } from "../ui/undo.js";
 import { PICK } from "./carried.js";
@@ -159,7 +160,7 @@ function Trips({ mission }) {
   return h("section", { class: "stack", "aria-label": t("trips.of-mission") },
     launched && h("p", { class: "hint" }, t(isLocked.value ? "trips.locked" : "trips.under-way")),
     h("div", { class: "trips-head" }, h(MissionField, { key, mission, field: { name: "name", type: "text", label: t("trips.mission-name") }, onKeyDown: toPalette })),
-    trips.length > 0 && own.map(({ text }) => h("p", { key: text, class: "problem" }, h(Icon, { name: "warning" }), h("span", null, text))),
+    trips.length > 0 && own.map(({ text, isOwn }) => h("p", { key: text, class: "problem" }, h(Icon, { name: "warning" }), h(Said, { text, isOwn }))),
     h(SeveralTrips, null), h(TripCards, null),
     !isLocked.value && h("p", { class: "hint" }, t(trips.length ? "trips.how-to-order" : "trips.none-yet")));
 }

@@ -100,7 +100,7 @@ function about(trip, at, wrong, pick) {
   const problems = wrong.filter(({ field }) => !(drag && field === "target")
     && !(pick !== undefined && field?.startsWith("item."))); // the trip that picks it tells that
   const here = drag && app.value ? whyNot(app.value.map, drag) : "";
-  if (here) problems.unshift({ mission: null, trip: trip.key, field: "target", text: t(here) });
+  if (here) problems.unshift({ mission: null, trip: trip.key, field: "target", text: t(here), isOwn: true });
   return {
     key: trip.key, trip, number: at + 1, target, isHeld: drag !== undefined,
     place: target ? placeAt(target, places.value)?.name ?? "" : "",

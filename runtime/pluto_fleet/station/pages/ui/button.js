@@ -80,9 +80,15 @@ export function HoldButton({ kind = "primary", icon, why, onHold, onPress, class
     onPointerDown: (/** @type {PointerEvent} */ event) => { if (!event.button) press(); },
     onPointerUp: release, onPointerLeave: release, onPointerCancel: release,
     onKeyDown: (/** @type {KeyboardEvent} */ event) => {
+      if (event.key === "Enter") event.preventDefault(); // else it clicks before it is held
       if ([" ", "Enter"].includes(event.key) && !event.repeat) press();
     },
-    onKeyUp: release, onBlur: release,
+    onKeyUp: (/** @type {KeyboardEvent} */ event) => {
+      const isPressed = event.key === "Enter" && !isDone.current;
+      release();
+      if (isPressed) onPress();
+    },
+    onBlur: release,
     onContextMenu: (/** @type {Event} */ event) => event.preventDefault(),
     onClick: () => { if (!isDone.current) onPress(); },
   }, icon && h(Icon, { name: icon }), h("span", null, children));

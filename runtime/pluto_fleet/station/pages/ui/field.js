@@ -7,6 +7,7 @@ import { capital } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { isNumeric, placeholder, read, written } from "../core/typed.js";
 import { Icon } from "./icon.js";
+import { Said } from "./parts.js";
 
 /** @import { ComponentChildren } from "preact" */
 /** @import { FieldShape, Scalar } from "../app" */
@@ -24,6 +25,7 @@ import { Icon } from "./icon.js";
  * @property {FieldShape} field
  * @property {unknown} value as the plan has it, or as it was typed in vain
  * @property {string} [problem]
+ * @property {boolean} [isOwn] the problem is said by this page, and not by the station
  * @property {boolean} [isWrong] it is marked, though its problem is told elsewhere
  * @property {boolean} [locked]
  * @property {boolean} [isLazy] what is typed counts only when the field is left
@@ -47,10 +49,10 @@ export function Field(props) {
 }
 
 /** A control with its label, and what is wrong with it. @param {ControlProps} props @param {ComponentChildren} control */
-const framed = ({ field, id, text }, control) => h("div", { class: "field", "data-field": field.name },
+const framed = ({ field, id, text, isOwn }, control) => h("div", { class: "field", "data-field": field.name },
   h("label", { for: id }, field.label ?? capital(field.name)), control,
   h("p", { class: "problem", id: `${id}-problem`, hidden: !text, "aria-live": "polite" },
-    h(Icon, { name: "warning" }), h("span", null, text)));
+    h(Icon, { name: "warning" }), h(Said, { text, isOwn })));
 
 /** What all controls have. @param {ControlProps} props */
 const shared = ({ id, text, isWrong, field, locked }) => ({
@@ -76,7 +78,7 @@ function Typed(props) {
     sent.current = why ? input.value : String(fresh ?? "");
     onChange(why ? undefined : fresh, typing, why ? { typed: input.value, why } : null);
   }
-  const all = { ...props, text };
+  const all = { ...props, text, isOwn: isForeign || props.isOwn };
   return framed(all, h("input", {
     ...shared(all), type: field.type === "time of day" ? "time" : "text", maxLength: 500,
     autocomplete: "off", spellcheck: false, inputMode: isNumeric(field) ? "decimal" : undefined,

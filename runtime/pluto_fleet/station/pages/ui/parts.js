@@ -4,9 +4,11 @@ import { h } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
 import { IconButton } from "./button.js";
 import { Icon } from "./icon.js";
-import { t } from "../core/i18n.js";
+import { language, t } from "../core/i18n.js";
+import { isTranslated, say } from "../core/said.js";
 
 /** @import { ComponentChildren } from "preact" */
+/** @import { Words } from "../wire" */
 /** @import { IconName } from "./icon.js" */
 
 /** @param {{ kind?: "" | "good" | "warn" | "bad" | "info", icon?: IconName, children?: ComponentChildren }} props */
@@ -65,6 +67,19 @@ export function Tabs({ label, names, now, title, onPick, controls }) {
       "aria-controls": controls?.(name), tabIndex: name === now ? 0 : -1, onClick: () => onPick(name),
     }, title(name))));
 }
+
+/**
+ * A sentence of the station, which speaks English; isOwn: it is the page's after all.
+ * @param {{ text: string, isOwn?: boolean, class?: string }} props
+ */
+export const Said = ({ text, isOwn = false, class: more }) =>
+  h("span", { class: more, lang: isOwn || language.value === "en" ? undefined : "en" }, text);
+
+/** What the station says by a key, in the reader's language where it can. @param {{ words: Words }} props */
+export const SaidWords = ({ words }) => h(Said, { text: say(words), isOwn: isTranslated(words) });
+
+/** Facts in one line. @param {ComponentChildren[]} facts */
+export const joined = (facts) => facts.flatMap((fact, at) => (at ? [" · ", fact] : [fact]));
 
 /** @param {{ children?: ComponentChildren }} props */
 export const Empty = ({ children }) => h("p", { class: "empty muted" }, children);
