@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Literal
 from .connection import Connection
 
 if TYPE_CHECKING:
-    from ..station.requests import Start
     from ..station.wire import (
         DroneHours,
         FlightReport,

@@ -34,12 +34,13 @@ class Calls(Connection):
 def calls(addresses: Sequence[Address] = ADDRESSES) -> str:
     """Return the module."""
     methods = "".join(_method(address) for address in addresses)
+    code = "\n".join(line for line in methods.splitlines() if '"""' not in line)
     imports = [
         f"from ..station.{module.__name__.rpartition('.')[2]} import {', '.join(names)}"
         for module in (requests, wire, wire_app)
-        if (names := [name for name in _own(module) if _is_named(name, methods)])
+        if (names := [name for name in _own(module) if _is_named(name, code)])
     ]
-    typing = ", ".join(name for name in ("Any", "Literal") if _is_named(name, methods))
+    typing = ", ".join(name for name in ("Any", "Literal") if _is_named(name, code))
     head = _HEAD.format(imports="\n    ".join(imports), typing=typing)
     return black.format_str(head + methods, mode=black.Mode(line_length=100))
 

@@ -62,7 +62,7 @@ function Drone({ world, id, isChosen, onPick }) {
     bound && h("polyline", { class: "bound", points: route.map(([px, py]) => `${px},${py}`).join(" ") }),
     h(Tail, { world, id }),
     h(Mark, { x, y }, h("g", {
-      role: "button", tabIndex: 0, "data-own": true, class: "drone-mark",
+      role: "button", tabindex: 0, "data-own": true, class: "drone-mark",
       "aria-label": t("map.drone", { drone: id, status, battery: percent(row.battery) }),
       onClick: () => onPick(id),
       onKeyDown: (/** @type {KeyboardEvent} */ event) => {

@@ -66,7 +66,7 @@ export function Floor({ map, camera, children, overlay, tools, class: more = "",
   return h(Seen.Provider, { value: camera },
     h("div", { class: `floor ${more}` },
       h("svg", {
-        ref: picture, class: "floor-picture", role: "application", tabIndex: 0,
+        ref: picture, class: "floor-picture", role: "application", tabindex: 0,
         "aria-label": t("map.label", { width, height }),
         onPointerMove: point, onDragOver: point, onPointerLeave: () => { pointed.value = null; },
       }, h("g", { ref: world, class: "world" }, h(Ground, { map }), children), h(Rulers, { map })),

@@ -104,7 +104,7 @@ function Pin({ about, onOpen, onRemoved }) {
   }
   return h("g", {
     class: `pin ${isChosen ? "chosen" : ""} ${problems.length ? "bad" : ""} ${about.isFixed ? "fixed" : ""}`, transform: `translate(${beside} 0)`,
-    role: "button", tabIndex: 0, "data-own": true, "data-key": key, "aria-label": described(about),
+    role: "button", tabindex: 0, "data-own": true, "data-key": key, "aria-label": described(about),
     onFocus: () => { if (marked.peek().length < 2) markOne(key); },
     onPointerDown: take, onPointerMove: drag, onPointerUp: () => letGo(true),
     onPointerCancel: () => letGo(false), onLostPointerCapture: () => letGo(false), onKeyDown,
