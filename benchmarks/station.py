@@ -4,13 +4,12 @@
 200 missions want them, and three browsers look at the Monitor. It prints how much of a core the
 server takes without and with three browsers, how much of its main thread each browser, how old
 what they show is, how large recordings become, what a client costs that asks and never reads, and how long one waits for the
-first paint. Needs Chromium, and what the extra `test` installs. Linux only: it reads /proc.
+first paint, of a library that is installed as users have it. Needs Chromium, and what the extra `test` installs. Linux only: it reads /proc.
 """
 
 from __future__ import annotations
 
 import argparse
-import gzip
 import json
 import tempfile
 import time
@@ -21,22 +20,16 @@ from statistics import median, quantiles
 from playwright.sync_api import Browser
 
 from measuring.options import at_least_one
-from pluto_fleet.station.web.static import pages
-from watching.flight import compiled, fleet, plan
+from watching.flight import compiled, fleet, installed, plan
 from watching.idler import idler
 from watching.server import Server, seconds_of, serve
 from watching.tabs import Tab, browser, first_visit, main_threads, opened
+from watching.weight import kilobytes
 
 Numbers = dict[str, float]
 
 SETTLE = 5.0
 """Seconds until what has just begun is steady; never longer than what is measured then."""
-
-
-def weight() -> float:
-    """Return the kilobytes of all pages, each gzipped by itself."""
-    files = {one.mark: one for one in pages().values()}  # one may have two addresses
-    return sum(len(gzip.compress(one.plain, mtime=0)) for one in files.values()) / 1000
 
 
 def share(used: Callable[[], float], seconds: float) -> float:
@@ -116,12 +109,13 @@ def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
             say(f"{name:50}{number:12,.2f}")
         numbers.update(some)
 
-    tell({"weight of all pages, gzipped, kB": weight()})
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        source = compiled(folder)
+        library = installed(folder)
+        tell(kilobytes(library))
+        sources = [library, compiled(folder)]
         (folder / "fleet.toml").write_text(fleet(given.drones))
-        server = serve(source, folder / "fleet.toml", folder / "station")
+        server = serve(sources, folder / "fleet.toml", folder / "station")
         try:
             tell({"from serve to its address, s": server.started_in})
             visit = first_visit(server.url + "/")

@@ -24,6 +24,8 @@ app watched "A flight that many watch" {
 }
 """
 
+RUNTIME = Path(__file__).parents[2] / "runtime"
+
 SIDE = 60.0
 """Metres of the field, each way."""
 
@@ -65,6 +67,13 @@ def _trip(mission: int, trip: int) -> dict[str, object]:
         "parameters": {},
         "item": None,
     }
+
+
+def installed(folder: Path) -> Path:
+    """Install the library as users have it, its pages minified, and return where it is imported from."""
+    words = ["install", "--quiet", "--no-deps", "--target", str(folder / "library"), str(RUNTIME)]
+    subprocess.run([sys.executable, "-m", "pip", *words], check=True)
+    return folder / "library"
 
 
 def compiled(folder: Path) -> Path:

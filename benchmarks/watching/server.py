@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -73,15 +74,19 @@ class Server:
             os.kill(gateway, 9)
 
 
-def serve(source: Path, fleet: Path, folder: Path) -> Server:
-    """Start the station of the app in a folder of its own."""
+def serve(sources: Sequence[Path], fleet: Path, folder: Path) -> Server:
+    """Start the station of the app in a folder of its own; app and library are imported from `sources`."""
     folder.mkdir(parents=True, exist_ok=True)
     words = [sys.executable, "-m", "watched", "serve", "--sim", "--fleet", str(fleet)]
     words += ["--port", "0", "--folder", str(folder)]
     begun = time.perf_counter()
     process = subprocess.Popen(
         words,
-        env={**os.environ, "PYTHONPATH": str(source), "PYTHONUNBUFFERED": "1"},
+        env={
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join(map(str, sources)),
+            "PYTHONUNBUFFERED": "1",
+        },
         stdout=subprocess.PIPE,
         text=True,
     )

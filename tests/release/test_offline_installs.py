@@ -29,8 +29,8 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def builders(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the wheels that pip builds others with, or the library needs; these alone are fetched."""
     wheels = tmp_path_factory.mktemp("builders")
-    project = tomllib.loads((LIBRARY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    needed = "hatchling", *project["dependencies"]
+    settings = tomllib.loads((LIBRARY / "pyproject.toml").read_text(encoding="utf-8"))
+    needed = *settings["build-system"]["requires"], *settings["project"]["dependencies"]
     succeed(sys.executable, "-m", "pip", "wheel", "-q", "-w", wheels, *needed)
     return wheels
 

@@ -33,15 +33,6 @@ NEEDING = (
 
 
 @pytest.fixture(scope="module")
-def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The library, built once."""
-    wheels = tmp_path_factory.mktemp("wheels")
-    succeed(sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "-w", wheels, ROOT / "runtime")
-    (wheel,) = wheels.iterdir()
-    return wheel
-
-
-@pytest.fixture(scope="module")
 def types(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """What mypy knows of Python and of pytest, which all packages use."""
     return tmp_path_factory.mktemp("types")

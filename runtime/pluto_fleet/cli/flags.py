@@ -214,5 +214,12 @@ def add_station(parser: ArgumentParser) -> None:
         type=Path,
         help="where plan and journals are kept; default: the user's own folder",
     )
+    parser.add_argument("--title", metavar="TEXT", help="what it is called; default: as the app")
+    parser.add_argument(
+        "--logo",
+        metavar="FILE",
+        type=Path,
+        help="a picture for the head of its pages and their tab",
+    )
     parser.add_argument("--open", action="store_true", help="open it in a browser")
     parser.add_argument("--going-on", action="store_true", help=SUPPRESS)  # after a crash

@@ -69,6 +69,8 @@ class Options:
     host: str = ""
     port: int = 0
     names: list[str] = field(default_factory=list)
+    title: str | None = None
+    logo: Path | None = None
     folder: Path | None = None
     open: bool = False
     going_on: bool = False

@@ -25,6 +25,7 @@ from ..station.config import StationConfig
 from ..station.map.pictures import floor_plan
 from ..station.plan.plan import MissionPlan
 from ..station.session import Phase
+from ..station.sign import logo_of, title_of
 from ..station.station import Station
 from ..station.web.api import Api
 from ..station.web.audit import Audit
@@ -97,7 +98,8 @@ async def _serve(
     interrupts.loop = asyncio.get_running_loop()
     with listening(options.host, _port(options, config)) as listener:
         guard = _guard(options, config, port_of(listener))
-        api = Api(station, guard, Audit(config.own_folder / "audit.log"))
+        audit = Audit(config.own_folder / "audit.log")
+        api = Api(station, guard, audit, logo=config.logo)
         station.begin(options.going_on)
         if options.going_on and station.phase is Phase.INTERRUPTED:
             station.resume()
@@ -174,6 +176,8 @@ def _config(app: App, options: Options) -> StationConfig:
         seed=options.seed,
         faults=options.fail,
         speed=options.speed,
+        title=title_of(options.title) if options.title is not None else None,
+        logo=logo_of(options.logo) if options.logo is not None else None,
     )
 
 
@@ -288,6 +292,8 @@ def _words(options: Options) -> list[str]:
         "--folder": options.folder,
         "--speed": options.speed,
         "--fail": faults or None,
+        "--title": options.title,
+        "--logo": options.logo,
     }
     given = [word for flag, value in optional.items() if value for word in (flag, str(value))]
     names = [word for name in options.names for word in ("--name", name)]

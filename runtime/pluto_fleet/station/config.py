@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Category
     from .graph.picture import Graph
     from .map.drawn import DrawnMap
+    from .sign import Logo
     from .wire import Layer
     from .wire_app import ActionData, AppData, CategoryData, FieldData, ParameterData
 
@@ -45,6 +46,9 @@ class StationConfig:
     faults: Mapping[str, float]
     speed: float | None = None
     """The speed of time; None: real time, or as before."""
+    title: str | None = None
+    """What the station is called instead of its app."""
+    logo: Logo | None = None
 
     @property
     def map_path(self) -> Path:
@@ -65,7 +69,8 @@ def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> 
     graph, space = app_graph(app), config.fleet.airspace
     return {
         "name": app.name,
-        "title": app.title or app.name,
+        "title": config.title or app.title or app.name,
+        "logo": config.logo.address if config.logo is not None else None,
         "server": server,
         "role": "fly",
         "sim": config.sim or config.crtp_sim is not None,

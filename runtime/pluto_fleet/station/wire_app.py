@@ -122,6 +122,9 @@ class AppData(TypedDict):
 
     name: str
     title: str
+    """What the station is called: as its app, if `--title` says no other."""
+    logo: str | None
+    """The address of the picture that `--logo` names."""
     server: str
     """Another after each start of the station."""
     role: Role

@@ -142,6 +142,12 @@ class Station:
         data = json.dumps(given).encode()
         return self._ask(Request(self._at(path), data=data, headers=headers, method="PUT"))
 
+    @property
+    def url_to_watch(self) -> str:
+        """Where the page is for those who command nothing, token and all."""
+        token = (self.folder / "station" / "watch_token").read_text(encoding="ascii")
+        return f"{self.url.partition('#')[0]}#token={token}"
+
     def now(self) -> dict[str, Any]:
         """Return the newest that all pages are shown, whole."""
         live: dict[str, Any] = self.get("/api/live?flight=&seen=0&log=0&results=0")

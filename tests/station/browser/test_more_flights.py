@@ -26,7 +26,7 @@ def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
     station = put_in(serve("drugs_distribution"))
     page = visit(station)
     start(page)
-    expect(page.get_by_role("table", name="Missions")).to_be_visible()  # it leads to the Monitor
+    expect(row_of(page, "Mission 1")).to_be_visible()  # it leads to the Monitor
     add_mission(page, "Late")
     drag(page, "take_photo", (3.0, 5.0))
     expect(page.get_by_role("button", name="Start 1 new mission")).to_be_visible()

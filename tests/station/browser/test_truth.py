@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from pluto_fleet.gateway.starting import still_runs
 from pluto_fleet.journal.place import gateway_folder
@@ -27,20 +27,20 @@ from tests.station.world import disagreements, truth
 
 AS_SEEN = """
 () => {
-  const world = document.querySelector(".watch-map svg.floor-picture g.world");
-  const back = world.getScreenCTM().inverse();
-  const marks = new Map([...document.querySelectorAll(".watch-map .mark.drone")].map((mark) => {
-    const box = mark.querySelector(".core").getBoundingClientRect();
+  const monitor = document.querySelector(".monitor-page");
+  const back = monitor.querySelector("svg.floor-picture g.world").getScreenCTM().inverse();
+  const marks = new Map([...monitor.querySelectorAll("svg .drone")].map((mark) => {
+    const box = mark.querySelector(".body").getBoundingClientRect();
     const { x, y } = new DOMPoint((box.left + box.right) / 2, (box.top + box.bottom) / 2)
       .matrixTransform(back);
-    return [mark.querySelector("text").textContent, box.width ? [x, y] : [null, null]];
+    const label = mark.querySelector("[role=button]").getAttribute("aria-label");
+    return [mark.dataset.drone, { x, y, label }];
   }));
-  return [...document.querySelectorAll(".drone-lines > li")].map((line) => {
-    const id = line.querySelector(".called").firstChild.textContent;
-    const [x, y] = marks.get(id) ?? [null, null];
-    return { id, x, y, word: line.querySelector(".standing").textContent,
-      why: line.querySelector(".doing small").textContent };
-  });
+  return [...monitor.querySelectorAll("li[data-drone]")].map((line) => ({
+    id: line.dataset.drone, x: null, y: null, label: "", ...marks.get(line.dataset.drone),
+    word: line.querySelector(".standing-word").textContent,
+    why: line.querySelector(".because")?.textContent ?? "",
+  }));
 }
 """
 
@@ -51,7 +51,7 @@ PIXEL = 0.15
 
 
 def seen(page: Page) -> list[dict[str, Any]]:
-    """Return what the page says of each drone."""
+    """Return what list and map say of each drone."""
     rows: list[dict[str, Any]] = page.evaluate(AS_SEEN)
     for row in rows:
         row["status"] = STATUS.get(row["word"], row["word"])
@@ -69,6 +69,7 @@ def agree(page: Page, station: Station, *words: str) -> list[dict[str, Any]]:
         return (
             len(rows) == len(station.get("/api/app")["drones"])
             and {row["word"] for row in rows} <= {*words}
+            and all(row["word"] in row["label"] for row in rows if row["label"])
             and not disagreements(rows, truth(station, scratch), PIXEL)
         )
 
@@ -98,12 +99,12 @@ def test_page_and_world_agree_on_each_drone_after_every_end_and_every_new_start(
     station = put_in(serve("drugs_distribution", "--speed", "8"))
     page = visit(station)
     start(page)
-    open_page(page, "Monitor")
+    open_drones(page)
     until(lambda: is_away(station), "a drone is away")
     page.get_by_role("button", name="Stop: land now").click()
     until(lambda: station.phase == "stopped", "all have landed")
     for row in agree(page, station, "On the ground"):
-        assert re.search(r"at [\d.]+, [\d.]+ · seen \d+ s ago", row["reason"])
+        assert re.search(r"at [\d.]+; [\d.]+, seen \d+ s ago", row["reason"])
     station.stop()
     station.start()
     agree(page, station, "On the ground")
@@ -149,12 +150,26 @@ def test_page_and_world_agree_on_each_drone_after_every_end_and_every_new_start(
     station.start()
     rows = agree(page, station, "On the ground", "Lost")
     assert [row["why"] for row in rows if row["word"] == "Lost"] == [f"{who}'s motors were cut"]
-    page.get_by_role("button", name=f"Bring back drone {who}").click()
-    line = page.locator(".drone-lines > li").filter(has_text=who)
-    expect(line).to_contain_text("Unknown")
-    expect(line).to_contain_text(
-        "it was brought back: it is asked how it is as soon as missions fly"
-    )
+    card = card_of(page, who)
+    expect(card).to_contain_text(f"{who}'s motors were cut")
+    card.get_by_role("button", name="Bring back").click()
+    for shown in (card, page.get_by_role("listitem").filter(has_text=who)):
+        expect(shown).to_contain_text("Unknown")
+        expect(shown).to_contain_text(
+            "it was brought back: it is asked how it is as soon as missions fly"
+        )
+
+
+def open_drones(page: Page) -> None:
+    """Open the Monitor's list of drones."""
+    open_page(page, "Monitor")
+    page.get_by_role("tab", name="Drones").click()
+
+
+def card_of(page: Page, drone: str) -> Locator:
+    """Open a drone's card."""
+    page.get_by_role("listitem").get_by_role("button", name=drone).click()
+    return page.get_by_role("region", name=f"Drone {drone}")
 
 
 def flown_by(station: Station) -> list[str]:
@@ -194,6 +209,6 @@ def test_with_every_drone_lost_no_start_is_offered(serve: Serve, visit: Visit) -
     expect(button).to_have_accessible_description(
         re.compile("^Every drone is lost: look after one")
     )
-    open_page(page, "Monitor")
-    page.get_by_role("button", name="Bring back drone cf2").click()
+    open_drones(page)
+    card_of(page, "cf2").get_by_role("button", name="Bring back").click()
     expect(button).not_to_have_attribute("aria-disabled", "true")

@@ -25,6 +25,18 @@ test("a row that changes is told to those who read it, and to no others", () => 
   assert.deepEqual(world.missions.keys.value, ["A", "B"]);
 });
 
+test("a row that was not there, or of a flight that is over, is told as it comes", () => {
+  const world = new World();
+  /** @type {(string | undefined)[]} */
+  const seen = [];
+  effect(() => { seen.push(world.missions.get("A")?.status); });
+  world.take({ flight: "f", state: STATE, missions: [mission("A")] });
+  world.take({ flight: "g", state: STATE, missions: [mission("A", { status: "UNEXECUTED" })] });
+  world.clear();
+  world.take({ flight: "h", state: STATE, missions: [mission("A", { status: "PAUSED" })] });
+  assert.deepEqual(seen, [undefined, "RUNNING", "UNEXECUTED", undefined, "PAUSED"]);
+});
+
 test("another flight has nothing of the one before", () => {
   const world = new World();
   /** @type {any[]} */

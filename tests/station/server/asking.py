@@ -18,6 +18,7 @@ from pluto_fleet.station.plan.plan import Stale
 from pluto_fleet.station.plan.shape import Shape
 from pluto_fleet.station.preflight.forecast import without_runs
 from pluto_fleet.station.preflight.start import PlannedStart
+from pluto_fleet.station.sign import Logo
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
@@ -247,6 +248,7 @@ def request(
 def asked(
     station: AStation | None = None,
     file: Path | None = None,
+    logo: Logo | None = None,
     **guard: Any,
 ) -> Asked:
     """Serve a station without a web server."""
@@ -265,6 +267,7 @@ def asked(
         Audit(file, now=lambda: 0.0, clock=clock),
         clock=clock,
         pause=pause,
+        logo=logo,
     )
     return Asked(station, api, times, paused)
 

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import gzip
+import json
 import re
+from base64 import b64encode
+from hashlib import sha256
+from io import BytesIO
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.map.pictures import floor_plan
+from pluto_fleet.station.sign import logo_of, title_of
 from pluto_fleet.station.web.static import FOLDER, pages
 
 from .asking import OURS, AStation, asked, without
+
+SVG = "http://www.w3.org/2000/svg"
 
 NOWHERE = [
     "/pages/",
@@ -82,13 +90,15 @@ def test_what_lies_in_subfolders_is_served_and_the_manifest_at_the_top(tmp_path:
 
 
 def test_a_page_takes_nothing_from_elsewhere() -> None:
-    policy = dict(asked()("GET", "/").headers)["Content-Security-Policy"]
+    """It runs no script of its own text but the import map, by the hash of what is served."""
+    page = asked()("GET", "/")
+    policy = dict(page.headers)["Content-Security-Policy"]
     rules = dict(rule.strip().split(" ", 1) for rule in policy.split(";"))
     assert rules.pop("img-src") == "'self' data: blob:"
-    scripts = rules["script-src"].removeprefix("'self' ")  # the import map alone is in the page
-    assert re.fullmatch(r"'sha256-[A-Za-z0-9+/]{43}='", scripts)
-    found = {source for rule in rules.values() for source in rule.split()}
-    assert found == {"'none'", "'self'", scripts}
+    (inline,) = re.findall(rb'<script type="importmap">(.*?)</script>', page.body, re.DOTALL)
+    digest = b64encode(sha256(inline).digest()).decode()
+    assert rules.pop("script-src") == f"'self' 'sha256-{digest}'"
+    assert {source for rule in rules.values() for source in rule.split()} == {"'none'", "'self'"}
     assert rules["manifest-src"] == "'self'"
 
 
@@ -116,6 +126,55 @@ def test_the_floor_plan_is_a_picture_that_can_do_nothing(tmp_path: Path) -> None
     assert policy.endswith("sandbox") and "script" not in policy
     assert ask("GET", "/map").status == 401
     assert asked()("GET", "/map").status == 404
+
+
+def test_a_logo_can_do_nothing_and_is_seen_before_anyone_has_said_a_token(tmp_path: Path) -> None:
+    """It may be an SVG with a script, which no browser runs."""
+    (tmp_path / "logo").write_text(f"<svg xmlns='{SVG}'><script>alert(1)</script></svg>")
+    logo = logo_of(tmp_path / "logo")
+    ask = asked(logo=logo, token="sesame")
+    reply = ask("GET", "/logo", b"", without("origin"))
+    assert (reply.status, reply.type, reply.body) == (200, "image/svg+xml", logo.content)
+    policy = dict(reply.headers)["Content-Security-Policy"]
+    assert policy.endswith("sandbox") and "script" not in policy
+    assert asked()("GET", "/logo").status == 404
+
+
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        (None, "cannot be read"),
+        (b"GIF89a", "no picture that can be shown"),
+        (b"<svg", "no valid SVG"),
+        (b"<p/>", "no SVG"),
+        (b"\x89PNG\r\n\x1a\n" + bytes(200_000), "at most 200 kB"),
+    ],
+)
+def test_what_is_no_logo_is_refused(tmp_path: Path, content: bytes | None, why: str) -> None:
+    if content is not None:
+        (tmp_path / "logo.png").write_bytes(content)
+    with pytest.raises(BadInput, match=f"--logo .*logo.png.*{why}"):
+        logo_of(tmp_path / "logo.png")
+
+
+def test_a_title_is_one_line() -> None:
+    assert title_of(" Ward 3 ") == "Ward 3"
+    for text in ("", " ", "a" * 61, "Ward\n3", "Ward\x1b3"):
+        with pytest.raises(BadInput, match="--title"):
+            title_of(text)
+
+
+def test_a_station_can_be_installed_as_a_program() -> None:
+    """What its manifest names is there, and as large as it says."""
+    ask = asked()
+    manifest = json.loads(ask("GET", "/manifest.webmanifest").body)
+    assert (manifest["start_url"], manifest["display"]) == ("/", "standalone")
+    for icon in manifest["icons"]:
+        reply = ask("GET", icon["src"])
+        assert reply.type == icon["type"]
+        if icon["sizes"] != "any":
+            with Image.open(BytesIO(reply.body)) as drawn:
+                assert icon["sizes"] == f"{drawn.width}x{drawn.height}"
 
 
 def test_a_floor_plan_that_is_gone_is_not_there(tmp_path: Path) -> None:

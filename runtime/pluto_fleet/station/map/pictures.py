@@ -59,7 +59,7 @@ def ending_of(content: bytes) -> str:
     if content.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         _check_drawing(content)
         return ".svg"
-    raise BadInput("this is no picture that can be shown: a floor plan is PNG, JPEG, WebP or SVG")
+    raise BadInput("this is no picture that can be shown: those are PNG, JPEG, WebP and SVG")
 
 
 def _check_drawing(content: bytes) -> None:

@@ -35,7 +35,10 @@ export interface Alert {
 /** The app and its fleet, which stay the same while the station runs. */
 export interface AppData {
   name: string;
+  /** What the station is called: as its app, if `--title` says no other. */
   title: string;
+  /** The address of the picture that `--logo` names. */
+  logo: string | null;
   /** Another after each start of the station. */
   server: string;
   /** What who asks this may do: `watch` reads, `fly` commands, too. */

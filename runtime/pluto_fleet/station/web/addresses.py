@@ -221,6 +221,7 @@ _MAP = (
         body=WaysAsked,
         answers=Ways,
         do=map_changes.find_ways,
+        role="watch",  # it changes nothing, and who watches sees where drones are bound
     ),
     Address(
         method="POST",

@@ -8,6 +8,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import replace
 
 from ..commands import Malformed
+from ..sign import Logo
 from ..wire import Role
 from . import refusals
 from .addresses import ADDRESSES, JSON, SMALL_BODY, Address
@@ -17,7 +18,7 @@ from .http import MISTAKES, PageSocket, Reply, Request
 from .live import LiveUpdates
 from .refusals import Refusal, Refused
 from .served import Asked, ServedStation
-from .static import StaticFile, file_reply, pages, picture
+from .static import StaticFile, file_reply, logo_file, pages, picture
 from .strict_json import parsed_object
 
 _COMMANDS_A_SECOND, _EDITS_A_SECOND, _READS_A_SECOND = 20.0, 20.0, 100.0
@@ -46,6 +47,7 @@ class Api:
         clock: Callable[[], float] = time.monotonic,
         pause: Pause = asyncio.sleep,
         addresses: Sequence[Address] = ADDRESSES,
+        logo: Logo | None = None,
     ) -> None:
         self.guard = guard
         self._station, self._audit, self._pause = station, audit, pause
@@ -54,6 +56,7 @@ class Api:
             self._addresses.setdefault(address.path, {})[address.method] = address
         self._pages = pages()
         self._picture = picture(station.image)
+        self._logo = logo_file(logo)
         self._commands, self._edits = Rate(_COMMANDS_A_SECOND, clock), Rate(_EDITS_A_SECOND, clock)
         self._reads = Rate(_READS_A_SECOND, clock)
         self._live = LiveUpdates(station, guard, audit, clock)
@@ -95,6 +98,8 @@ class Api:
             raise Refused(why)
         if access is Access.PAGE and request.path in self._pages:
             return file_reply(self._pages[request.path], request)
+        if request.path == "/logo" and self._logo is not None and access is Access.PAGE:
+            return file_reply(self._logo, request)
         if request.path == "/map" and (held := self._floor_plan()) is not None:
             return file_reply(held, request)
         address = self._route(request)

@@ -224,7 +224,7 @@ def with_safe_headers(request: Request, reply: Reply) -> Reply:
 
 
 def _policy(request: Request, reply: Reply) -> str:
-    if request.path == "/map":
+    if request.path in ("/map", "/logo"):
         return _PICTURE
     if not reply.type.startswith("text/html"):
         return _DATA

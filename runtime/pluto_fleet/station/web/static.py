@@ -14,6 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from ..map.pictures import PICTURES
+from ..sign import Logo
 from .http import Reply, Request
 
 FOLDER = Path(__file__).parent.parent / "pages"
@@ -69,6 +70,11 @@ def picture(place: Path | None) -> tuple[Path | None, StaticFile | None]:
         return place, _held(kind, place.read_bytes(), packs=False)
     except OSError:
         return place, None
+
+
+def logo_file(logo: Logo | None) -> StaticFile | None:
+    """Return the logo of a station as it is served."""
+    return None if logo is None else _held(logo.type, logo.content, packs=False)
 
 
 def file_reply(held: StaticFile, request: Request) -> Reply:

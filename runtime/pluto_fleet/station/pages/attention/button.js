@@ -23,6 +23,11 @@ effect(() => {
   document.title = `${n ? `(${n}) ` : ""}${known && phase !== "idle" ? `${t(`phase.${phase}`)} · ` : ""}${title}`;
 });
 
+effect(() => { // the tab has the same logo as the head
+  const icon = document.querySelector("link[rel=icon]");
+  if (app.value?.logo) icon?.setAttribute("href", app.value.logo);
+});
+
 export function AttentionButton() {
   const n = unheeded.value.length;
   const urgent = unheeded.value.some((alert) => alert.urgent);

@@ -31,6 +31,8 @@ export class LiveLine {
     /** Milliseconds since what is seen was made, looked at twice a second. */
     this.age = signal(Infinity);
     this.isLost = signal(false);
+    /** The station's clock, in whole seconds since 1970: by it is told how long ago something was. */
+    this.clock = signal(0);
     this.seen = 0;
     this.heardAt = -Infinity;
     this.lag = 0;
@@ -43,6 +45,7 @@ export class LiveLine {
     batch(() => {
       this.age.value = age;
       this.isLost.value = this.heardAt > 0 && age > LOST_AFTER;
+      if (this.offset < Infinity) this.clock.value = Math.floor((Date.now() - this.offset) / 1000);
     });
   }
 

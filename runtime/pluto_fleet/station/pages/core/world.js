@@ -52,8 +52,9 @@ class Rows {
     this.version.value += 1;
   }
 
-  /** @param {string | null | undefined} key @returns {Row | undefined} */
+  /** A row; subscribes to it, also before it is there and after all were cleared. @param {string | null | undefined} key @returns {Row | undefined} */
   get(key) {
+    void this.keys.value;
     return key === null || key === undefined ? undefined : this.rows.get(key)?.value;
   }
 

@@ -77,7 +77,8 @@ function Drone({ world, id, isChosen, onPick }) {
       class: `ring level ${row.battery < 0.2 ? "bad" : ""}`, r: 10,
       "stroke-dasharray": `${ROUND * row.battery} ${ROUND}`, transform: "rotate(-90)",
     }),
-    BAD.includes(row.status) && h("path", { class: "cross", d: "M-4 -4L4 4M4 -4L-4 4" }))));
+    BAD.includes(row.status) && h("path", { class: "cross", d: "M-4 -4L4 4M4 -4L-4 4" }),
+    row.status === "UNKNOWN" && h("text", { class: "asks", y: 4 }, "?"))));
 }
 
 /** The way of the last half minute. @param {{ world: World, id: string }} props */

@@ -4,7 +4,7 @@ import { h } from "preact";
 import { useRef, useState } from "preact/hooks";
 import { duration, many, number, roughly } from "../core/format.js";
 import { t } from "../core/i18n.js";
-import { app, mayFly, perform, selectDrone, selection, selectMission } from "../core/station.js";
+import { app, line, mayFly, perform, selectDrone, selection, selectMission } from "../core/station.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Battery, Empty, Said, joined } from "../ui/parts.js";
 import { Slide } from "../ui/slide.js";
@@ -19,13 +19,16 @@ import { Mishaps } from "./mishaps.js";
 
 const IN_THE_AIR = 0.2; // metres: below, a drone may stand on something
 
-/** @param {DroneRow} row */
-export const statusOf = ({ status, retired }) => (retired && status !== "LOST" ? "RETIRED" : status);
+const STANDS_OUT = ["LOST", "UNKNOWN", "ALOFT"]; // what a person must know, though it is retired
 
-/** How old what is known is, and where it was then. @param {DroneRow} row @param {number} now ms since 1970 */
-function seen({ seen_at: at, x, y }, now) {
+/** @param {DroneRow} row */
+export const statusOf = ({ status, retired }) => (retired && !STANDS_OUT.includes(status) ? "RETIRED" : status);
+
+/** How old what is known is, and where it was then; a drone that is heard of now does not follow the clock. @param {DroneRow} row */
+function seen({ seen_at: at, x, y }) {
   if (at === null || x === null || y === null) return "";
-  return t("drone.seen", { x: number(x), y: number(y), time: roughly(Math.max(0, now - at) / 1000) });
+  const ago = Math.max(0, line.clock.value - Math.floor(at / 1000));
+  return t("drone.seen", { x: number(x), y: number(y), time: roughly(ago) });
 }
 
 /** @param {{ world: World, live: boolean }} props */
@@ -53,7 +56,7 @@ function DroneLine({ world, id, live }) {
 /** @param {{ row: DroneRow, live: boolean }} props */
 function WhyNot({ row, live }) {
   const facts = [
-    row.why && h(Said, { text: row.why }), live ? seen(row, Date.now()) : "",
+    row.why && h(Said, { text: row.why }), live ? seen(row) : "",
     row.ready_in ? t("drone.ready-in", { time: duration(row.ready_in) }) : "",
   ].filter(Boolean);
   return facts.length ? h("p", { class: "because" }, joined(facts)) : null;

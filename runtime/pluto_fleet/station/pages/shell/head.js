@@ -27,13 +27,19 @@ export const SIGNS = {
 
 export function Head() {
   return h("header", { class: "head" },
-    h("h1", { class: "title" }, app.value?.title ?? "Pluto"),
+    h(Title, null),
     h(Pages, null),
     h(Standing, null),
     h(Liveness, null),
     h(Why, null),
     h("div", { class: "fly", role: "group", "aria-label": t("start.group") },
       h(AttentionButton, null), h(StartButtons, null), h(Stops, null)));
+}
+
+/** What the station is called, and the logo of whose it is. */
+function Title() {
+  const { title = "Pluto", logo = null } = app.value ?? {};
+  return h("h1", { class: "title" }, logo && h("img", { class: "logo", src: logo, alt: "" }), h("span", null, title));
 }
 
 const Pages = () => h(Tabs, {

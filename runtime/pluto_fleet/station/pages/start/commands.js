@@ -76,6 +76,7 @@ const Wide = ({ text, short }) => [
   h("span", { key: "text", class: "wide-only" }, text), h("span", { key: "short", class: "narrow-only" }, short)];
 
 export function Stops() {
+  if (!mayFly.value) return null;
   const disabled = !mayStop.value;
   return h("div", { class: "stops", role: "group", "aria-label": t("stops") },
     h(Button, { kind: "danger", icon: "home", disabled, label: t("stop.home"), onClick: () => { stop("rtl"); } },
@@ -85,6 +86,7 @@ export function Stops() {
 }
 
 export function StartButtons() {
+  if (!mayFly.value) return null;
   const { known, phase } = world.state.value;
   const { text, can, said, problem } = words.value;
   const able = can && !line.isLost.value;
@@ -99,7 +101,7 @@ export function StartButtons() {
   }
   const open = () => { preflight.value = { missions: null }; };
   return h("div", { class: "starts" }, h(HoldButton, {
-    icon: "start", why: able ? null : said || "–", onHold: () => { start(); },
+    icon: "start", why: able ? null : said || t("live.none"), onHold: () => { start(); },
     onPress: () => (able ? open() : said && known && tell(said, { isSaid: problem !== null && !problem.isOwn })),
   }, text));
 }

@@ -75,7 +75,7 @@ export function HoldButton({ kind = "primary", icon, why, onHold, onPress, class
   }
   return h("button", {
     type: "button", class: `button hold ${kind} ${isHeld ? "held" : ""} ${more}`,
-    "aria-disabled": why ? "true" : undefined, title: t("hold.title"),
+    "aria-disabled": why ? "true" : undefined, title: why || t("hold.title"),
     style: { "--hold": `${HOLD}ms` },
     onPointerDown: (/** @type {PointerEvent} */ event) => { if (!event.button) press(); },
     onPointerUp: release, onPointerLeave: release, onPointerCancel: release,
