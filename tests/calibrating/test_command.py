@@ -152,8 +152,8 @@ def test_a_journal_in_which_nothing_was_flown_is_told_so(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert "no drone has flown in it" in told(capsys, 2, made(tmp_path / "J"))
-    newer = made(tmp_path / "K", events=3)
-    assert "begun by a newer pluto-fleet (events 3)" in told(capsys, 2, newer)
+    newer = made(tmp_path / "K", events=4)
+    assert "begun by a newer pluto-fleet (events 4)" in told(capsys, 2, newer)
 
 
 def test_a_measurement_of_a_later_version_is_told_so(

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.shared.domain.app import SEAM as NEWEST
 from tests.cli.conftest import APP, Call
 from tests.cli.test_revisions import git
 
@@ -32,7 +33,7 @@ def compiled(plutoc: Call, here: Path, text: str) -> Path:
     assert plutoc("compile", source, "--add-stubs").code == 0
     file, lock = here / SEAM, here / "crop/pluto.lock"
     now = file.read_text()
-    before = now.replace("SEAM = (3, 2)", "SEAM = (3, 1)")
+    before = now.replace(f"SEAM = {NEWEST}", "SEAM = (3, 1)")
     assert before != now
     file.write_text(before)
     digests = [sha256(each.encode()).hexdigest() for each in (now, before)]

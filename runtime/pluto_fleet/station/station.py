@@ -102,7 +102,7 @@ class Station:
         self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
         self.preflight = self._forecasts.preflight
         """The forecast that is being made, if any."""
-        self.past = PastFlights(app, config, self._ours)
+        self.past = PastFlights(app, config, self._ours, self.map.name_of)
         """The flights of the past."""
         self.exports = Exports(app, config, self._flight_now, self.map.name_of)
         self._before: Path | None = None

@@ -51,7 +51,7 @@ def test_a_page_that_saves_its_plan_changes_what_has_not_flown(serve: Serve) -> 
     station.start()
     tell(station, "resume")
     until(lambda: flown(station)[-1:] == ["C"], "the trip that was moved is flown")
-    assert [one[0] for one in row(station, FIRST)["trips"]] == ["A", "C", "1"]
+    assert [one["name"] for one in row(station, FIRST)["trips"]] == ["A", "C", "1"]
     _, mission = drawn(station)
     assert [one["target"] for one in mission["trips"]] == [a["target"], [14.0, 8.5], [15.0, 8.0]]
 

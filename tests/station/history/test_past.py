@@ -178,7 +178,7 @@ def test_measured_drones_are_between_the_ends_of_their_commands(tmp_path: Path) 
     leg = next(e for e in flown if e["what"] == "leg" and e["seconds"] > 1.0)
     frame: Any = past.replay(NEW, leg["t"] - leg["seconds"] / 2)["frames"][0]
     [row] = [row for row in frame["drones"] if row["id"] == leg["drone"]]
-    for axis, start, end in zip("xyz", leg["start"], leg["to"], strict=True):
+    for axis, start, end in zip("xyz", leg["from"], leg["to"], strict=True):
         assert min(start, end) - 0.01 <= row[axis] <= max(start, end) + 0.01
     assert leg["battery"][1] - 0.01 <= row["battery"] <= leg["battery"][0] + 0.01
 

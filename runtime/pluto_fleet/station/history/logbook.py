@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..feed import Feed
 from ..results.meaning import SIMULATED_UNITS
+from ..results.rows import NameOf, nowhere
 from .reading import BROKEN, JournalText
 
 if TYPE_CHECKING:
@@ -31,7 +32,9 @@ class Logbook:
     """What is missing; empty: nothing."""
 
 
-def logbook(app: App, journal: JournalText, said: Sequence[Said]) -> Logbook:
+def logbook(
+    app: App, journal: JournalText, said: Sequence[Said], name_of: NameOf = nowhere
+) -> Logbook:
     """Read a whole journal as a station does that shows it, with what else it has said."""
     book: Logbook | None = None
     others = iter(said)
@@ -42,7 +45,7 @@ def logbook(app: App, journal: JournalText, said: Sequence[Said]) -> Logbook:
         for event in instant.events:
             if book is None:
                 units = SIMULATED_UNITS if event.get("sim") else {}
-                book = Logbook(Feed(app, units, journal.path.stem))
+                book = Logbook(Feed(app, units, journal.path.stem, name_of))
             while ahead is not None and ahead[1] <= told:
                 _say(book, ahead[0])
                 ahead = next(others, None)

@@ -24,7 +24,8 @@ from .report import report_of
 if TYPE_CHECKING:
     from ...app import App
     from ..config import StationConfig
-    from ..wire import DroneHours, FlightReport, FlightSummary, Replay
+    from ..results.rows import NameOf, nowhere
+from ..wire import DroneHours, FlightReport, FlightSummary, Replay
 
 DIGESTS_FILE = "flights.json"
 """The file with the digests of all flights, in the station's own folder."""
@@ -36,9 +37,18 @@ RECORDINGS_OPEN = 4
 class PastFlights:
     """The flights of one folder, and its rehearsals."""
 
-    def __init__(self, app: App, config: StationConfig, ours: Callable[[], Path | None]) -> None:
-        """`ours` returns the journal that this process writes, or may begin to write."""
-        self._app, self._config, self._ours = app, config, ours
+    def __init__(
+        self,
+        app: App,
+        config: StationConfig,
+        ours: Callable[[], Path | None],
+        name_of: NameOf = nowhere,
+    ) -> None:
+        """`ours` returns the journal that this process writes, or may begin to write.
+
+        `name_of` says what a place of the map is called.
+        """
+        self._app, self._config, self._ours, self._name_of = app, config, ours, name_of
         file = config.own_folder / DIGESTS_FILE
         self._digests = KeptDigests(app, config.folder, file, ours)
         self._recordings: dict[Path, Recorded] = {}
@@ -80,7 +90,8 @@ class PastFlights:
     def _book(self, id: str) -> Logbook:
         path = found(self._config.folder, id)
         recorded, _ = self._recorded(recording_of(path))
-        return logbook(self._app, self._text(path), recorded.said if recorded is not None else ())
+        said = recorded.said if recorded is not None else ()
+        return logbook(self._app, self._text(path), said, self._name_of)
 
     def _past(self, id: str) -> Past:
         try:
@@ -101,6 +112,7 @@ class PastFlights:
             digest=digest,
             recorded=recorded,
             trouble=trouble,
+            name_of=self._name_of,
         )
 
     def _digest(self, id: str) -> tuple[Path, Digest]:

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ...app import App
-    from ..wire import Replay
+    from ..results.rows import NameOf, nowhere
+from ..wire import Replay
     from .digest import Digest
     from .reading import JournalText
     from .recorded import Recorded
@@ -48,6 +49,8 @@ class Past:
     recorded: Recorded | None
     trouble: str = ""
     """What is wrong with its recording; empty: nothing."""
+    name_of: NameOf = nowhere
+    """What a place of the map is called."""
 
     def frames(self, start: float = 0.0) -> Iterator[Frame]:
         """Yield a keyframe of what was shown at `start`, and what changed since."""
@@ -120,7 +123,7 @@ class Past:
         recorded = self.recorded
         said = recorded.said if recorded is not None else ()
         if self.read is not None:
-            book = logbook(self.app, self.read(), said)
+            book = logbook(self.app, self.read(), said, self.name_of)
             log, results = book.lines, book.results
             if book.said and book.said not in whole["said"]:
                 whole["said"] = "; ".join(filter(None, (whole["said"], book.said)))
