@@ -86,7 +86,7 @@ export function Stops() {
 
 export function StartButtons() {
   const { known, phase } = world.state.value;
-  const { text, can, said } = words.value;
+  const { text, can, said, problem } = words.value;
   const able = can && !line.isLost.value;
   if (phase === "stopped" || phase === "interrupted") {
     const resume = async () => {
@@ -100,7 +100,7 @@ export function StartButtons() {
   const open = () => { preflight.value = { missions: null }; };
   return h("div", { class: "starts" }, h(HoldButton, {
     icon: "start", why: able ? null : said || "–", onHold: () => { start(); },
-    onPress: () => (able ? open() : said && known && tell(said)),
+    onPress: () => (able ? open() : said && known && tell(said, { isSaid: problem !== null && !problem.isOwn })),
   }, text));
 }
 

@@ -10,7 +10,7 @@ import { go } from "../core/route.js";
 import { line, plan, world } from "../core/station.js";
 import { Button, HoldButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
-import { Battery, Chip, Dialog, SaidWords, joined } from "../ui/parts.js";
+import { Battery, Chip, Dialog, Said, SaidWords, joined } from "../ui/parts.js";
 import { preflight, start, words } from "./commands.js";
 import { useForecast } from "./forecast.js";
 import { counted } from "./words.js";
@@ -28,7 +28,7 @@ export function Preflight({ missions: keys }) {
     : toFly(all, world.state.value.phase === "flying");
   const hasFailed = missions.some(({ ended }) => ended === "FAILED" || ended === "BROKEN_OFF");
   const { forecast, trouble } = useForecast(keys, onlyFailed && hasFailed);
-  const { can, said } = words.value;
+  const { can, said, problem } = words.value;
   const why = (!keys && !can && said) || (line.isLost.value && t("live.none")) || null;
   const given = onlyFailed && hasFailed ? { only_failed: true } : {};
   return h(Dialog, {
@@ -47,13 +47,13 @@ export function Preflight({ missions: keys }) {
     ],
   },
   h("p", { class: "preflight-what" }, h("strong", null, counted(missions))),
-  why && h("p", { class: "problem" }, h(Icon, { name: "warning" }), why),
+  why && h("p", { class: "problem" }, h(Icon, { name: "warning" }), h(Said, { text: why, isOwn: !problem || problem.isOwn })),
   hasFailed && h("label", { class: "check" }, h("input", {
     type: "checkbox", checked: onlyFailed,
     onChange: (/** @type {Event} */ event) => choose(/** @type {HTMLInputElement} */ (event.target).checked),
   }), t("preflight.only-failed")),
   h("div", { "aria-live": "polite", "aria-busy": !forecast && !trouble },
-    trouble ? h("p", { class: "problem" }, h(Icon, { name: "warning" }), trouble)
+    trouble ? h("p", { class: "problem" }, h(Icon, { name: "warning" }), h(Said, { text: trouble }))
       : forecast ? h(Expected, { forecast }) : h("p", { class: "muted" }, t("preflight.computing"))));
 }
 

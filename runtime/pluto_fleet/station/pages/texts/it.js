@@ -276,7 +276,7 @@ const texts = {
   "stop.home": "Stop: rientro alla base",
   "stop.land": "Stop: atterraggio ora",
   "stop.home-short": "Rientro",
-  "stop.land-short": "Atterra ora",
+  "stop.land-short": "Atterra",
   "stop.trying": "Lo Stop non ha ancora raggiunto la stazione: nuovi tentativi in corso. Se è urgente, usare gli interruttori dei droni.",
   "stop.failed": "Lo Stop non ha raggiunto la stazione. Se è urgente, usare gli interruttori dei droni.",
 
@@ -620,7 +620,7 @@ const texts = {
 
   "settings": "Impostazioni di questo browser",
   "settings.name": "Il proprio nome",
-  "settings.name-hint": "per gli altri, e per i registri",
+  "settings.name-hint": "per altri e registri",
   "settings.language": "Lingua",
   "settings.language-auto": "Quella del browser",
   "settings.theme": "Colori",
@@ -684,12 +684,12 @@ const texts = {
   "keys.delete": "eliminare la missione o la tratta selezionata",
   "keys.several": "su un segnaposto: selezionare tutti, duplicare i selezionati",
   "keys.undo": "annullare, ripetere",
-  "keys.places": "con un'azione in mano: il prossimo luogo con un nome",
+  "keys.places": "con un’azione in mano: il prossimo luogo con un nome",
   "keys.reorder": "spostare la missione o la tratta selezionata",
-  "keys.new": "sulla pagina delle tratte: creare una missione",
+  "keys.new": "nella pagina Tratte: creare una missione",
   "keys.open": "aprire la missione selezionata",
   "keys.hold": "tenuto premuto su Avvia: avviare subito",
-  "keys.actions": "sulla pagina delle tratte: prendere in mano la prima fino alla nona azione",
+  "keys.actions": "nella pagina Tratte: prendere in mano un’azione, dalla prima alla nona",
   "keys.close": "chiudere ciò che è aperto sopra la pagina",
 
   "said.alert.battery": { one: "{drones}: la batteria è troppo bassa per ciò che aspetta; pronto fra circa {ready_in}", other: "{drones}: le batterie sono troppo basse per ciò che aspetta; il primo è pronto fra circa {ready_in}" },

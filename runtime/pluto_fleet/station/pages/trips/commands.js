@@ -133,8 +133,8 @@ export function remove(keys) {
   return next?.key ?? null;
 }
 
-/** "at 3, 8.5 metres". @param {Point} target */
-export const where = (target) => target.map((one) => number(one, { maximumFractionDigits: 3, useGrouping: false })).join(", ");
+/** "3; 8.5": a comma may be that of the decimals. @param {Point} target */
+export const where = (target) => target.map((one) => number(one, { maximumFractionDigits: 3, useGrouping: false })).join("; ");
 
 /** The keys that a command on this pin is for: all that are selected, if it is one of them. @param {string} key */
 export const meant = (key) => (marked.peek().includes(key) ? marked.peek() : [key]);
