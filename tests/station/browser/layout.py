@@ -9,6 +9,7 @@ const seen = (one) => one.checkVisibility({ opacityProperty: true, visibilityPro
 const said = (one) => one.outerHTML.slice(0, 160);
 const scrolls = (one) => getComputedStyle(one).overflow !== "visible";
 const onTop = ".dialog, .drone-card, .result-card, .questions, .notices"; // is meant to lie over a page
+const over = (one) => ({ dialog: ".dialog, .notices", notices: ".notices" })[one.classList[0]] ?? onTop; // what it may not cover
 """
 
 
@@ -36,7 +37,7 @@ COVERED = script(
     if (clipped) continue;
     const top = document.elementFromPoint(x, y);
     const lies = top?.closest(onTop); // it may cover the page, and a dialog what lies on it; nothing covers a Stop
-    if (lies && !one.closest(".fly") && !one.closest(lies.matches(".dialog") ? ".dialog" : onTop)) continue;
+    if (lies && !one.closest(".fly") && !one.closest(over(lies))) continue;
     let stays = false; // what is scrolled goes under a head that stays
     for (let up = top; up; up = up.parentElement) stays ||= getComputedStyle(up).position === "sticky";
     if (stays) continue;

@@ -108,9 +108,11 @@ def test_the_heat_map_has_the_colours_of_the_formula_and_is_blank_where_nothing_
     for one, colour in zip(drawn, wanted, strict=True):
         apart = max(abs(a - b) for a, b in zip(one["pixel"], colour, strict=True))
         assert apart <= 1, (one, colour)  # a byte, where a rounding of the last digit decides
+    page.get_by_role("button", name="Hide the lists").click()  # which have the same
     legend = page.get_by_role("region", name="Legend")
     expect(legend).to_contain_text("PM10")
     expect(legend).to_contain_text(f"{low:.3g} µg/m³100 µg/m³")
+    page.get_by_role("button", name="Show the lists").click()
     dots = page.locator(".value circle")
     expect(dots).to_have_count(len(samples))
     held = dots.evaluate_all("(all) => all.map((one) => Number(one.dataset.value))")

@@ -28,7 +28,10 @@ function Item({ alert }) {
     h("div", { class: "row" },
       (alert.drone || alert.mission) && h(Button, { small: true, kind: "quiet", onClick: show }, t("attention.show")),
       alert.by === null && mayFly.value && h(Button, {
-        small: true, onClick: () => { perform("acknowledge", { alert: alert.id }); },
+        small: true, onClick: (event) => { // it goes with that, and must not take the focus along
+          /** @type {HTMLElement} */ (event.currentTarget).closest("dialog")?.focus();
+          perform("acknowledge", { alert: alert.id });
+        },
       }, t("attention.acknowledge"))));
 }
 

@@ -42,7 +42,7 @@ export function Dialog({ title, onClose, class: more = "", children, foot }) {
     },
   }, h("div", { class: "dialog-head" }, h("h2", { id }, title),
     h(IconButton, { icon: "close", label: t("close"), onClick: onClose })),
-  h("div", { class: "dialog-body" }, children),
+  h("div", { class: "dialog-body", tabIndex: 0 }, children),
   foot && h("div", { class: "dialog-foot" }, foot));
 }
 
