@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import BadInput
+from ..results.rows import NameOf, nowhere
 from .digest import Digest
 from .folder import found, recording_of, rehearsal
 from .hours import hours_of
@@ -24,8 +25,7 @@ from .report import report_of
 if TYPE_CHECKING:
     from ...app import App
     from ..config import StationConfig
-    from ..results.rows import NameOf, nowhere
-from ..wire import DroneHours, FlightReport, FlightSummary, Replay
+    from ..wire import DroneHours, FlightReport, FlightSummary, Replay
 
 DIGESTS_FILE = "flights.json"
 """The file with the digests of all flights, in the station's own folder."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ..results.rows import NameOf, nowhere
 from .folded import folded_frames
 from .frames import Frame, opened_at
 from .logbook import logbook
@@ -15,8 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ...app import App
-    from ..results.rows import NameOf, nowhere
-from ..wire import Replay
+    from ..wire import Replay
     from .digest import Digest
     from .reading import JournalText
     from .recorded import Recorded
