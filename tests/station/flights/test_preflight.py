@@ -25,7 +25,7 @@ def test_a_start_is_forecast_and_rehearsed_and_what_is_missing_is_flown_again_al
     serve: Serve,
 ) -> None:
     """Also while other missions fly."""
-    station = serve("drugs_distribution", "--speed", "30")
+    station = serve("drugs_distribution", "--speed", "15")  # it flies while it is forecast
     status, told = forecast(station)
     assert (status, told["runs"], told["problems"]) == (200, 3, [])
     assert [one["name"] for one in told["missions"]] == ["Mission 1", "Mission 2", "Mission 3"]
