@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.flight import control, reconcile, recovery
+from pluto_fleet.flight import reconcile, recovery, suspending
 from pluto_fleet.flight.reconcile import Outcome, outcome_of
 from pluto_fleet.flight.recorded_brain import RecordedBrain
 from pluto_fleet.gateway.gateway import Gateway, Link
@@ -128,7 +128,7 @@ def doubt_is_flown_again(patch: pytest.MonkeyPatch) -> None:
         return Outcome.NOT_DONE if what is Outcome.UNKNOWN else what
 
     patch.setattr(recovery, "outcome_of", found)
-    patch.setattr(control, "outcome_of", found)
+    patch.setattr(suspending, "outcome_of", found)
 
 
 def stops_count(patch: pytest.MonkeyPatch) -> None:

@@ -37,19 +37,15 @@ class IdealDrone(KnownState):
     def __init__(self, entry: DroneData, category: Category, clock: Clock, seed: int) -> None:
         super().__init__(clock, entry.home, category.motion)
         self.id, self.home, self.category = entry.id, entry.home, category
-        self.spread = Spread(seed, entry.id)
+        self.spread, self.settings, self.drawn = Spread(seed, entry.id), dict[str, float](), Drawn()
         self.down: FlightFailed | None = None  # why it takes no commands, if it takes none
-        self.reachable_at = 0.0  # where its link is lost: not before it has landed
+        self._began = self._flown = self.reachable_at = 0.0  # the last: where its link is lost
         self.carries: Item | None = None
-        self.settings: dict[str, float] = {}
-        self.drawn = Drawn()
         self.work: Work
         self.order, self.wakes = 0, inf  # what `work` carries out, and until when it waits
         self.due = inf  # when the next thing happens by itself
         self._what: Failure | None = None  # that thing; None is a touch-down
-        self._began = self._flown = 0.0
-        self._charge = Charge(1.0, clock.now, taper=self.motion.taper)
-        self.touch_down(clock.now)
+        self.stand(entry.home, 1.0)
 
     def stand(self, place: Point, level: float) -> None:
         """Stand there with this charge, before it has flown."""
@@ -63,10 +59,9 @@ class IdealDrone(KnownState):
 
     def news(self) -> dict[str, object]:
         """Return its telemetry: exact until it flies or charges otherwise."""
-        self.changed, charge = False, self._charge
+        self.changed, of = False, self._charge
         legs = [(leg.start, leg.end, leg.leaves, leg.arrives) for leg in self._legs]
-        battery = charge.level, charge.since, charge.rate
-        return {"legs": legs, "battery": battery, "landed": self.landed}
+        return {"legs": legs, "battery": (of.level, of.since, of.rate), "landed": self.landed}
 
     def settle(self) -> None:
         """Apply everything that was due by now."""
@@ -113,9 +108,8 @@ class IdealDrone(KnownState):
         """Put it on the ground below; in its dock it is charged from its touch-down on."""
         last, place = self._legs[-1], (*place_on(self._legs, now)[:2], 0.0)
         touched = min(now, last.arrives) if last.end[2] <= 0.0 else now
-        charges = docked(place, self.home)
-        self._charge = self._charge.changing(touched, charges / self.category.charge_time)
-        self.landed = True
+        rate = docked(place, self.home) / self.category.charge_time
+        self._charge, self.landed = self._charge.changing(touched, rate), True
         self.turn([resting(place, now)], now)
 
     def _look_ahead(self) -> None:
@@ -125,7 +119,7 @@ class IdealDrone(KnownState):
             comes = self.drawn.moments(self._began)
             if self.down is not None:  # it has lost its link, and lands
                 comes = [(self._legs[-1].arrives, None)]
-            comes += [(self._charge.empty_at, Failure.BATTERY)]
+            comes.append((self._charge.empty_at, Failure.BATTERY))
             self.due, self._what = min(comes, key=_when)
 
     def _happen(self, when: float, what: Failure | None) -> None:
@@ -184,9 +178,8 @@ class IdealDrones:
         elif do in ("read", "write"):  # while it hovers
             self._go_on(order["id"], self._asked(drone, order))
         elif do != "cancel":
-            begin = getattr(self, f"_{do}")  # _fly, _hold, _home, _land or _recover
-            drone.order, drone.work = order["id"], begin(drone, order)
-            # after all that is ordered with it, such as to break it off
+            # by _fly, _hold, _home, _land or _recover, after all that is ordered with it
+            drone.order, drone.work = order["id"], getattr(self, f"_{do}")(drone, order)
             drone.wakes = self._clock.now
 
     def _go_on(self, order: int, work: Work) -> float:
@@ -198,8 +191,9 @@ class IdealDrones:
         except StopIteration as end:
             self._told.append({"done": order, "value": end.value})
         except FlightFailed as error:
-            told = {"failed": order, "failure": error.failure.name, "reason": str(error)}
-            self._told.append(told)
+            self._told.append(
+                {"failed": order, "failure": error.failure.name, "reason": str(error)}
+            )
         return inf
 
     def _fly(self, drone: IdealDrone, order: Mapping[str, Any]) -> Work:
