@@ -178,6 +178,7 @@ def test_what_is_drawn_without_a_network_is_kept_and_saved_when_it_is_back(
     page = visit(station, port=cable.port)
     add_mission(page, "Before")
     until(lambda: named(station) == ["Before"], "it is kept")
+    page.locator("html[data-loaded=all]").wait_for()
     cable.cut()
     add_mission(page, "Meanwhile")
     drag(page, "measure", (3.0, 5.0))

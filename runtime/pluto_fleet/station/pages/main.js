@@ -85,4 +85,6 @@ prefs.language.subscribe(speakBest);
 alarm();
 followMap();
 const first = page.peek(); // another one may be open once this is here
-load(first).then(() => PAGES.forEach((name) => name !== first && load(name)));
+await load(first);
+await Promise.all(PAGES.map((name) => name !== first && load(name)));
+document.documentElement.dataset.loaded = "all"; // from here on the pages work without the station's files

@@ -20,12 +20,11 @@ export default function Page() {
   const page = useRef(/** @type {HTMLDivElement | null} */ (null));
   const wanted = wantedField.value;
   const find = (/** @type {string} */ what) => /** @type {HTMLInputElement | null | undefined} */ (page.current?.querySelector(`.mission-panel ${what}`));
-  function rename() {
-    requestAnimationFrame(() => {
-      const name = find('[data-field="name"] input');
-      name?.focus();
-      name?.select();
-    });
+  async function rename() {
+    await null; // drawn by then, and before the next key: what is typed at once is in the field
+    const name = find('[data-field="name"] input');
+    name?.focus();
+    name?.select();
   }
   useEffect(() => {
     if (!wanted) return;
