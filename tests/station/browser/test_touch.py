@@ -88,7 +88,14 @@ def test_the_exercise_is_drawn_and_flown_by_fingers_on_a_phone(serve: Serve, vis
             expect(pin_of(page, count)).to_be_visible()
             if trip.action == "pick_item":
                 card_of(page, count).get_by_label("Mass").fill("8 g")
-    until(lambda: station.get("/api/plan")["problems"] == [], "the plan is sound")
+    wanted = [len(trips) for trips in PLAN.values()]
+
+    def is_drawn() -> bool:
+        plan = station.get("/api/plan")
+        drawn = [len(one["trips"]) for one in plan["missions"]]
+        return plan["problems"] == [] and drawn == wanted
+
+    until(is_drawn, "the plan is sound, and whole")
     for kept in station.get("/api/plan")["missions"]:
         for drawn, trip in zip(kept["trips"], PLAN[kept["name"]], strict=True):
             assert drawn["target"][:2] == pytest.approx(trip.at, abs=0.3)

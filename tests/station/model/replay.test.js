@@ -167,7 +167,7 @@ test("keys move the clock within the flight, and other keys do nothing", () => {
 
 test("trouble in the console is a mark, what happened within a second the same one", () => {
   const line = (time, kind, text) => ({ number: 1, time, mission: "M", text, kind });
-  const marks = marksOf({ log: [line(1, "info", "a"), line(5, "bad", "b"), line(5.5, "bad", "c"), line(9, "bad", "d")] });
+  const marks = marksOf({ seconds: 20, log: [line(1, "info", "a"), line(5, "bad", "b"), line(5.5, "bad", "c"), line(9, "bad", "d")] });
   assert.deepEqual(marks, [{ time: 5, text: "M: b\nM: c" }, { time: 9, text: "M: d" }]);
   assert.equal(nextMark(marks, 5, 1), marks[1]);
   assert.equal(nextMark(marks, 9, -1), marks[0]);
