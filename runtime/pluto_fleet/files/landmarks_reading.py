@@ -28,8 +28,8 @@ def read_landmarks(table: Table, airspace: Airspace | None) -> Landmarks:
     names: dict[str, Table] = {}
     north = table.read("north", degrees) if "north" in table.data else None
     picture = _picture(table, (airspace or Airspace()).size)
-    places = [_place(one, whole, names) for one in _tables(table, "places", MOST_PLACES)]
-    zones = [_zone(one, whole, names) for one in _tables(table, "zones", MOST_ZONES)]
+    places = [_place(one, whole, names) for one in _tables(table, "place", MOST_PLACES)]
+    zones = [_zone(one, whole, names) for one in _tables(table, "zone", MOST_ZONES)]
     return Landmarks(
         places=tuple(one for one in places if one is not None),
         zones=tuple(one for one in zones if one is not None),
@@ -46,10 +46,13 @@ def degrees(value: object) -> float:
     return amount
 
 
-def _tables(table: Table, key: str, most: int) -> Sequence[Table]:
+def _tables(table: Table, what: str, most: int) -> Sequence[Table]:
+    key = f"{what}s"
     found = [*table.tables(key, f"map.{key}")]
     if len(found) > most:
         table.problem(errors.too_many(key, most), key)
+    for number, one in enumerate(found, 1):
+        one.who = f"{what} {number}"  # until its name is known
     return found[:most]
 
 
@@ -70,7 +73,8 @@ def _picture(table: Table, size: tuple[float, float]) -> Picture | None:
 
 def _named(table: Table, what: str, names: dict[str, Table]) -> str | None:
     known = table.valid_name("name")
-    table.who = f"{what} {table.place[-1] + 1 if known is None else quoted(known)}"  # type: ignore[operator]
+    if known is not None:
+        table.who = f"{what} {quoted(known)}"
     name = table.read("name", values.name, required=True)
     if name is not None:
         table.differs("place or zone", "name", name, names)

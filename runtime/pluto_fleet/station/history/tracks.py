@@ -56,10 +56,6 @@ class Track:
             level = before.battery + (after.battery - before.battery) * part
         return Known(t, at, level)
 
-    def moves_between(self, since: float, until: float) -> bool:
-        """Whether it is somewhere else at the end of this time than at its beginning."""
-        return self.at(since).at != self.at(until).at
-
 
 @dataclass(slots=True)
 class Tracks:

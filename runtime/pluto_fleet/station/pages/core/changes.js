@@ -10,7 +10,7 @@ import { freeName, newKey } from "./keys.js";
 const has = (missions, key) => missions.some((mission) => mission.key === key);
 
 /** Change one mission; one that flies stays as it is. @param {string} key @param {(mission: PlanMission) => PlanMission} change @returns {Change} */
-export const inMission = (key, change) => (missions) =>
+const inMission = (key, change) => (missions) =>
   missions.map((mission) => (mission.key === key && !mission.launched ? change(mission) : mission));
 
 /**

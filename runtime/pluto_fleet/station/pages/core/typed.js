@@ -8,10 +8,10 @@ import { t } from "./i18n.js";
 const NUMERIC = ["int", "float"];
 
 /** @param {FieldShape} field */
-export const unitsOf = ({ type, units }) => (type === "time" ? TIME : units ?? []);
+const unitsOf = ({ type, units }) => (type === "time" ? TIME : units ?? []);
 
 /** What counts where a field is empty, in words; empty: nothing does. @param {FieldShape} field */
-export function usually(field) {
+function usually(field) {
   const { type, own, default: usual = null } = field;
   if (usual === null) return "";
   return usual === 0 && type === "time" && !own ? t("field.none") : inWords(usual, unitsOf(field));

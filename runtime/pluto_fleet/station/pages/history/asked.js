@@ -1,7 +1,10 @@
-// What a page asks of the station when it opens, and whether it is here yet.
+// What a page asks of the station when it opens, and what stands there until it has come.
 
+import { h } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { get, StationError } from "../core/api.js";
+import { t } from "../core/i18n.js";
+import { Icon } from "../ui/icon.js";
 
 /** @template Data @typedef {{ data: Data | null, trouble: string }} Asked */
 
@@ -27,3 +30,8 @@ export function useAsked(path, anew) {
   }, [path, anew]);
   return asked.path === path ? asked : { data: null, trouble: "" };
 }
+
+/** What stands where something is still on its way, or could not be had. @param {{ trouble: string }} props */
+export const Waiting = ({ trouble }) => (trouble
+  ? h("p", { class: "problem replay-trouble", role: "alert" }, h(Icon, { name: "warning" }), trouble)
+  : h("p", { class: "muted replay-trouble", role: "status" }, t("history.loading")));

@@ -6,11 +6,10 @@ import { t } from "../core/i18n.js";
 import { part } from "../core/route.js";
 import { world } from "../core/station.js";
 import { Tabs } from "../ui/parts.js";
-import { useAsked } from "./asked.js";
+import { useAsked, Waiting } from "./asked.js";
 import { FlightView } from "./flight_view.js";
 import { FlightsList } from "./flights_list.js";
 import { Hours } from "./hours.js";
-import { Waiting } from "./waiting.js";
 
 /** @import { DroneHours, FlightSummary } from "../wire" */
 /** @import { Asked } from "./asked.js" */

@@ -5,8 +5,7 @@ import { useEffect, useMemo } from "preact/hooks";
 import { t } from "../core/i18n.js";
 import { World } from "../core/world.js";
 import { ResultsView } from "../results/view.js";
-import { useAsked } from "./asked.js";
-import { Waiting } from "./waiting.js";
+import { useAsked, Waiting } from "./asked.js";
 
 /** @import { Result } from "../wire" */
 

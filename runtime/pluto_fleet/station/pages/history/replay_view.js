@@ -5,13 +5,14 @@ import { useSignal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { get, StationError } from "../core/api.js";
+import { duration, moment } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { selection } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Watch } from "../monitor/page.js";
 import { Icon } from "../ui/icon.js";
 import { Button } from "../ui/button.js";
-import { Banner } from "./banner.js";
+import { Said } from "../ui/parts.js";
 import { marksOf } from "./incidents.js";
 import { Playback } from "./playback.js";
 import { Replayer } from "./replayer.js";
@@ -21,6 +22,14 @@ import { Transport } from "./transport.js";
 
 const PATIENCE = 30000; // ms
 const OWN_KEYS = "input, select, textarea, svg.floor-picture, [role=tablist], [role=log], [role=dialog]";
+
+/** What says, on all that is of the past or was never flown, that it is not what flies now. @param {{ isRehearsal: boolean, begunAt: number | null, seconds: number, said: string }} props */
+const Banner = ({ isRehearsal, begunAt, seconds, said }) => h("div", { class: "replay-banner", role: "note" },
+  h(Icon, { name: "history" }),
+  h("p", null, h("strong", null, isRehearsal ? t("history.rehearsal")
+    : begunAt === null ? t("history.replay") : t("history.replay-of", { when: moment(begunAt) })),
+  " ", h("span", null, t(isRehearsal ? "history.rehearsal-more" : "history.replay-more", { time: duration(seconds) })),
+  said && h("span", { class: "hint" }, " ", h(Said, { text: said }))));
 
 /** @param {string} flight */
 const partsOf = (flight) => (/** @type {number} */ from) =>

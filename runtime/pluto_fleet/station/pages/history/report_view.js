@@ -11,10 +11,9 @@ import { ResultsModel } from "../results/model.js";
 import { withUnit } from "../results/words.js";
 import { Button } from "../ui/button.js";
 import { Said } from "../ui/parts.js";
-import { useAsked } from "./asked.js";
+import { useAsked, Waiting } from "./asked.js";
 import { BatteryChart, Times } from "./battery_chart.js";
 import { ReportMap } from "./report_map.js";
-import { Waiting } from "./waiting.js";
 import { outcomeWords, tookWords } from "./words.js";
 
 /** @import { ComponentChildren } from "preact" */

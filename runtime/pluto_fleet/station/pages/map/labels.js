@@ -20,7 +20,7 @@ const PADDING = 10;
 const CELL = 64; // pixels of a cell in which neighbours are looked for
 
 /** @param {string} text */
-export const widthOf = (text) => [...text].length * LETTER + PADDING;
+const widthOf = (text) => [...text].length * LETTER + PADDING;
 
 /** Where a label of a width may stand, the best first. @param {Label} label @param {number} width @returns {[number, number][]} */
 function seats({ x, y, gap = 14 }, width) {

@@ -5,7 +5,7 @@
 /** @typedef {readonly number[]} Size along x and y, in metres */
 /** @typedef {{ x: number, y: number }} At */
 
-export const CLOSEST = 800; // pixels a metre: one centimetre is easy to hit
+const CLOSEST = 800; // pixels a metre: one centimetre is easy to hit
 const MARGIN = { left: 34, right: 22, top: 22, bottom: 64 }; // pixels, for rulers and the foot
 
 /** @param {number} value @param {number} low @param {number} high */
@@ -79,7 +79,7 @@ export function whyNot({ size: [width, height], no_fly: areas }, [x, y]) {
 }
 
 /** @param {number} x @param {number} y @param {readonly (readonly number[])[]} corners */
-export function isInside(x, y, corners) {
+function isInside(x, y, corners) {
   let within = false;
   corners.forEach(([ax, ay], at) => {
     const [bx, by] = /** @type {readonly number[]} */ (corners.at(at - 1));

@@ -11,7 +11,6 @@ import { Slide } from "../ui/slide.js";
 import { Standing, toneOf } from "../ui/standing.js";
 import { walking } from "../ui/walk.js";
 import { Join } from "./join.js";
-import { Mishaps } from "./mishaps.js";
 
 /** @import { AppShape } from "../app" */
 /** @import { DroneRow } from "../wire" */
@@ -21,8 +20,10 @@ const IN_THE_AIR = 0.2; // metres: below, a drone may stand on something
 
 const STANDS_OUT = ["LOST", "UNKNOWN", "ALOFT"]; // what a person must know, though it is retired
 
+const MISHAPS = /** @type {const} */ (["lost", "crash", "battery", "uncertain"]);
+
 /** @param {DroneRow} row */
-export const statusOf = ({ status, retired }) => (retired && !STANDS_OUT.includes(status) ? "RETIRED" : status);
+const statusOf = ({ status, retired }) => (retired && !STANDS_OUT.includes(status) ? "RETIRED" : status);
 
 /** How old what is known is, and where it was then; a drone that is heard of now does not follow the clock. @param {DroneRow} row */
 function seen({ seen_at: at, x, y }) {
@@ -115,3 +116,11 @@ function CutMotors({ id }) {
         h("input", { id: "cut-word", ref: field, autocomplete: "off" }))
       : h("button", { type: "button", class: "link", onClick: () => type(true) }, t("drone.cut-type")));
 }
+
+/** Mishaps of a simulated drone, to rehearse what people do then. @param {{ id: string }} props */
+const Mishaps = ({ id }) => h("details", { class: "mishaps" },
+  h("summary", null, t("mishap.title")),
+  h("p", { class: "hint" }, t("mishap.hint")),
+  h("div", { class: "row" }, MISHAPS.map((kind) => h(Button, {
+    key: kind, small: true, onClick: () => { perform("mishap", { drone: id, kind }); },
+  }, t(`mishap.${kind}`)))));

@@ -15,7 +15,7 @@ const LEAST = 40; // pixels across, from which on the picture is drawn
 const MOST_PICTURES = 300;
 
 /** @param {PhotoOnMap} photo @param {View} view @param {Box} box */
-export function isInView({ x, y, width, height }, { left, bottom, scale }, box) {
+function isInView({ x, y, width, height }, { left, bottom, scale }, box) {
   const [middle, line] = [left + x * scale, bottom - y * scale];
   const [half, high] = [(width * scale) / 2, (height * scale) / 2];
   return middle + half > 0 && middle - half < box.width && line + high > 0 && line - high < box.height;

@@ -16,7 +16,7 @@ export const withUnit = (value, unit) => (unit ? `${measured(value)} ${unit}` : 
 export const shortNumber = (value) => number(value, { maximumSignificantDigits: 3 });
 
 /** @param {Quantity} one */
-export const quantityWords = ({ value, unit }) => withUnit(value, unit);
+const quantityWords = ({ value, unit }) => withUnit(value, unit);
 
 /** What a result is: its quantity, as the app calls it, or what was done. @param {Result} result */
 export function whatWords({ kind, action, values, layers }) {

@@ -66,7 +66,7 @@ export async function stop(how) {
 }
 
 /** Whether a Stop may be needed: also where it is not known what flies. */
-export const mayStop = computed(() => {
+const mayStop = computed(() => {
   const { known, phase } = world.state.value;
   return mayFly.value && (!known || line.isLost.value || isFlying(phase));
 });

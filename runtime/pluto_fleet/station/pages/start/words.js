@@ -14,7 +14,6 @@ import { toFly } from "../core/plan.js";
  * @property {boolean} can
  * @property {string} said beside it: why not, or what will be left out
  * @property {ShownProblem | null} problem if that is what keeps it
- * @property {boolean} some whether something was completed and something was not
  */
 
 /** A problem with the mission and the trip that it is about. @param {PlanMission[]} missions @param {ShownProblem} problem */
@@ -57,7 +56,7 @@ export function startWords(state, { missions, problems, isLoaded }, drones, mayF
     !isOpen && todo.length > 0 && !flying && t("start.again"),
     !flying && lost.length > 0 && t("start.without", { drones: lost.map(({ id }) => id) }),
   ].filter(Boolean).join(" ");
-  return { text, can: !why && isLoaded && known, said: known && isLoaded ? why || hint : "", problem, some };
+  return { text, can: !why && isLoaded && known, said: known && isLoaded ? why || hint : "", problem };
 }
 
 /** "2 missions, 5 trips". @param {PlanMission[]} missions */

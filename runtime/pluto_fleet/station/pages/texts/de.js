@@ -254,7 +254,6 @@ const texts = {
   "start": "Start",
   "start.missions": { one: "{n} Mission starten", other: "{n} Missionen starten" },
   "start.new": { one: "{n} neue Mission starten", other: "{n} neue Missionen starten" },
-  "start.all-again": "Alle {n} noch einmal starten",
   "start.group": "Fliegen",
   "start.unsaved": "Der Plan ist noch nicht gespeichert, darum wurde er nicht gestartet.",
   "start.busy.connecting": "Drohnen werden gesucht",

@@ -248,7 +248,6 @@ export default {
   "start": "Start",
   "start.missions": { one: "Start {n} mission", other: "Start {n} missions" },
   "start.new": { one: "Start {n} new mission", other: "Start {n} new missions" },
-  "start.all-again": "Start all {n} again",
   "start.group": "Fly",
   "start.unsaved": "The plan is not saved yet, so it was not started.",
   "start.busy.connecting": "looking for the drones",

@@ -254,7 +254,6 @@ const texts = {
   "start": "Avvia",
   "start.missions": { one: "Avvia {n} missione", other: "Avvia {n} missioni" },
   "start.new": { one: "Avvia {n} missione nuova", other: "Avvia {n} missioni nuove" },
-  "start.all-again": "Riavvia tutte e {n}",
   "start.group": "Volo",
   "start.unsaved": "Il piano non è ancora salvato, quindi non è stato avviato.",
   "start.busy.connecting": "ricerca dei droni in corso",

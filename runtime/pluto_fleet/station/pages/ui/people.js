@@ -9,7 +9,7 @@ import { world } from "../core/station.js";
 const COLOURS = 6; // that tokens.css has
 
 /** @param {Person} person */
-export const nameOf = ({ name }) => name.trim() || t("people.unnamed");
+const nameOf = ({ name }) => name.trim() || t("people.unnamed");
 
 /** The same colour for the same person, on every page. @param {Person} person */
 function colourOf({ id }) {
