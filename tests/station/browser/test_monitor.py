@@ -204,3 +204,26 @@ def test_lists_that_were_folded_stay_so_and_the_map_takes_their_room(
     page.reload()
     expect(page.get_by_role("button", name="Show the lists")).to_be_visible()
     expect(page.get_by_role("list", name="Missions")).to_be_hidden()
+
+
+def test_a_drone_joins_by_a_form(flying: tuple[Station, Page]) -> None:
+    station, page = flying
+    drones = lists(page, "Drones")
+    drones.get_by_text("Add a drone to this flight").click()
+    drones.get_by_label("Its name").fill("late")
+    drones.get_by_label("Home, x in metres").fill("1")
+    drones.get_by_label("Home, y in metres").fill("1")
+    drones.get_by_role("button", name="Let it join").click()
+    expect(card(page, "late")).to_be_visible()
+    assert station.get("/api/app")["drones"][-1]["home"] == [1.0, 1.0, 0.0]
+
+
+def test_the_fall_of_a_drone_is_rehearsed_on_its_card(flying: tuple[Station, Page]) -> None:
+    station, page = flying
+    until(lambda: bool(mission(station, "North arc")["drone"]), "North arc has a drone")
+    drone = mission(station, "North arc")["drone"]
+    until(lambda: (row(station, "drones", "id", drone)["z"] or 0.0) > 0.3, "it is in the air")
+    its = card(page, drone)
+    its.get_by_text("Rehearse a mishap").click()
+    its.get_by_role("button", name="It falls").click()
+    until(lambda: row(station, "drones", "id", drone)["status"] == "LOST", "it is lost")
