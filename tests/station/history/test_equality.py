@@ -17,7 +17,7 @@ from tests.station.flights.test_flights import tell
 from tests.station.history.looking import Page, View
 
 SPEED = 30
-SLOWER = {"object_finder": 10}
+SLOWER = {"aerial_mapping": 10, "object_finder": 10}
 """Of a flight that is over too soon."""
 
 INSTANTS = 50
