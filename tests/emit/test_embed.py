@@ -12,8 +12,9 @@ from typing import Any
 
 import pytest
 
+import pluto_fleet
 import plutoc_runtime
-from plutoc.emit.embed import Carried, embed
+from plutoc.emit.embed import Carried, carried_library, embed
 from plutoc.emit.modules import EmbedError, import_statements, imports_from, is_standard, load
 from plutoc.registry import STD
 from plutoc_blocks.clock.step import wait_for_time
@@ -62,6 +63,15 @@ def test_only_what_is_needed_is_carried() -> None:
     assert blocks == ["_runtime/blocks/__init__.py", "_runtime/blocks/clock.py"]
     assert "_runtime/fleet/policies.py" in files
     assert not {"_runtime/fleet/batch_optimal.py", "_runtime/fleet/own_policy.py"} & files.keys()
+
+
+def test_the_library_can_be_carried_whole() -> None:
+    """Each file of it is a text, the station's pages too: a package holds nothing else."""
+    pages = Path(pluto_fleet.__path__[0], "station/pages")
+    carried = carried_library()
+    for path in (path for path in pages.rglob("*") if path.is_file()):
+        name = path.relative_to(pages).as_posix()
+        assert carried[f"_fleet/pluto_fleet/station/pages/{name}"] == path.read_text("utf-8")
 
 
 def test_imports_inside_functions_count() -> None:

@@ -23,7 +23,7 @@ NAME, WITH_HOOKS = "drugs_distribution_retry", "watered_garden"
 SOURCES = {NAME: EXAMPLES / NAME, WITH_HOOKS: HERE / WITH_HOOKS}
 """The apps that are kept, and the folders with their sources, missions and fleets."""
 BEFORE = "before"
-"""The last package that carried everything, and knows of no seam."""
+"""The last package that carried everything, and knows of no seam; it reads its own, older fleet."""
 
 
 @dataclass(frozen=True)
@@ -44,9 +44,10 @@ KEPT = sorted(
 SEAMS = sorted({kept.seam for kept in KEPT})
 
 
-def plan(name: str) -> tuple[str, ...]:
-    """Return the missions and the fleet of an app, as words of a command line."""
-    return (str(SOURCES[name] / "missions.toml"), "--fleet", str(SOURCES[name] / "fleet.toml"))
+def plan(name: str, home: Path | None = None) -> tuple[str, ...]:
+    """Return the missions and the fleet of an app, as words of a command line; `home` is the fleet's."""
+    fleet = (home or SOURCES[name]) / "fleet.toml"
+    return (str(SOURCES[name] / "missions.toml"), "--fleet", str(fleet))
 
 
 def unpacked(kept: Kept, folder: Path) -> Path:
@@ -82,9 +83,11 @@ def said(package: Path, *words: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def begun(package: Path, journal: Path, until: str = "launched") -> subprocess.Popen[str]:
+def begun(
+    package: Path, journal: Path, until: str = "launched", home: Path | None = None
+) -> subprocess.Popen[str]:
     """Begin a flight, and return its process when it says this; at first: when the first trip flies."""
-    words = [sys.executable, "-m", package.name, "fly", *plan(package.name)]
+    words = [sys.executable, "-m", package.name, "fly", *plan(package.name, home)]
     flying = subprocess.Popen(
         [*words, "--sim", "--speed", "50", "--journal", str(journal)],
         env=environment(package),

@@ -15,6 +15,7 @@ from pluto_fleet.seam import NEWEST, written
 from tests.flying import compiled, compiled_file, fly_straight
 from tests.seam.packages import (
     BEFORE,
+    HERE,
     KEPT,
     NAME,
     SEAMS,
@@ -51,7 +52,8 @@ def before(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_package_from_before_still_flies_alone(before: Path, tmp_path: Path) -> None:
     """It has all that it needs, and takes nothing of the library that is beside it now."""
     journal = str(tmp_path / "flight.journal")
-    flown = said(before, "fly", *plan(NAME), "--sim", "--speed", "200", "--journal", journal)
+    flight = ("fly", *plan(NAME, HERE / BEFORE), "--sim", "--speed", "200", "--journal", journal)
+    flown = said(before, *flight)
     assert flown.returncode == 0, flown.stderr
     assert "missions completed" in flown.stdout.splitlines()[-1]
     code = f"import sys, {NAME}.flow, {NAME}._runtime.cli.simulate; print(*sys.modules)"
@@ -70,7 +72,7 @@ def test_a_package_from_before_still_flies_alone(before: Path, tmp_path: Path) -
 def test_a_journal_from_before_is_gone_on_from(before: Path, tmp_path: Path) -> None:
     """That package's flight is stopped in the middle; the same app, compiled today, flies the rest."""
     journal = tmp_path / "flight.journal"
-    with begun(before, journal) as flying:
+    with begun(before, journal, home=HERE / BEFORE) as flying:
         flying.send_signal(signal.SIGINT)
     resumed = said(compiled(NAME, tmp_path), "resume", str(journal))
     assert resumed.returncode == 0, resumed.stderr

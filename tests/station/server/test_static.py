@@ -7,11 +7,9 @@ import json
 import re
 from base64 import b64encode
 from hashlib import sha256
-from io import BytesIO
 from pathlib import Path
 
 import pytest
-from PIL import Image
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.map.pictures import floor_plan
@@ -165,16 +163,13 @@ def test_a_title_is_one_line() -> None:
 
 
 def test_a_station_can_be_installed_as_a_program() -> None:
-    """What its manifest names is there, and as large as it says."""
+    """What its manifest names is there, and as large as anybody asks for."""
     ask = asked()
     manifest = json.loads(ask("GET", "/manifest.webmanifest").body)
     assert (manifest["start_url"], manifest["display"]) == ("/", "standalone")
     for icon in manifest["icons"]:
-        reply = ask("GET", icon["src"])
-        assert reply.type == icon["type"]
-        if icon["sizes"] != "any":
-            with Image.open(BytesIO(reply.body)) as drawn:
-                assert icon["sizes"] == f"{drawn.width}x{drawn.height}"
+        assert ask("GET", icon["src"]).type == icon["type"] == "image/svg+xml"
+        assert icon["sizes"] == "any"
 
 
 def test_a_floor_plan_that_is_gone_is_not_there(tmp_path: Path) -> None:
