@@ -81,7 +81,8 @@ def main_threads(browser: Browser) -> dict[int, float]:
 @contextmanager
 def browser() -> Iterator[Browser]:
     """Start a browser that has never been here."""
-    path = shutil.which("chromium") or shutil.which("chromium-browser")
+    names = ("chromium", "chromium-browser", "chromium-headless-shell")
+    path = next(filter(None, map(shutil.which, names)), None)
     with sync_playwright() as driver:
         found = driver.chromium.launch(executable_path=path, args=ARGUMENTS)
         yield found

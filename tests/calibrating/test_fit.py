@@ -33,13 +33,6 @@ def test_journals_of_a_known_motion_are_fitted_within_their_uncertainty(tmp_path
     assert min(tally.told[name] for name in ("pace", "settles", "take_off", "spread")) == 12
 
 
-@pytest.mark.long
-def test_a_hundred_cases_are(tmp_path: Path) -> None:
-    tally = campaign(range(100), tmp_path)
-    assert tally.whole >= 95, tally.lines()
-    assert len(tally.noted) <= 2, tally.lines()
-
-
 def test_the_intervals_are_no_wider_than_they_need_be(tmp_path: Path) -> None:
     """One that always holds says nothing."""
     what = surveyed_and_fitted(tmp_path, replace(SLOW, spread=0.02), trips=90)

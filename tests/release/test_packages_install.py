@@ -20,6 +20,7 @@ from tests.release.environments import ROOT, Finished, compile_app, fresh, run, 
 WITH_PROMISES = ROOT / "examples/night_round"
 """Its plan says what only the library reads."""
 EXAMPLES = sorted({path.parent for path in ROOT.glob("examples/*/app.pluto")} - {WITH_PROMISES})
+ALONE = ROOT / "examples/alfalfa"
 OURS = str(Path(pytest.__file__).parents[1])
 """Where pytest and what the extras bring are installed for these tests; the library is not there."""
 
@@ -39,47 +40,64 @@ def types(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize(
-    "example",
+    "examples",
     [
-        # an environment of its own each; one is seen always
-        pytest.param(example, marks=[] if example.name == "alfalfa" else [pytest.mark.long])
-        for example in EXAMPLES
+        pytest.param([ALONE], id=ALONE.name),
+        pytest.param(
+            [one for one in EXAMPLES if one != ALONE], id="others", marks=pytest.mark.long
+        ),
     ],
-    ids=lambda path: path.name,
 )
-def test_an_example_stands_alone_and_flies_with_the_library(
-    example: Path, library: Path, types: Path, tmp_path: Path
+def test_examples_stand_alone_and_fly_with_the_library(
+    examples: list[Path], library: Path, types: Path, tmp_path: Path
 ) -> None:
-    package = compile_app(example / "app.pluto", tmp_path / example.name)
+    """One in an environment of its own, and the others in one together."""
+    packages = [compile_app(one / "app.pluto", tmp_path / one.name) for one in examples]
     programs = fresh(tmp_path / "venv")
     before = installed(programs)
-    succeed(programs / "pip", "install", "--quiet", package)
-    assert installed(programs) - before == {example.name.replace("_", "-")}
+    succeed(programs / "pip", "install", "--quiet", *packages)
+    assert installed(programs) - before == {one.name.replace("_", "-") for one in examples}
 
+    alone = [flies_alone(programs, example) for example in examples]
+    for package in packages:
+        own_tests_pass(programs, package)
+        is_clean(package, types)
+
+    succeed(programs / "pip", "install", "--quiet", library)
+    for example in examples:
+        flies_with_the_library(programs, example, state=str(tmp_path / "state" / example.name))
+
+    succeed(programs / "pip", "uninstall", "--quiet", "--yes", "pluto-fleet")
+    assert [simulated(programs / example.name, example) for example in examples] == alone
+    for example in examples:
+        missing(run(programs / example.name, "fly", "missions.toml", cwd=example), "fly")
+
+
+def flies_alone(programs: Path, example: Path) -> dict[str, Any]:
+    """Return what it says of its simulation; what else needs the library, says so."""
     alone = simulated(programs / example.name, example)
     assert {mission["status"] for mission in alone["missions"]} == {"COMPLETED"}
     assert "alone" in alone["world"]
-    plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]
-    assert succeed(programs / example.name, "check", *plan)
-    own_tests_pass(programs, package)
+    assert succeed(programs / example.name, "check", *plan_of(example))
     for words in NEEDING:
         missing(run(programs / example.name, *words, cwd=example), words[0])
-    is_clean(package, types)
+    return alone
 
-    succeed(programs / "pip", "install", "--quiet", library)
-    together = simulated(programs / example.name, example)
+
+def flies_with_the_library(programs: Path, example: Path, state: str) -> None:
+    program = programs / example.name
+    together = simulated(program, example)
     assert {mission["status"] for mission in together["missions"]} == {"COMPLETED"}
     assert "world" not in together
-    state = str(tmp_path / "state")
     fast = ("--sim", "--speed", "200")
-    flown = run(programs / example.name, "fly", *map(str, plan), *fast, XDG_STATE_HOME=state)
+    flown = run(program, "fly", *plan_of(example), *fast, XDG_STATE_HOME=state)
     assert flown.code == 0, flown.err
-    told = run(programs / example.name, "journal", XDG_STATE_HOME=state)
+    told = run(program, "journal", XDG_STATE_HOME=state)
     assert (told.code, "COMPLETED" in told.out) == (0, True), told.err
 
-    succeed(programs / "pip", "uninstall", "--quiet", "--yes", "pluto-fleet")
-    assert simulated(programs / example.name, example) == alone
-    missing(run(programs / example.name, "fly", "missions.toml", cwd=example), "fly")
+
+def plan_of(example: Path) -> list[str]:
+    return [str(example / "missions.toml"), "--fleet", str(example / "fleet.toml")]
 
 
 @pytest.mark.long
@@ -198,8 +216,7 @@ def test_the_compiler_alone_runs_apps_and_says_what_its_trials_need(tmp_path: Pa
 
 def simulated(program: Path, example: Path) -> dict[str, Any]:
     """Return what `simulate --json` says of an example's own files."""
-    plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]
-    outcome: dict[str, Any] = json.loads(succeed(program, "simulate", *plan, "--json"))
+    outcome: dict[str, Any] = json.loads(succeed(program, "simulate", *plan_of(example), "--json"))
     return outcome
 
 

@@ -1,4 +1,4 @@
-"""Today's library serves a package of each seam in a browser: its plan, its flights, its hooks' words."""
+"""Today's library serves packages of the oldest and the newest seam: plan, flights, their hooks' words."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from tests.station.browser.serving import Station, until
 POURS = "pours on"
 
 
-@pytest.fixture(params=SEAMS)
+@pytest.fixture(params=[SEAMS[0], SEAMS[-1]])
 def station(
     request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Station]:

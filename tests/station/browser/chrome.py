@@ -7,7 +7,8 @@ import shutil
 
 import pytest
 
-NAMES = ("chromium", "chromium-browser", "google-chrome")
+NAMES = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
+"""The first one draws the same for a third less of the CPU: it has no windows."""
 
 ARGUMENTS = [
     "--no-sandbox",  # tests may run as root

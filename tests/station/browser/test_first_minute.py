@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.station.browser.conftest import APPS, Serve, Visit
+from tests.station.browser.conftest import Serve, Visit
 from tests.station.browser.serving import until
 from tests.station.browser.steps import (
     add_mission,
@@ -19,8 +19,8 @@ from tests.station.browser.steps import (
 )
 
 
-@pytest.mark.parametrize("app", APPS)
-def test_the_example_plan_of_every_app_is_sound_and_flies_to_its_end(
+@pytest.mark.parametrize("app", ["night_ward", "pm10"])
+def test_the_example_plan_of_an_app_is_sound_and_flies_to_its_end(
     serve: Serve, visit: Visit, app: str
 ) -> None:
     station = serve(app, "--speed", "80")
