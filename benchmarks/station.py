@@ -4,7 +4,7 @@
 200 missions want them, and three browsers look at the Monitor. It prints how much of a core the
 server takes without and with three browsers, how much of its main thread each browser, how old
 what they show is, how large recordings become, what a client costs that asks and never reads, and how long one waits for the
-first paint, of a library that is installed as users have it. Needs Chromium, and what the extra `test` installs. Linux only: it reads /proc.
+first paint and for the first drone after Start, of a library that is installed as users have it. Needs Chromium, and what the extra `test` installs. Linux only: it reads /proc.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from measuring.options import at_least_one
 from watching.flight import compiled, fleet, installed, plan
 from watching.idler import idler
 from watching.server import Server, seconds_of, serve
-from watching.tabs import Tab, browser, first_visit, main_threads, opened
+from watching.tabs import Tab, browser, first_drone, first_visit, main_threads, opened
 from watching.weight import kilobytes
 
 Numbers = dict[str, float]
@@ -40,8 +40,7 @@ def share(used: Callable[[], float], seconds: float) -> float:
 
 
 def airborne(server: Server, drones: int) -> None:
-    """Begin the flight, and wait until so many drones fly or all that can."""
-    server.ask("/api/start", {"id": "benchmark"}, "POST")
+    """Wait until so many drones fly or all that can."""
     end = time.monotonic() + 60
     while time.monotonic() < end:
         live = server.ask("/api/live?flight=&seen=0&log=0&results=0")
@@ -124,6 +123,7 @@ def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
             tell({"requests of a first visit": visit.requests})
             missions = {"revision": server.ask("/api/plan")["revision"]}
             server.ask("/api/plan", {**missions, "missions": plan(given.missions)}, "PUT")
+            tell({"from Start to the first drone on the map, s": first_drone(server.url + "/")})
             airborne(server, given.drones)
             time.sleep(min(SETTLE, given.seconds))
             gateway = server.gateway()

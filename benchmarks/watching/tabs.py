@@ -50,6 +50,24 @@ PAINTED = """
 () => performance.getEntriesByName("first-contentful-paint").map((entry) => entry.startTime)[0]
 """
 
+SIGHT = """
+() => {
+  performance.clearResourceTimings();
+  let seen = 0;
+  window.__sight = new Promise((told) => {
+    const look = () => {
+      const bound = [...document.querySelectorAll(".drone .bound")];
+      if (!seen && bound.some((one) => one.checkVisibility())) seen = performance.now();
+      const start = performance.getEntriesByType("resource").find(({ name }) => name.endsWith("/api/start"));
+      if (seen && start) told(seen - start.startTime);
+      else requestAnimationFrame(look);
+    };
+    look();
+  });
+}
+"""
+"""It promises the milliseconds from Start to the first drone on the map that is bound for a target."""
+
 
 @dataclass(slots=True)
 class Tab:
@@ -126,3 +144,15 @@ def first_visit(url: str) -> FirstVisit:
         page.wait_for_load_state("networkidle")  # the other pages come behind the first one
         milliseconds: float = page.evaluate(PAINTED)
         return FirstVisit(milliseconds / 1000, sum(came) / 1000, len(came))
+
+
+def first_drone(url: str) -> float:
+    """Hold Start on the page, and return the seconds until a drone is seen to set out."""
+    with browser() as found:
+        page = found.new_page(viewport={"width": 1280, "height": 800})
+        page.goto(url)
+        page.locator("button.hold:not([aria-disabled])").hover()
+        page.evaluate(SIGHT)
+        page.mouse.down()
+        milliseconds: float = page.evaluate("() => window.__sight")
+        return milliseconds / 1000
