@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
+
+import pytest
 
 from tests.__main__ import CAMPAIGNS, MEASURES, REWRITES, listing
 
@@ -18,6 +22,14 @@ def test_every_command_names_something_that_is_there() -> None:
             assert place.with_suffix(".py").is_file() or (place / "__main__.py").is_file(), command
         else:
             assert (ROOT / target).exists(), command
+
+
+@pytest.mark.parametrize("module", sorted({command.split()[2] for command in CAMPAIGNS}))
+def test_a_campaign_runs_from_the_checkout_and_says_what_it_is_for(module: str) -> None:
+    asked = [sys.executable, "-m", module, "--help"]
+    done = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "usage: " in done.stdout
 
 
 def test_every_measure_is_listed() -> None:

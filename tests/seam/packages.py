@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 import tarfile
+from argparse import ArgumentParser
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -119,4 +120,8 @@ def _plain(one: tarfile.TarInfo) -> tarfile.TarInfo:
 
 
 if __name__ == "__main__":
-    keep(sys.argv[1:] or list(SOURCES))
+    parser = ArgumentParser(prog="python -m tests.seam.packages", description=__doc__)
+    parser.add_argument(
+        "names", nargs="*", metavar="NAME", choices=[*SOURCES, []], help="default: all"
+    )
+    keep(parser.parse_args().names or list(SOURCES))

@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+sys.path.append(str(Path(__file__).parents[3] / "benchmarks"))  # the crowd is that of a benchmark
+
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.apart import apart
