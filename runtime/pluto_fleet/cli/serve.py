@@ -8,6 +8,7 @@ import os
 import secrets
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -65,12 +66,21 @@ def serve(app: App, options: Options) -> int:
         (config.own_folder / LEFT_FILE).unlink(missing_ok=True)
         station = Station(app, config, _plan(app, options, config))
         leaving = _Leaving(station)
-        left = config.own_folder / LEFT_FILE
-        interrupts = Interrupts(leaving, leaving.journal, HOW_TO_GO_ON, last=left.touch)
+        mark = partial(_mark_regular_end, config)
+        interrupts = Interrupts(leaving, leaving.journal, HOW_TO_GO_ON, last=mark)
         with interrupts.listening():
             run(_serve(serve_web, options, config, station, interrupts))
-        left.touch()
+        mark()
         return interrupts.code or 0
+
+
+def _mark_regular_end(config: StationConfig) -> None:
+    path = config.own_folder / LEFT_FILE
+    try:
+        path.touch()
+    except OSError as error:  # its folder is gone, or may not be written any more
+        why = error.strerror or error
+        output.tell(f"{path}: cannot be written: {why}; a supervisor may start the station again")
 
 
 def _web_server(app: str) -> Serve:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 from contextlib import closing
 from dataclasses import replace
@@ -207,6 +208,14 @@ def test_ctrl_c_lands_all_drones_and_the_next_station_goes_on(serve: Serve) -> N
     tell(station, "resume")
     comes_to(station, "over")
     assert each_trip_was_done_once(station)
+
+
+def test_a_station_whose_folder_is_gone_ends_and_says_what_it_could_not_write(serve: Serve) -> None:
+    station = serve()
+    shutil.rmtree(station.folder)
+    station.stop()
+    assert "left: cannot be written: No such file or directory" in station.said()
+    assert "internal error" not in station.said()
 
 
 def test_a_supervised_station_goes_on_by_itself_when_it_is_killed(serve: Serve) -> None:
