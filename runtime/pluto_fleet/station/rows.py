@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from ..flight.control import ANSWERS, PRIORITY
 from ..flight.mission_status import aside
+from ..flight.reconcile import trip_of
 from ..gateway.wire import STALE_AFTER
 from ..shared.domain.status import Status, TripStatus
 from ..shared.domain.text import cut_off
+from .words import words
 
 if TYPE_CHECKING:
     from ..gateway.sightings import Sighting
@@ -86,7 +88,7 @@ def recorded_row(name: str, record: Record, *, lives: bool = False) -> MissionRo
     trips += [_recorded_trip(trip, "WAITING") for trip in record["todo"]]
     row = _row(name, record, status, reason, trips, at, _WAITS.get(status, "") if lives else "")
     if lives:
-        row["drone"], row["question"] = record["carrier"], _question(status, reason)
+        row["drone"], row["question"] = record["carrier"], _question(status, reason, record)
     return row
 
 
@@ -238,6 +240,18 @@ def _why_it_waits(
 _WAITS = {Status.PAUSED: "paused", **dict.fromkeys(ANSWERS, "waits for your decision")}
 
 
-def _question(status: Status, text: str) -> Question | None:
-    answers = ANSWERS.get(status)
-    return None if answers is None else {"text": text, "answers": list(answers)}
+def _question(status: Status, text: str, record: Record) -> Question | None:
+    answers, flight = ANSWERS.get(status), record["flight"]
+    if answers is None:
+        return None
+    trip = trip_of(record, flight)
+    if status is Status.UNCERTAIN and trip is not None:
+        did: dict[str, str] = {
+            "action": trip["action"],
+            "trip": trip["name"],
+            "drone": flight["drone"],
+        }
+        said = words("question.action", text, **did)
+    else:
+        said = words("question.other", text, question=text)
+    return {"said": said, "answers": list(answers)}

@@ -29,6 +29,7 @@ SaidKey = Literal[
     "alert.late",
     "alert.lost",
     "alert.uncertain",
+    "alert.uncertain-action",
     "alert.waiting",
     "preflight.beside",
     "preflight.brought-back",
@@ -55,6 +56,8 @@ SaidKey = Literal[
     "preflight.retired",
     "preflight.room",
     "preflight.too-far",
+    "question.action",
+    "question.other",
 ]
 
 
@@ -139,7 +142,7 @@ class TripRow(TypedDict):
 class Question(TypedDict):
     """What only a person can know."""
 
-    text: str
+    said: Words
     answers: list[str]
 
 

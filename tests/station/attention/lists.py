@@ -8,6 +8,7 @@ from pathlib import Path
 from pluto_fleet.station.attention.attention import Attention
 from pluto_fleet.station.attention.causes import Cause
 from pluto_fleet.station.wire import Alert, DroneRow, MissionRow, Result
+from pluto_fleet.station.words import words
 
 
 def drone(id: str, status: str, why: str = "", ready_in: float | None = None) -> DroneRow:
@@ -57,7 +58,11 @@ def mission(
         "attempt": 1,
         "attempts": 0,
         "round": 0,
-        "question": None if answers is None else {"text": reason, "answers": answers},
+        "question": (
+            None
+            if answers is None
+            else {"said": words("question.other", reason, question=reason), "answers": answers}
+        ),
         "due": 30.0 if late else None,
         "late": late,
         "fields": {},

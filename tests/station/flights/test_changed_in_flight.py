@@ -142,8 +142,9 @@ def test_a_crash_and_a_question_are_rehearsed(serve: Serve) -> None:
     carrier = row(station, "Mission 3")["drone"]
     assert tell(station, "mishap", drone=carrier, kind="uncertain").startswith(carrier)
     until(lambda: row(station, "Mission 3")["status"] == "UNCERTAIN", "it is asked")
-    question = row(station, "Mission 3")["question"]
-    assert "pick_item of trip A" in str(question)
+    said = row(station, "Mission 3")["question"]["said"]
+    assert said["facts"] == {"action": "pick_item", "trip": "A", "drone": carrier}
+    assert said["text"].startswith("was pick_item of trip A done")
     tell(station, "decide", mission="Mission 3", answer="done")
     other = row(station, FIRST)["drone"] or row(station, "Mission 2")["drone"]
     assert tell(station, "mishap", drone=other, kind="crash") == f"{other}: crash"

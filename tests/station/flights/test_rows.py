@@ -16,7 +16,7 @@ def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, 
     record = {"done": [], "todo": list(trips), "status": status, "reason": "", "ended": False}
     record |= {"at": None, "index": 0, "attempts": 1, "round": 0, "carrier": None}
     record |= {"promises": {}, "late": False, "fields": {}}
-    return record | dict.fromkeys(("question", "held", "paused")) | more
+    return record | dict.fromkeys(("question", "held", "paused", "flight")) | more
 
 
 def row(record: dict[str, Any], block: str, first: Sequence[str] = (), **more: Any) -> MissionRow:
@@ -47,6 +47,23 @@ def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
     assert row(record, block)["wait"] == "waits for a drone (1)"
     assert row(record, block, allocated=True, drone="cf1")["wait"] == ""
     assert row(record, block, flies=True, drone="cf1")["drone"] == "cf1"
+
+
+def test_a_question_can_be_said_in_any_language() -> None:
+    """Where a person must say what was done: by its facts; as it is where an app has something to ask."""
+    flight = {"trip": "1", "drone": "cf1", "round": 0, "attempt": 1}
+    doubtful = record_of("RUNNING", TRIP, question="was it done?", flight=flight)
+    for record, key, facts in (
+        (doubtful, "question.action", {"action": "measure", "trip": "1", "drone": "cf1"}),
+        (
+            record_of("STANDBY", TRIP, held="why?"),
+            "question.other",
+            {"question": "why?"},
+        ),
+    ):
+        question = recorded_row("a", record, lives=True)["question"]
+        assert question is not None
+        assert (question["said"]["key"], question["said"]["facts"]) == (key, facts)
 
 
 def test_a_delay_is_shown_as_long_as_it_lasts() -> None:

@@ -12,7 +12,7 @@ from ...shared.domain.text import cut_off, quoted
 from ..words import words
 
 if TYPE_CHECKING:
-    from ..wire import AlertKind, DroneRow, MissionRow, Point, Result, Scalar, Words
+    from ..wire import AlertKind, DroneRow, MissionRow, Point, Result, SaidKey, Scalar, Words
 
 _ASKING = {status.value for status in ANSWERS}
 _LONGEST_NAME = 60
@@ -51,15 +51,7 @@ def of_missions(missions: Iterable[MissionRow]) -> Iterator[Cause]:
         name, reason = row["name"], row["reason"]
         called = quoted(cut_off(name, _LONGEST_NAME))
         if row["status"] in _ASKING:
-            question = row["question"]
-            asked = question["text"] if question is not None else reason
-            said = words(
-                "alert.uncertain",
-                f"{called} needs you: {asked}",
-                mission=name,
-                question=asked,
-                answers=question["answers"] if question is not None else [],
-            )
+            said = _uncertain(called, row)
             drone, at = row["drone"], _place_of(row)
             yield Cause(
                 kind="uncertain",
@@ -79,6 +71,23 @@ def of_missions(missions: Iterable[MissionRow]) -> Iterator[Cause]:
             facts: dict[str, Scalar | list[str]] = {} if due is None else {"due": due}
             said = words("alert.late", f"{called} is late", mission=name, **facts)
             yield Cause(kind="late", about=name, said=said, mission=name)
+
+
+def _uncertain(called: str, row: MissionRow) -> Words:
+    name, question = row["name"], row["question"]
+    if question is None:
+        return words(
+            "alert.uncertain",
+            f"{called} needs you: {row['reason']}",
+            mission=name,
+            question=row["reason"],
+        )
+    said, answers = question["said"], question["answers"]
+    key: SaidKey = (
+        "alert.uncertain-action" if said["key"] == "question.action" else "alert.uncertain"
+    )
+    text = f"{called} needs you: {said['text']}"
+    return words(key, text, mission=name, answers=answers, **said["facts"])
 
 
 def _place_of(row: MissionRow) -> Point | None:

@@ -620,7 +620,7 @@ export interface Quantity {
 
 /** What only a person can know. */
 export interface Question {
-  text: string;
+  said: Words;
   answers: string[];
 }
 
@@ -860,7 +860,7 @@ export interface WaysAsked {
 
 /** A sentence that each page says in its own language: a key of its catalogue, and its facts. `text` is the sentence in English, for whatever does not know the key. */
 export interface Words {
-  key: "alert.battery" | "alert.battery-stays" | "alert.crashed" | "alert.failed" | "alert.finding" | "alert.late" | "alert.lost" | "alert.uncertain" | "alert.waiting" | "preflight.beside" | "preflight.brought-back" | "preflight.busy" | "preflight.cannot" | "preflight.charges" | "preflight.charging" | "preflight.endless" | "preflight.few" | "preflight.few-lift" | "preflight.flies" | "preflight.given-up" | "preflight.heard-before" | "preflight.in-the-air" | "preflight.lost" | "preflight.low" | "preflight.low-away" | "preflight.never-heard" | "preflight.no-rehearsal" | "preflight.not-apart" | "preflight.not-ready" | "preflight.promise" | "preflight.refused" | "preflight.retired" | "preflight.room" | "preflight.too-far";
+  key: "alert.battery" | "alert.battery-stays" | "alert.crashed" | "alert.failed" | "alert.finding" | "alert.late" | "alert.lost" | "alert.uncertain" | "alert.uncertain-action" | "alert.waiting" | "preflight.beside" | "preflight.brought-back" | "preflight.busy" | "preflight.cannot" | "preflight.charges" | "preflight.charging" | "preflight.endless" | "preflight.few" | "preflight.few-lift" | "preflight.flies" | "preflight.given-up" | "preflight.heard-before" | "preflight.in-the-air" | "preflight.lost" | "preflight.low" | "preflight.low-away" | "preflight.never-heard" | "preflight.no-rehearsal" | "preflight.not-apart" | "preflight.not-ready" | "preflight.promise" | "preflight.refused" | "preflight.retired" | "preflight.room" | "preflight.too-far" | "question.action" | "question.other";
   facts: Record<string, string | number | number | boolean | string[]>;
   text: string;
 }

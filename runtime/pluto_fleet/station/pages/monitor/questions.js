@@ -5,7 +5,7 @@ import { t, tOr } from "../core/i18n.js";
 import { mayFly, perform, selectMission } from "../core/station.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
-import { Said } from "../ui/parts.js";
+import { SaidWords } from "../ui/parts.js";
 import { SureButton } from "../ui/sure.js";
 
 /** @import { MissionRow, Question } from "../wire" */
@@ -20,10 +20,10 @@ export function Questions({ world }) {
 }
 
 /** @param {{ row: MissionRow, question: Question }} props */
-function Asked({ row: { name }, question: { text, answers } }) {
+function Asked({ row: { name }, question: { said, answers } }) {
   const decide = (/** @type {string} */ answer) => { perform("decide", { mission: name, answer }); };
   return h("div", { class: "question" },
-    h("p", null, h("button", { type: "button", class: "link", onClick: () => selectMission(name) }, name), " ", h(Said, { text })),
+    h("p", null, h("button", { type: "button", class: "link", onClick: () => selectMission(name) }, name), ": ", h(SaidWords, { words: said })),
     mayFly.value && h("div", { class: "row" }, answers.map((answer) => (answer === "cancel"
       ? h(SureButton, { key: answer, label: t("monitor.cancel"), sure: t("monitor.cancel-sure"), onSure: () => decide(answer) })
       : h(Button, { key: answer, onClick: () => decide(answer) }, tOr(`answer.${answer}`, answer))))));

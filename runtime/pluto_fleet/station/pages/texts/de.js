@@ -699,6 +699,7 @@ const texts = {
   "said.alert.late": "„{mission}“ ist verspätet",
   "said.alert.lost": "{drone} ist verloren[: {why}]",
   "said.alert.uncertain": "„{mission}“ fragt: {question}",
+  "said.alert.uncertain-action": "„{mission}“ fragt: hat {drone} „{action}“ von Etappe {trip} ausgeführt?",
   "said.alert.waiting": { one: "{missions} wartet auf eine Drohne. Drohnen: {flying} im Flug[; {low} mit zu schwachem Akku][, nötig {takes}][, die erste bereit in etwa {ready_in}][; {charging} am Laden][; {recovering} werden geborgen][; {lost} verloren][; {offline} noch nicht gefragt][; {retired} ausgesetzt]", other: "{missions} warten auf eine Drohne. Drohnen: {flying} im Flug[; {low} mit zu schwachem Akku][, nötig {takes}][, die erste bereit in etwa {ready_in}][; {charging} am Laden][; {recovering} werden geborgen][; {lost} verloren][; {offline} noch nicht gefragt][; {retired} ausgesetzt]" },
   "said.preflight.beside": { one: "{missions}, die schon fliegt, wird zu Ende geflogen, von einer Drohne, die als zurück auf ihrem Ladeplatz gilt", other: "{missions}, die schon fliegen, werden zu Ende geflogen, von Drohnen, die als zurück auf ihren Ladeplätzen gelten" },
   "said.preflight.brought-back": "sie wurde zurückgeholt: sobald Missionen fliegen, wird sie gefragt, wie es um sie steht",
@@ -725,6 +726,8 @@ const texts = {
   "said.preflight.retired": "ausgesetzt",
   "said.preflight.room": { one: "{missions} wartet, da höchstens {drones} zugleich fliegen dürfen", other: "{missions} warten, da höchstens {drones} zugleich fliegen dürfen" },
   "said.preflight.too-far": "kein Akku reicht für eine dieser Missionen und den Weg heim",
+  "said.question.action": "Hat {drone} „{action}“ von Etappe {trip} ausgeführt? Es war nicht zu sehen.",
+  "said.question.other": "{question}",
 };
 
 export default texts;

@@ -693,6 +693,7 @@ export default {
   "said.alert.late": "“{mission}” is late",
   "said.alert.lost": "{drone} is lost[: {why}]",
   "said.alert.uncertain": "“{mission}” needs you: {question}",
+  "said.alert.uncertain-action": "“{mission}” needs you: did {drone} do “{action}” of trip {trip}?",
   "said.alert.waiting": { one: "{missions} waits for a drone. Drones: {flying} flying[; {low} too low][, need {takes}][, the first ready in about {ready_in}][; {charging} charging][; {recovering} being recovered][; {lost} lost][; {offline} not asked yet][; {retired} retired]", other: "{missions} wait for a drone. Drones: {flying} flying[; {low} too low][, need {takes}][, the first ready in about {ready_in}][; {charging} charging][; {recovering} being recovered][; {lost} lost][; {offline} not asked yet][; {retired} retired]" },
   "said.preflight.beside": { one: "{missions} that flies already is flown to its end, by a drone that is supposed to be back in its dock", other: "{missions} that fly already are flown to their end, by drones that are supposed to be back in their docks" },
   "said.preflight.brought-back": "it was brought back: it is asked how it is as soon as missions fly",
@@ -719,4 +720,6 @@ export default {
   "said.preflight.retired": "retired",
   "said.preflight.room": { one: "{missions} waits, as no more than {drones} may fly at once", other: "{missions} wait, as no more than {drones} may fly at once" },
   "said.preflight.too-far": "no battery lasts for any of these missions and the way home",
+  "said.question.action": "Did {drone} do “{action}” of trip {trip}? It could not be seen.",
+  "said.question.other": "{question}",
 };

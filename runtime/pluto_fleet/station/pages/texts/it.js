@@ -699,6 +699,7 @@ const texts = {
   "said.alert.late": "“{mission}” è in ritardo",
   "said.alert.lost": "{drone} è perso[: {why}]",
   "said.alert.uncertain": "“{mission}” chiede aiuto: {question}",
+  "said.alert.uncertain-action": "“{mission}” chiede aiuto: {drone} ha eseguito “{action}” della tratta {trip}?",
   "said.alert.waiting": { one: "{missions} aspetta un drone. Droni: {flying} in volo[; {low} con batteria bassa][, serve {takes}][, il primo pronto fra circa {ready_in}][; {charging} in carica][; {recovering} in recupero][; {lost} persi][; {offline} non ancora sentiti][; {retired} esclusi]", other: "{missions} aspettano un drone. Droni: {flying} in volo[; {low} con batteria bassa][, serve {takes}][, il primo pronto fra circa {ready_in}][; {charging} in carica][; {recovering} in recupero][; {lost} persi][; {offline} non ancora sentiti][; {retired} esclusi]" },
   "said.preflight.beside": { one: "{missions} già in volo prosegue fino alla fine, con un drone che si suppone tornato alla sua base", other: "{missions} già in volo proseguono fino alla fine, con droni che si suppongono tornati alle loro basi" },
   "said.preflight.brought-back": "è stato riammesso: gli si chiede come sta appena volano delle missioni",
@@ -725,6 +726,8 @@ const texts = {
   "said.preflight.retired": "escluso",
   "said.preflight.room": { one: "{missions} aspetta, perché insieme possono volare al massimo {drones}", other: "{missions} aspettano, perché insieme possono volare al massimo {drones}" },
   "said.preflight.too-far": "nessuna batteria basta per una di queste missioni e il ritorno alla base",
+  "said.question.action": "{drone} ha eseguito “{action}” della tratta {trip}? Non si è potuto vedere.",
+  "said.question.other": "{question}",
 };
 
 export default texts;
