@@ -20,13 +20,10 @@ from .words import words
 if TYPE_CHECKING:
     from ..gateway.sightings import Sighting
     from ..journal.fold import Record
-    from .wire import DroneRow, MissionRow, Question, TripRow
+    from .wire import DroneRow, MissionRow, Question, TripRow, Words
 
 END = "end"
 """The pseudo-block of missions that have ended."""
-
-WAITS_FOR_A_DRONE = "waits for a drone"
-"""With why none flies, if that is known already."""
 
 ENDED = (Status.COMPLETED, Status.FAILED, Status.CANCELLED)
 
@@ -55,7 +52,7 @@ def living_row(
     resumes: Sequence[str],
     priority: object,
     now: float,
-    fleet: Callable[[str, Sequence[Record]], str],
+    fleet: Callable[[str, Sequence[Record]], Words | None],
     first: Sequence[str],
 ) -> MissionRow:
     """Return the row of a mission that is `where` its brain says.
@@ -68,7 +65,7 @@ def living_row(
     until = where["until"] or opens
     until = until if (until or 0.0) > now else None
     why = partial(fleet, name, todo)
-    wait = "" if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
+    wait = None if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
     trips = [_trip(trip, "COMPLETED", priority) for trip in record["done"]]
     trips += [_trip(trip, "WAITING", priority) for trip in todo]
     # once its trips are done, a block has yet to decide
@@ -86,7 +83,7 @@ def recorded_row(name: str, record: Record, *, lives: bool = False) -> MissionRo
     at = [END] if record["ended"] else [record["at"]] if record["at"] else []
     trips = [_recorded_trip(trip, "COMPLETED") for trip in record["done"]]
     trips += [_recorded_trip(trip, "WAITING") for trip in record["todo"]]
-    row = _row(name, record, status, reason, trips, at, _WAITS.get(status, "") if lives else "")
+    row = _row(name, record, status, reason, trips, at, _WAITS.get(status) if lives else None)
     if lives:
         row["drone"], row["question"] = record["carrier"], _question(status, reason, record)
     return row
@@ -99,7 +96,7 @@ def _row(
     reason: str,
     trips: list[TripRow],
     at: list[str],
-    wait: str,
+    wait: Words | None,
 ) -> MissionRow:
     done, todo = len(record["done"]), record["todo"]
     return {
@@ -221,23 +218,30 @@ def _why_it_waits(
     at: Sequence[str],
     until: float | None,
     resumes: Sequence[str],
-    fleet: Callable[[], str],
+    fleet: Callable[[], Words | None],
     status: Status,
     first: Sequence[str],
-) -> str:
+) -> Words | None:
     if first and not at:
-        return f"comes after {', '.join(first)}"
+        return words("wait.after", f"comes after {', '.join(first)}", after=[*first])
     if until is not None:
-        return "waits until its time has come"
+        return words("wait.time", "waits until its time has come")
     if not where["allocated"] and at and at[0] in resumes:
-        why = fleet()
-        return f"{WAITS_FOR_A_DRONE} ({why})" if why else WAITS_FOR_A_DRONE
+        return fleet() or words("wait.drone", "waits for a drone")
     if at and status in ENDED:
-        return f"waits for what {at[0]} says"
-    return ""
+        return words("wait.verdict", f"waits for what {at[0]} says", block=at[0])
+    return None
 
 
-_WAITS = {Status.PAUSED: "paused", **dict.fromkeys(ANSWERS, "waits for your decision")}
+def waits_for_a_drone(row: MissionRow) -> bool:
+    """Return whether a mission has all that it takes to fly, but for a drone."""
+    return row["wait"] is not None and row["wait"]["key"] in ("wait.drone", "wait.drone-full")
+
+
+_WAITS = {
+    Status.PAUSED: words("wait.paused", "paused"),
+    **dict.fromkeys(ANSWERS, words("wait.you", "waits for your decision")),
+}
 
 
 def _question(status: Status, text: str, record: Record) -> Question | None:

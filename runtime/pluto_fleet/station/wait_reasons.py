@@ -1,4 +1,4 @@
-"""Why a mission waits for a drone, and which free drone is ready, in words."""
+"""Why a mission waits for a drone, and which free drone is ready."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from ..shared.domain.text import percent
 from ..shared.fleet.reach import Reach, chain_of, docked, miss_of
 from ..shared.hooks.plain_data import trip_of
 from .charging import ready_in, to_fly
+from .words import words
 
 if TYPE_CHECKING:
     from ..journal.fold import Record
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
     from ..shared.domain.app import App
     from ..shared.domain.fleet_data import DroneData, FleetData
     from ..shared.domain.model import Trip
+    from .wire import Scalar, Words
+
+    Facts = dict[str, Scalar | list[str]]
 
 LOOK_EVERY = 3.0
 """Seconds after which a reason is updated."""
@@ -30,13 +34,14 @@ _FREE, _LOST, _CHARGING = (
     one.value for one in (DroneStatus.FREE, DroneStatus.LOST, DroneStatus.CHARGING)
 )
 _DOES = {
-    "LOST": "lost",
-    "BUSY": "flying",
-    "RETURNING": "coming home",
-    "CHARGING": "charging",
-    "RECOVERING": "recovering",
-    "OFFLINE": "not asked yet",
+    "LOST": ("lost", "lost"),
+    "BUSY": ("flying", "flying"),
+    "RETURNING": ("returning", "coming home"),
+    "CHARGING": ("charging", "charging"),
+    "RECOVERING": ("recovering", "recovering"),
+    "OFFLINE": ("offline", "not asked yet"),
 }
+"""By status: the name of its fact, and the English."""
 
 
 class WaitReasons:
@@ -48,7 +53,7 @@ class WaitReasons:
         self._kinds = {category.name: category for category in self._app.categories}
         self._drones: Mapping[str, Any] = {}
         """Where each stood when the sample began."""
-        self._known: dict[tuple[str, str], tuple[float, str]] = {}
+        self._known: dict[tuple[str, str], tuple[float, Words | None]] = {}
         """By mission and trip: when it was asked, and the reason."""
         self._needs: dict[str, tuple[float, float]] = {}
         """Of each drone that is too low: when it was asked, and the level for the nearest trip."""
@@ -70,10 +75,10 @@ class WaitReasons:
             if now - asked < 2 * LOOK_EVERY and self._drones[id].get("aside")
         }
 
-    def why(self, mission: str, todo: Sequence[Record]) -> str:
-        """Return why no drone flies the next trip of those that a mission has to do; empty: not known yet."""
+    def why(self, mission: str, todo: Sequence[Record]) -> Words | None:
+        """Return why no drone flies the next trip of those that a mission has to do; None: not known yet."""
         which, now = (mission, todo[0]["name"] if todo else ""), self._clock()
-        asked, said = self._known.get(which, (-LOOK_EVERY, ""))
+        asked, said = self._known.get(which, (-LOOK_EVERY, None))
         if self._left and todo and now - asked >= LOOK_EVERY:
             self._left -= 1
             said = self._why_no_drone(chain_of([trip_of(self._app, one) for one in todo]))
@@ -108,7 +113,7 @@ class WaitReasons:
         kind, stands = self._kinds[one.category], drone["landed"] and docked((x, y, z), one.home)
         return ready_in(kind, round(drone["battery"], 3), self._wanted(id), docked=stands)
 
-    def _why_no_drone(self, chain: Sequence[Trip]) -> str:
+    def _why_no_drone(self, chain: Sequence[Trip]) -> Words:
         """Return what keeps each drone of the fleet from flying a chain of trips."""
         free = retired = 0
         low: list[tuple[float, float]] = []
@@ -131,11 +136,25 @@ class WaitReasons:
                 low.append((needs, drone["battery"]))
             else:
                 free += 1
-        parts = [f"{free} free{self._room()}"] if free else []
-        parts += [_too_low(low)] if low else []
-        parts += [f"{number} {_DOES[one]}" for one, number in status.items()]
-        parts += [f"{retired} retired"] if retired else []
-        return "; ".join([*parts, *(f"{n} cannot: {why}" for why, n in cannot.items())])
+        facts: Facts = {"free": free} if free else {}
+        is_full = free > 0 and self._is_full()
+        parts = [f"{free} free{', but no more may fly at once' if is_full else ''}"] if free else []
+        if low:
+            facts |= _too_low(low)
+            parts.append(_in_english(facts))
+        for does, number in status.items():
+            name, english = _DOES[does]
+            facts[name] = number
+            parts.append(f"{number} {english}")
+        if retired:
+            facts["retired"] = retired
+            parts.append(f"{retired} retired")
+        if cannot:
+            never = [f"{n} cannot: {why}" for why, n in cannot.items()]
+            facts["cannot"] = never
+            parts += never
+        text = f"waits for a drone ({'; '.join(parts)})" if parts else "waits for a drone"
+        return words("wait.drone-full" if is_full else "wait.drone", text, **facts)
 
     def _never(self, one: DroneData, drone: Mapping[str, Any], chain: Sequence[Trip]) -> str:
         """Return why a drone can never fly it; no route is searched for one that may just be busy."""
@@ -146,16 +165,24 @@ class WaitReasons:
             return miss.reason if miss else ""
         return ""
 
-    def _room(self) -> str:
+    def _is_full(self) -> bool:
+        """Return whether no more drones may fly at once."""
         most = self._fleet.max_airborne
         flying = sum(DroneStatus(drone["status"]) in IN_THE_AIR for drone in self._drones.values())
-        return "" if most is None or flying < most else ", but no more may fly at once"
+        return most is not None and flying >= most
 
 
-def _too_low(low: Sequence[tuple[float, float]]) -> str:
-    """Return how many are too low, and of the nearest what it needs and has."""
+def _too_low(low: Sequence[tuple[float, float]]) -> Facts:
+    """Return how many are too low, and of the nearest what it needs and has, in whole per cent."""
     needs, has = min(low, key=lambda one: (one[0] - one[1], one[1], one[0]))
     if needs > 1:
-        return f"{len(low)} free, but too low"
-    enough, there = percent(ceil(needs * 100) / 100), percent(floor(has * 100) / 100)
-    return f"{len(low)} free, but too low: it takes {enough}, the nearest has {there}"
+        return {"low": len(low)}
+    return {"low": len(low), "takes": ceil(needs * 100) / 100, "has": floor(has * 100) / 100}
+
+
+def _in_english(low: Facts) -> str:
+    said = f"{low['low']} free, but too low"
+    if "takes" not in low:
+        return said
+    takes, has = percent(float(str(low["takes"]))), percent(float(str(low["has"])))
+    return f"{said}: it takes {takes}, the nearest has {has}"

@@ -58,6 +58,13 @@ SaidKey = Literal[
     "preflight.too-far",
     "question.action",
     "question.other",
+    "wait.after",
+    "wait.drone",
+    "wait.drone-full",
+    "wait.paused",
+    "wait.time",
+    "wait.verdict",
+    "wait.you",
 ]
 
 
@@ -160,8 +167,8 @@ class MissionRow(TypedDict):
     drone: str | None
     at: list[str]
     """The blocks of the graph at which it is."""
-    wait: str
-    """Why it waits; empty: it does not."""
+    wait: Words | None
+    """Why it waits; None: it does not."""
     until: float | None
     attempt: int
     attempts: int

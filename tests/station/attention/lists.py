@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pluto_fleet.station.attention.attention import Attention
 from pluto_fleet.station.attention.causes import Cause
-from pluto_fleet.station.wire import Alert, DroneRow, MissionRow, Result
+from pluto_fleet.station.wire import Alert, DroneRow, MissionRow, Result, Words
 from pluto_fleet.station.words import words
 
 
@@ -35,7 +35,7 @@ def mission(
     status: str = "STANDBY",
     reason: str = "",
     *,
-    wait: str = "",
+    wait: Words | None = None,
     late: bool = False,
     answers: list[str] | None = None,
     at: str = "allocate",

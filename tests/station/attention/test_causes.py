@@ -10,6 +10,7 @@ import pytest
 
 from pluto_fleet.station.attention.causes import Cause, of_drones, of_missions, of_results
 from pluto_fleet.station.attention.waiting import LONG, Waits, of_batteries, of_waiting
+from pluto_fleet.station.words import words
 
 from .lists import Listed, drone, mission, result
 
@@ -107,9 +108,12 @@ def test_a_battery_that_does_not_charge_says_where_to_look() -> None:
 
 def test_one_waits_for_long_in_the_time_of_its_flight() -> None:
     waits = Waits()
-    waiting = [mission(name, wait="waits for a drone (2 flying)") for name in "ab"]
+    waiting = [mission(name, wait=words("wait.drone", "waits for a drone")) for name in "ab"]
     assert waits.look(waiting[:1], 10.0) == 0 and waits.any
     assert waits.look(waiting, 9.0 + LONG) == 0
     assert waits.look(waiting, 10.0 + LONG) == 2
     assert waits.look([mission("a"), waiting[1]], 11.0 + LONG) == 0
-    assert waits.look([mission("a"), mission("b", wait="paused")], 12.0) == 0 and not waits.any
+    assert (
+        waits.look([mission("a"), mission("b", wait=words("wait.paused", "paused"))], 12.0) == 0
+        and not waits.any
+    )

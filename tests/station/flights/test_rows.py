@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from pluto_fleet.station.rows import living_row, recorded_row
-from pluto_fleet.station.wire import MissionRow
+from pluto_fleet.station.wire import MissionRow, Words
+from pluto_fleet.station.words import words
 
 
 def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, Any]:
@@ -22,21 +23,25 @@ def record_of(status: str, *trips: Mapping[str, Any], **more: Any) -> dict[str, 
 def row(record: dict[str, Any], block: str, first: Sequence[str] = (), **more: Any) -> MissionRow:
     where = {"block": block, "drone": None, "flies": False, "allocated": False, "until": None}
 
-    def why(mission: str, todo: Sequence[Mapping[str, Any]]) -> str:
-        return str(todo[0]["name"]) if todo else ""
+    def why(mission: str, todo: Sequence[Mapping[str, Any]]) -> Words | None:
+        return words("wait.drone", f"waits for a drone ({todo[0]['name']})") if todo else None
 
     return living_row("a", record, where | more, ("allocate",), 1, 10.0, why, first)
+
+
+def text(seen: MissionRow) -> str:
+    return "" if seen["wait"] is None else seen["wait"]["text"]
 
 
 def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
     seen = row(record_of("COMPLETED"), "judge = MissionEvaluator(hook: judge)")
     assert (seen["status"], seen["at"]) == ("STANDBY", ["judge"])
-    assert seen["wait"] == "waits for what judge says"
+    assert text(seen) == "waits for what judge says"
 
 
 def test_a_mission_that_has_ended_is_at_the_end() -> None:
     seen = recorded_row("a", record_of("COMPLETED", ended=True), lives=True)
-    assert (seen["status"], seen["at"], seen["wait"]) == ("COMPLETED", ["end"], "")
+    assert (seen["status"], seen["at"], seen["wait"]) == ("COMPLETED", ["end"], None)
 
 
 TRIP = {"name": "1", "action": "measure", "target": [1.0, 1.0, 1.0]}
@@ -44,8 +49,8 @@ TRIP = {"name": "1", "action": "measure", "target": [1.0, 1.0, 1.0]}
 
 def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
     record, block = record_of("STANDBY", TRIP), "allocate = DroneAllocator"
-    assert row(record, block)["wait"] == "waits for a drone (1)"
-    assert row(record, block, allocated=True, drone="cf1")["wait"] == ""
+    assert text(row(record, block)) == "waits for a drone (1)"
+    assert row(record, block, allocated=True, drone="cf1")["wait"] is None
     assert row(record, block, flies=True, drone="cf1")["drone"] == "cf1"
 
 
@@ -68,16 +73,16 @@ def test_a_question_can_be_said_in_any_language() -> None:
 
 def test_a_delay_is_shown_as_long_as_it_lasts() -> None:
     record, block = record_of("UNEXECUTED", TRIP), "wait = Clock"
-    assert row(record, block, until=12.0)["wait"] == "waits until its time has come"
+    assert text(row(record, block, until=12.0)) == "waits until its time has come"
     assert row(record, block, until=12.0)["until"] == 12.0
     assert row(record, block, until=10.0)["until"] is None
 
 
 def test_a_mission_that_may_not_begin_yet_says_why() -> None:
     record = record_of("UNEXECUTED", TRIP, promises={"opens": 20.0, "deadline": 30.0})
-    assert row(record, "")["wait"] == "waits until its time has come"
+    assert text(row(record, "")) == "waits until its time has come"
     assert (row(record, "")["until"], row(record, "")["due"]) == (20.0, 30.0)
-    assert row(record, "", ["m", "n"])["wait"] == "comes after m, n"
+    assert text(row(record, "", ["m", "n"])) == "comes after m, n"
     assert row(record, "wait = Clock", ["m"])["until"] is None
 
 

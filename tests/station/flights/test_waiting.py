@@ -10,6 +10,7 @@ from pluto_fleet.shared.domain.model import Category, Item
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.telemetry import Charge
 from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons
+from pluto_fleet.station.wire import Words
 from tests.runtime import apps
 from tests.runtime.living import Living, enterable
 
@@ -37,21 +38,27 @@ def looking(fleet: Living) -> WaitReasons:
 
 
 def said(fleet: Living) -> list[str]:
-    """Return what is said of each that waits."""
+    """Return what is said of each that waits, in English."""
+    return [one["text"] for one in reasons(fleet)]
+
+
+def reasons(fleet: Living) -> list[Words]:
     waiting, where = looking(fleet), fleet.life.brain.whereabouts()
     missions = fleet.life.records.missions.items()
-    return [
+    found = [
         waiting.why(name, one["todo"]) for name, one in missions if where[name]["drone"] is None
     ]
+    return [one for one in found if one is not None]
 
 
 def test_drones_that_are_free_but_too_low_are_not_what_a_mission_waits_for_without_a_word() -> None:
     """It says how many are too low, what it takes, and what the nearest to it has."""
     fleet = living(far("a"), far("b"), low=0.25)
-    takes = {why.split("it takes ")[1].split(" %")[0] for why in said(fleet)}
-    assert [why.split(":")[0] for why in said(fleet)] == ["3 free, but too low"] * 2
-    assert all(25 < int(percent) < 100 for percent in takes)
-    assert all(why.endswith("the nearest has 25 %") for why in said(fleet))
+    begin, end = "waits for a drone (3 free, but too low: it takes ", " %, the nearest has 25 %)"
+    takes = [why.removeprefix(begin).removesuffix(end) for why in said(fleet)]
+    assert len(takes) == 2 and all(25 < int(percent) < 100 for percent in takes)
+    facts = [one["facts"] for one in reasons(fleet)]
+    assert facts == [{"low": 3, "takes": int(percent) / 100, "has": 0.25} for percent in takes]
 
 
 def test_when_a_drone_is_ready_that_is_too_low_is_when_its_queue_looks_at_it_again() -> None:
@@ -79,19 +86,21 @@ def test_drones_that_can_never_fly_it_are_counted_apart_with_the_reason() -> Non
     body = fleet.navigation.bodies["cf3"]
     vars(body)["_charge"] = Charge(0.05, 0.0)  # it cannot be given: the mission waits
     fleet.run(0.5)
-    (why,) = said(fleet)
-    assert why == ("1 retired; 2 cannot: scout carries at most 10 g, the item weighs 500 g")
+    (why,) = reasons(fleet)
+    cannot = "2 cannot: scout carries at most 10 g, the item weighs 500 g"
+    assert why["text"] == f"waits for a drone (1 retired; {cannot})"
+    assert why["facts"] == {"retired": 1, "cannot": [cannot]}
 
 
 def test_who_is_busy_lost_or_kept_on_the_ground_by_the_limit_is_said() -> None:
     missions = [apps.mission(name, apps.trip("1", 9.0)) for name in "abc"]
-    assert (
-        said(living(*missions, max_airborne=1))
-        == ["2 free, but no more may fly at once; 1 flying"] * 2
-    )
+    full = living(*missions, max_airborne=1)
+    assert said(full) == ["waits for a drone (2 free, but no more may fly at once; 1 flying)"] * 2
+    assert {one["key"] for one in reasons(full)} == {"wait.drone-full"}
     fleet = living(*missions, apps.mission("d", apps.trip("1", 9.0)))
     fleet.life.brain._core.fleet.drones[0].status = DroneStatus.LOST
-    assert said(fleet) == ["1 lost; 2 flying"]
+    assert said(fleet) == ["waits for a drone (1 lost; 2 flying)"]
+    assert [one["facts"] for one in reasons(fleet)] == [{"lost": 1, "flying": 2}]
 
 
 def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is_not_ready() -> (

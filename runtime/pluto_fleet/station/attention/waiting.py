@@ -7,7 +7,7 @@ from math import ceil
 from typing import TYPE_CHECKING
 
 from ...shared.domain.text import counted, duration, percent
-from ..rows import WAITS_FOR_A_DRONE
+from ..rows import waits_for_a_drone
 from ..words import words
 from .causes import Cause
 
@@ -32,7 +32,7 @@ class Waits:
 
     def look(self, missions: Iterable[MissionRow], now: float) -> int:
         """Return how many wait, if one of them has for long; else 0."""
-        waiting = [row["name"] for row in missions if row["wait"].startswith(WAITS_FOR_A_DRONE)]
+        waiting = [row["name"] for row in missions if waits_for_a_drone(row)]
         self._since = {name: self._since.get(name, now) for name in waiting}
         longest = max((now - since for since in self._since.values()), default=0.0)
         return len(waiting) if longest >= LONG else 0

@@ -161,7 +161,7 @@ class _Folding:
             if not self._journal.records.missions[one]["ended"]
         ]
         return living_row(
-            name, record, where, self._app.resumes, self._priority, t, lambda *_: "", first
+            name, record, where, self._app.resumes, self._priority, t, lambda *_: None, first
         )
 
     def _drone(self, id: str, t: float) -> Any:

@@ -73,7 +73,8 @@ class _Writing:
         stands.pop("time", None)
         self._put_change("/station", "pluto.State", t, stands)
         for row in frame["missions"]:
-            self._put_change(f"/missions/{_topic(row['name'])}", "pluto.Mission", t, row)
+            plain = {**row, "wait": row["wait"]["text"] if row["wait"] else ""}
+            self._put_change(f"/missions/{_topic(row['name'])}", "pluto.Mission", t, plain)
         moved = [moved for row in frame["drones"] if (moved := self._drone(t, row)) is not None]
         if moved:
             self._put("/tf", "foxglove.FrameTransforms", t, {"transforms": moved})

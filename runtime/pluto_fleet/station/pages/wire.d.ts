@@ -464,8 +464,8 @@ export interface MissionRow {
   drone: string | null;
   /** The blocks of the graph at which it is. */
   at: string[];
-  /** Why it waits; empty: it does not. */
-  wait: string;
+  /** Why it waits; None: it does not. */
+  wait: Words | null;
   until: number | null;
   attempt: number;
   attempts: number;
@@ -860,7 +860,7 @@ export interface WaysAsked {
 
 /** A sentence that each page says in its own language: a key of its catalogue, and its facts. `text` is the sentence in English, for whatever does not know the key. */
 export interface Words {
-  key: "alert.battery" | "alert.battery-stays" | "alert.crashed" | "alert.failed" | "alert.finding" | "alert.late" | "alert.lost" | "alert.uncertain" | "alert.uncertain-action" | "alert.waiting" | "preflight.beside" | "preflight.brought-back" | "preflight.busy" | "preflight.cannot" | "preflight.charges" | "preflight.charging" | "preflight.endless" | "preflight.few" | "preflight.few-lift" | "preflight.flies" | "preflight.given-up" | "preflight.heard-before" | "preflight.in-the-air" | "preflight.lost" | "preflight.low" | "preflight.low-away" | "preflight.never-heard" | "preflight.no-rehearsal" | "preflight.not-apart" | "preflight.not-ready" | "preflight.promise" | "preflight.refused" | "preflight.retired" | "preflight.room" | "preflight.too-far" | "question.action" | "question.other";
+  key: "alert.battery" | "alert.battery-stays" | "alert.crashed" | "alert.failed" | "alert.finding" | "alert.late" | "alert.lost" | "alert.uncertain" | "alert.uncertain-action" | "alert.waiting" | "preflight.beside" | "preflight.brought-back" | "preflight.busy" | "preflight.cannot" | "preflight.charges" | "preflight.charging" | "preflight.endless" | "preflight.few" | "preflight.few-lift" | "preflight.flies" | "preflight.given-up" | "preflight.heard-before" | "preflight.in-the-air" | "preflight.lost" | "preflight.low" | "preflight.low-away" | "preflight.never-heard" | "preflight.no-rehearsal" | "preflight.not-apart" | "preflight.not-ready" | "preflight.promise" | "preflight.refused" | "preflight.retired" | "preflight.room" | "preflight.too-far" | "question.action" | "question.other" | "wait.after" | "wait.drone" | "wait.drone-full" | "wait.paused" | "wait.time" | "wait.verdict" | "wait.you";
   facts: Record<string, string | number | number | boolean | string[]>;
   text: string;
 }

@@ -157,7 +157,7 @@ class Rehearsal:
                 self._reasons.why,
                 first,
             )
-            if str(row["wait"]).startswith("waits for a drone"):
+            if rows.waits_for_a_drone(row):
                 waiting.append((name, record))
             found.append(row)
         self._note(waiting, stand, passed)

@@ -7,7 +7,7 @@ import { has, t } from "./i18n.js";
 /** @import { Words } from "../wire" */
 /** @typedef {Words["facts"][string]} Fact */
 
-const SHARES = ["battery", "level", "needs", "supposed", "takes"];
+const SHARES = ["battery", "has", "level", "needs", "supposed", "takes"];
 const TIMES = ["ready_in", "seconds"];
 const MASSES = ["mg", "g", "kg"];
 /** @type {Record<string, "many.missions" | "many.drones" | "many.runs">} */

@@ -101,8 +101,8 @@ function Due({ world, row }) {
 /** @param {{ world: World, row: MissionRow }} props */
 function Because({ world, row }) {
   const now = row.until === null ? 0 : world.state.value.time;
-  const said = why(row, now);
-  return said ? h(Said, { class: "because", text: said }) : null;
+  const { text, isOwn } = why(row, now);
+  return text ? h(Said, { class: "because", text, isOwn }) : null;
 }
 
 /** @param {{ world: World, id: string }} props */

@@ -2,6 +2,7 @@
 
 import { capital, duration, number, plain, roughly } from "../core/format.js";
 import { t } from "../core/i18n.js";
+import { isTranslated, say } from "../core/said.js";
 
 /** @import { MissionRow, TripRow } from "../wire" */
 
@@ -16,10 +17,14 @@ export function progress({ trips, current, done, total }) {
     : t("monitor.done-of", { done, total });
 }
 
-/** Why it stands as it does. @param {MissionRow} row @param {number} now */
-export function why({ status, reason, wait, until }, now) {
-  const because = reason || (status === "PAUSED" ? "" : wait);
-  return until !== null && until > now ? `${because} (${duration(until - now)})` : because;
+/** Why it stands as it does, and whether in the reader's language. @param {MissionRow} row @param {number} now */
+export function why({ status, reason, question, wait, until }, now) {
+  const words = question?.said ?? (reason || status === "PAUSED" ? null : wait);
+  const text = words ? say(words) : reason;
+  return {
+    text: until !== null && until > now ? `${text} (${duration(until - now)})` : text,
+    isOwn: words !== null && isTranslated(words),
+  };
 }
 
 /** @param {MissionRow} row @param {number} now */

@@ -728,6 +728,13 @@ const texts = {
   "said.preflight.too-far": "kein Akku reicht für eine dieser Missionen und den Weg heim",
   "said.question.action": "Hat {drone} „{action}“ von Etappe {trip} ausgeführt? Es war nicht zu sehen.",
   "said.question.other": "{question}",
+  "said.wait.after": "kommt nach {after}",
+  "said.wait.drone": "wartet auf eine Drohne[; {free} bereit][; {low} bereit, aber mit zu schwachem Akku][: nötig {takes}, am nächsten daran {has}][; {flying} im Flug][; {returning} auf dem Heimweg][; {charging} am Laden][; {recovering} werden geborgen][; {lost} verloren][; {offline} noch nicht gefragt][; {retired} ausgesetzt][; {cannot}]",
+  "said.wait.drone-full": "wartet auf eine Drohne: mehr dürfen nicht zugleich fliegen[; {free} bereit][; {low} bereit, aber mit zu schwachem Akku][: nötig {takes}, am nächsten daran {has}][; {flying} im Flug][; {returning} auf dem Heimweg][; {charging} am Laden][; {recovering} werden geborgen][; {lost} verloren][; {offline} noch nicht gefragt][; {retired} ausgesetzt][; {cannot}]",
+  "said.wait.paused": "angehalten",
+  "said.wait.time": "wartet, bis es so weit ist",
+  "said.wait.verdict": "wartet auf das Ergebnis von {block}",
+  "said.wait.you": "wartet auf eine Entscheidung",
 };
 
 export default texts;

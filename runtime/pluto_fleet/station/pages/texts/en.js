@@ -722,4 +722,11 @@ export default {
   "said.preflight.too-far": "no battery lasts for any of these missions and the way home",
   "said.question.action": "Did {drone} do “{action}” of trip {trip}? It could not be seen.",
   "said.question.other": "{question}",
+  "said.wait.after": "comes after {after}",
+  "said.wait.drone": "waits for a drone[; {free} free][; {low} free, but too low][: it takes {takes}, the nearest has {has}][; {flying} flying][; {returning} coming home][; {charging} charging][; {recovering} being recovered][; {lost} lost][; {offline} not asked yet][; {retired} retired][; {cannot}]",
+  "said.wait.drone-full": "waits for a drone: no more may fly at once[; {free} free][; {low} free, but too low][: it takes {takes}, the nearest has {has}][; {flying} flying][; {returning} coming home][; {charging} charging][; {recovering} being recovered][; {lost} lost][; {offline} not asked yet][; {retired} retired][; {cannot}]",
+  "said.wait.paused": "paused",
+  "said.wait.time": "waits until its time has come",
+  "said.wait.verdict": "waits for what {block} says",
+  "said.wait.you": "waits for your decision",
 };

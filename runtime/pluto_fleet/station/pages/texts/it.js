@@ -248,7 +248,7 @@ const texts = {
   "phase.interrupted": "Interrotta",
   "phase.unknown": "Connessione",
   "simulated": "simulazione",
-  "simulated.at": "simulazione × {speed}",
+  "simulated.at": "simulato × {speed}",
 
   "hold.title": "Tenere premuto per avviare subito",
   "start": "Avvia",
@@ -728,6 +728,13 @@ const texts = {
   "said.preflight.too-far": "nessuna batteria basta per una di queste missioni e il ritorno alla base",
   "said.question.action": "{drone} ha eseguito “{action}” della tratta {trip}? Non si è potuto vedere.",
   "said.question.other": "{question}",
+  "said.wait.after": "viene dopo {after}",
+  "said.wait.drone": "aspetta un drone[; {free} pronti][; {low} pronti, ma con batteria bassa][: serve {takes}, il più vicino ha {has}][; {flying} in volo][; {returning} in rientro][; {charging} in carica][; {recovering} in recupero][; {lost} persi][; {offline} non ancora sentiti][; {retired} esclusi][; {cannot}]",
+  "said.wait.drone-full": "aspetta un drone: in volo non ne possono stare di più[; {free} pronti][; {low} pronti, ma con batteria bassa][: serve {takes}, il più vicino ha {has}][; {flying} in volo][; {returning} in rientro][; {charging} in carica][; {recovering} in recupero][; {lost} persi][; {offline} non ancora sentiti][; {retired} esclusi][; {cannot}]",
+  "said.wait.paused": "in pausa",
+  "said.wait.time": "aspetta la sua ora",
+  "said.wait.verdict": "aspetta l’esito di {block}",
+  "said.wait.you": "aspetta una decisione",
 };
 
 export default texts;
