@@ -60,7 +60,9 @@ function Standing() {
 function Liveness() {
   const { sim = false, speed = 1 } = app.value ?? {};
   return h("div", { class: "liveness" },
-    sim && h(Chip, null, speed === 1 ? t("simulated") : t("simulated.at", { speed })),
+    sim && h(Chip, null,
+      h("span", { class: "wide-only" }, speed === 1 ? t("simulated") : t("simulated.at", { speed })),
+      h("span", { class: "narrow-only", title: t("simulated") }, t("simulated.short", { speed: speed === 1 ? 0 : speed }))),
     plan.trouble.value && h(Chip, { kind: "warn" }, t("plan.unsaved")),
     h(Age, null));
 }

@@ -249,6 +249,7 @@ const texts = {
   "phase.unknown": "Verbindet",
   "simulated": "simuliert",
   "simulated.at": "simuliert × {speed}",
+  "simulated.short": "Sim[ × {speed}]",
 
   "hold.title": "Gedrückt halten, um sofort zu starten",
   "start": "Start",

@@ -243,6 +243,7 @@ export default {
   "phase.unknown": "Connecting",
   "simulated": "simulated",
   "simulated.at": "simulated × {speed}",
+  "simulated.short": "sim[ × {speed}]",
 
   "hold.title": "Hold down to start at once",
   "start": "Start",

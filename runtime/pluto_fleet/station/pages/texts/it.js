@@ -249,6 +249,7 @@ const texts = {
   "phase.unknown": "Connessione",
   "simulated": "simulazione",
   "simulated.at": "simulato × {speed}",
+  "simulated.short": "sim[ × {speed}]",
 
   "hold.title": "Tenere premuto per avviare subito",
   "start": "Avvia",
