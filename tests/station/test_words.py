@@ -31,4 +31,4 @@ def test_every_key_is_sent_from_somewhere_and_only_by_that_one_function() -> Non
     ]
 
 
-KEY = r'"((?:alert|preflight)\.[a-z-]+)"'
+KEY = r'"((?:alert|preflight|question|wait)\.[a-z-]+)"'

@@ -243,7 +243,7 @@ class Station:
             for said in impossible:
                 self.session.say(said)
         trips = sum(len(mission.trips) for mission in missions)
-        again = f", {counted(trips, 'trip')} that are missing of them" if only_failed else ""
+        again = f" with {counted(trips, 'trip')} still to do" if only_failed else ""
         left = self.history.lost if phase is not Phase.FLYING else ()
         without = f"; without {', '.join(left)}, lost until brought back" if left else ""
         late = "; not all will be in time: the console says why" if impossible else ""

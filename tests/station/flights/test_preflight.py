@@ -63,7 +63,7 @@ def test_a_start_is_forecast_and_rehearsed_and_what_is_missing_is_flown_again_al
     trips = 4 if len(known) == 1 else 4 - len(known)  # what was picked alone is picked again
     assert [one["trips"] for one in again["missions"]] == [trips]
     said = tell(station, "start", missions=[key], only_failed=True)
-    assert said == f"1 mission started, {trips} trips that are missing of them"
+    assert said == f"1 mission started with {trips} trip{'s' * (trips > 1)} still to do"
     comes_to(station, "over")
     assert ends(station)["Mission 3"] == "COMPLETED"
     assert row(station, "Mission 3")["total"] == trips

@@ -12,7 +12,16 @@ from ...shared.domain.text import cut_off, quoted
 from ..words import words
 
 if TYPE_CHECKING:
-    from ..wire import AlertKind, DroneRow, MissionRow, Point, Result, SaidKey, Scalar, Words
+    from ..wire import (
+        AlertKind,
+        DroneRow,
+        MissionRow,
+        Point,
+        Result,
+        SaidKey,
+        Scalar,
+        Words,
+    )
 
 _ASKING = {status.value for status in ANSWERS}
 _LONGEST_NAME = 60
