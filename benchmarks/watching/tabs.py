@@ -99,6 +99,7 @@ def main_threads(browser: Browser) -> dict[int, float]:
 @contextmanager
 def browser() -> Iterator[Browser]:
     """Start a browser that has never been here."""
+    # first the one that people have: what it costs them is measured
     names = ("chromium", "chromium-browser", "chromium-headless-shell")
     path = next(filter(None, map(shutil.which, names)), None)
     with sync_playwright() as driver:

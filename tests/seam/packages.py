@@ -121,7 +121,8 @@ def _plain(one: tarfile.TarInfo) -> tarfile.TarInfo:
 
 if __name__ == "__main__":
     parser = ArgumentParser(prog="python -m tests.seam.packages", description=__doc__)
-    parser.add_argument(
-        "names", nargs="*", metavar="NAME", choices=[*SOURCES, []], help="default: all"
-    )
-    keep(parser.parse_args().names or list(SOURCES))
+    parser.add_argument("names", nargs="*", metavar="NAME", help="default: all")
+    given = parser.parse_args().names or list(SOURCES)
+    if unknown := sorted(set(given) - set(SOURCES)):
+        parser.error(f"no such app: {', '.join(unknown)} (there are {', '.join(SOURCES)})")
+    keep(given)

@@ -250,12 +250,8 @@ def _question(status: Status, text: str, record: Record) -> Question | None:
         return None
     trip = trip_of(record, flight)
     if status is Status.UNCERTAIN and trip is not None:
-        did: dict[str, str] = {
-            "action": trip["action"],
-            "trip": trip["name"],
-            "drone": flight["drone"],
-        }
-        said = words("question.action", text, **did)
+        action, drone = trip["action"], flight["drone"]
+        said = words("question.action", text, action=action, trip=trip["name"], drone=drone)
     else:
         said = words("question.other", text, question=text)
     return {"said": said, "answers": list(answers)}

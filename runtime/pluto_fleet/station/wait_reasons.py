@@ -140,8 +140,9 @@ class WaitReasons:
         is_full = free > 0 and self._is_full()
         parts = [f"{free} free{', but no more may fly at once' if is_full else ''}"] if free else []
         if low:
-            facts |= _too_low(low)
-            parts.append(_in_english(facts))
+            more, said = _too_low(low)
+            facts |= more
+            parts.append(said)
         for does, number in status.items():
             name, english = _DOES[does]
             facts[name] = number
@@ -172,17 +173,12 @@ class WaitReasons:
         return most is not None and flying >= most
 
 
-def _too_low(low: Sequence[tuple[float, float]]) -> Facts:
-    """Return how many are too low, and of the nearest what it needs and has, in whole per cent."""
+def _too_low(low: Sequence[tuple[float, float]]) -> tuple[Facts, str]:
+    """Return how many are too low, and of the nearest what it needs and has, as facts and in English."""
+    said = f"{len(low)} free, but too low"
     needs, has = min(low, key=lambda one: (one[0] - one[1], one[1], one[0]))
     if needs > 1:
-        return {"low": len(low)}
-    return {"low": len(low), "takes": ceil(needs * 100) / 100, "has": floor(has * 100) / 100}
-
-
-def _in_english(low: Facts) -> str:
-    said = f"{low['low']} free, but too low"
-    if "takes" not in low:
-        return said
-    takes, has = percent(float(str(low["takes"]))), percent(float(str(low["has"])))
-    return f"{said}: it takes {takes}, the nearest has {has}"
+        return {"low": len(low)}, said
+    takes, level = ceil(needs * 100) / 100, floor(has * 100) / 100
+    said += f": it takes {percent(takes)}, the nearest has {percent(level)}"
+    return {"low": len(low), "takes": takes, "has": level}, said

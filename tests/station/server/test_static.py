@@ -53,7 +53,7 @@ def test_no_path_leads_out_of_the_table(path: str) -> None:
     assert b"root" not in reply.body
 
 
-KINDS = (".css", ".html", ".js", ".json", ".mjs", ".png", ".svg", ".webmanifest", ".woff2")
+KINDS = (".css", ".html", ".js", ".json", ".mjs", ".svg", ".webmanifest")
 
 
 def test_there_is_each_page_and_nothing_else() -> None:
@@ -71,7 +71,7 @@ def test_there_is_each_page_and_nothing_else() -> None:
 
 def test_what_lies_in_subfolders_is_served_and_the_manifest_at_the_top(tmp_path: Path) -> None:
     for name in (
-        *("index.html", "manifest.webmanifest", "map/draw.mjs", "map/icons/a-1.png"),
+        *("index.html", "manifest.webmanifest", "map/draw.mjs", "map/icons/a-1.svg"),
         *("wire.d.ts", "LICENSE.txt", ".hidden/a.js", "Map/a.js", "map/.a.js", "map/__init__.py"),
     ):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -83,7 +83,7 @@ def test_what_lies_in_subfolders_is_served_and_the_manifest_at_the_top(tmp_path:
         "/manifest.webmanifest": "application/manifest+json",
         "/pages/manifest.webmanifest": "application/manifest+json",
         "/pages/map/draw.mjs": "text/javascript",
-        "/pages/map/icons/a-1.png": "image/png",
+        "/pages/map/icons/a-1.svg": "image/svg+xml",
     }
 
 

@@ -84,19 +84,18 @@ def of_missions(missions: Iterable[MissionRow]) -> Iterator[Cause]:
 
 def _uncertain(called: str, row: MissionRow) -> Words:
     name, question = row["name"], row["question"]
-    if question is None:
-        return words(
-            "alert.uncertain",
-            f"{called} needs you: {row['reason']}",
-            mission=name,
-            question=row["reason"],
+    asked, answers = row["reason"], list[str]()
+    facts: dict[str, Scalar | list[str]] = {"question": asked}
+    key: SaidKey = "alert.uncertain"
+    if question is not None:
+        asked, facts, answers = (
+            question["said"]["text"],
+            question["said"]["facts"],
+            question["answers"],
         )
-    said, answers = question["said"], question["answers"]
-    key: SaidKey = (
-        "alert.uncertain-action" if said["key"] == "question.action" else "alert.uncertain"
-    )
-    text = f"{called} needs you: {said['text']}"
-    return words(key, text, mission=name, answers=answers, **said["facts"])
+        if question["said"]["key"] == "question.action":
+            key = "alert.uncertain-action"
+    return words(key, f"{called} needs you: {asked}", mission=name, answers=answers, **facts)
 
 
 def _place_of(row: MissionRow) -> Point | None:

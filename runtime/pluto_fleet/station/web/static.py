@@ -21,18 +21,14 @@ FOLDER = Path(__file__).parent.parent / "pages"
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9_-]*\.[a-z0-9]+")
 _FOLDER = re.compile(r"[a-z0-9][a-z0-9_-]*")
-_PACKED = (".png", ".woff2")
-"""The kinds of files that are compressed by themselves."""
 _KINDS = {
     ".css": "text/css; charset=utf-8",
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
     ".json": "application/json",
     ".mjs": "text/javascript; charset=utf-8",
-    ".png": "image/png",
     ".svg": "image/svg+xml",
     ".webmanifest": "application/manifest+json",
-    ".woff2": "font/woff2",
 }
 _AT_THE_TOP = {"/": "/pages/index.html", "/manifest.webmanifest": "/pages/manifest.webmanifest"}
 
@@ -57,7 +53,7 @@ def pages(folder: Path = FOLDER) -> Mapping[str, StaticFile]:
         proper = _NAME.fullmatch(name) and all(map(_FOLDER.fullmatch, folders))
         if kind is not None and proper and file.is_file():
             address = "/".join(["/pages", *folders, name])
-            table[address] = _held(kind, file.read_bytes(), packs=file.suffix not in _PACKED)
+            table[address] = _held(kind, file.read_bytes(), packs=True)
     return table | {top: table[page] for top, page in _AT_THE_TOP.items() if page in table}
 
 

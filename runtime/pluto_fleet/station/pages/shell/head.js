@@ -59,10 +59,11 @@ function Standing() {
 /** Whether what is seen is simulated, saved, and of now. */
 function Liveness() {
   const { sim = false, speed = 1 } = app.value ?? {};
+  const faster = speed === 1 ? {} : { speed };
   return h("div", { class: "liveness" },
     sim && h(Chip, null,
-      h("span", { class: "wide-only" }, speed === 1 ? t("simulated") : t("simulated.at", { speed })),
-      h("span", { class: "narrow-only", title: t("simulated") }, t("simulated.short", { speed: speed === 1 ? 0 : speed }))),
+      h("span", { class: "wide-only" }, t("simulated.at", faster)),
+      h("span", { class: "narrow-only", title: t("simulated") }, t("simulated.short", faster))),
     plan.trouble.value && h(Chip, { kind: "warn" }, t("plan.unsaved")),
     h(Age, null));
 }

@@ -248,7 +248,7 @@ const texts = {
   "phase.interrupted": "Unterbrochen",
   "phase.unknown": "Verbindet",
   "simulated": "simuliert",
-  "simulated.at": "simuliert × {speed}",
+  "simulated.at": "simuliert[ × {speed}]",
   "simulated.short": "Sim[ × {speed}]",
 
   "hold.title": "Gedrückt halten, um sofort zu starten",

@@ -242,7 +242,7 @@ export default {
   "phase.interrupted": "Interrupted",
   "phase.unknown": "Connecting",
   "simulated": "simulated",
-  "simulated.at": "simulated × {speed}",
+  "simulated.at": "simulated[ × {speed}]",
   "simulated.short": "sim[ × {speed}]",
 
   "hold.title": "Hold down to start at once",

@@ -248,7 +248,7 @@ const texts = {
   "phase.interrupted": "Interrotta",
   "phase.unknown": "Connessione",
   "simulated": "simulazione",
-  "simulated.at": "simulato × {speed}",
+  "simulated.at": "simulazione[ × {speed}]",
   "simulated.short": "sim[ × {speed}]",
 
   "hold.title": "Tenere premuto per avviare subito",
