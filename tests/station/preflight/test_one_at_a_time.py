@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
@@ -30,12 +31,51 @@ from tests.station.preflight.asking import FLEET, photos, question
 from tests.station.server.asking import AStation
 
 ONE = photos("mission-one", 1)
+PATIENCE = 60.0
+"""Seconds until something that does not happen is called a failure."""
+
+
+@dataclass(slots=True)
+class Copies:
+    """The processes of forecasts that fly one run and then hang, until they are ended."""
+
+    forked: list[int] = field(default_factory=list)
+    flying: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(0))
+
+    def of(self, preflight: Preflight) -> None:
+        """Count those of this preflight that fly."""
+        preflight.begun = self.flying.release
+
+    async def begun(self) -> None:
+        """Wait until one more flies."""
+        async with asyncio.timeout(PATIENCE):
+            await self.flying.acquire()
+
+    async def ended(self) -> None:
+        """Wait until none is left; other tests may have left children of this process."""
+        assert self.forked
+        async with asyncio.timeout(PATIENCE):
+            while any(map(_is_there, self.forked)):
+                await asyncio.sleep(0.01)
+
+
+def _is_there(child: int) -> bool:
+    try:  # only a look: it is reaped where it is read
+        os.waitid(os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT)
+    except ChildProcessError:
+        return False
+    return True
 
 
 @pytest.fixture
-def endless(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Let a forecast fly one run and then hang, until its process is ended."""
+def copies(monkeypatch: pytest.MonkeyPatch) -> Iterator[Copies]:
+    """Let each forecast fly one run and then hang, until its process is ended."""
+    copies, fork = Copies(), os.fork
     reads, writes = os.pipe()
+
+    def forks() -> int:
+        copies.forked.append(fork())
+        return copies.forked[-1]
 
     def hangs(asked: Question, recording: Path | None) -> Iterator[Found]:
         yield Needs({}, {})
@@ -43,57 +83,34 @@ def endless(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         os.read(reads, 1)
 
     with monkeypatch.context() as patched:
+        patched.setattr(os, "fork", forks)
         patched.setattr(running, "found", hangs)
-        yield
+        yield copies
     os.close(reads)
     os.close(writes)
 
 
-def no_child_is_left() -> bool:
-    try:
-        os.waitid(
-            os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT
-        )  # it is reaped where it is read
-    except ChildProcessError:
-        return True
-    return False
-
-
-async def begun(preflight: Preflight) -> None:
-    """Wait until a forecast flies."""
-    flies = asyncio.Event()
-    preflight.begun = flies.set
-    await flies.wait()
-
-
-async def ended() -> None:
-    """Wait until no process of a forecast is left."""
-    while not no_child_is_left():
-        await asyncio.sleep(0)
-
-
-@pytest.mark.usefixtures("endless")
-def test_a_newer_one_ends_the_one_that_flies(tmp_path: Path) -> None:
+def test_a_newer_one_ends_the_one_that_flies(tmp_path: Path, copies: Copies) -> None:
     async def both() -> None:
         preflight = Preflight(tmp_path)
+        copies.of(preflight)
         first = asyncio.ensure_future(preflight.ask(question(ONE), ["mission-one"], []))
-        await begun(preflight)
+        await copies.begun()
         second = asyncio.ensure_future(preflight.ask(question(ONE), ["mission-one"], []))
         with pytest.raises(Newer, match="a newer one was asked for"):
             await first
-        await begun(preflight)
+        await copies.begun()
         second.cancel()
         with pytest.raises(asyncio.CancelledError):
             await second
-        await ended()
+        await copies.ended()
 
     asyncio.run(both())
     assert not (tmp_path / "rehearsals").exists()
 
 
-@pytest.mark.usefixtures("endless")
 def test_a_stop_is_answered_and_pages_are_told_while_one_flies_and_a_new_plan_ends_it(
-    tmp_path: Path,
+    tmp_path: Path, copies: Copies
 ) -> None:
     async def station() -> None:
         settings = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
@@ -101,9 +118,10 @@ def test_a_stop_is_answered_and_pages_are_told_while_one_flies_and_a_new_plan_en
         plan = drawn(ONE, fleet=FLEET)
         served = Station(APP, settings, plan)
         served.begin()
+        copies.of(served.preflight)
         asked = PlannedStart(revision=plan.revision)
         making = asyncio.ensure_future(served.forecast(asked))
-        await begun(served.preflight)
+        await copies.begun()
         assert await served.command("stop", "one", {"how": "land"}, "") == "nothing flies"
         assert '"phase": "idle"' in await served.newer("", 0, 0, 0)
         assert not making.done()
@@ -112,44 +130,40 @@ def test_a_stop_is_answered_and_pages_are_told_while_one_flies_and_a_new_plan_en
             await making
         with pytest.raises(Newer, match="the plan has changed"):
             await served.forecast(asked)
-        await ended()
+        await copies.ended()
 
     asyncio.run(station())
 
 
-@pytest.mark.usefixtures("endless")
-def test_it_is_given_up_when_its_client_goes_away(tmp_path: Path) -> None:
+def test_it_is_given_up_when_its_client_goes_away(tmp_path: Path, copies: Copies) -> None:
     preflight = Preflight(tmp_path)
+    copies.of(preflight)
 
     class Served(AStation):
         async def forecast(self, asked: PlannedStart, /) -> Forecast:
             return await preflight.ask(question(ONE), ["mission-one"], [])
 
-    async def gone() -> None:
-        await begun(preflight)
-
     async def asked() -> None:
-        request = Request(method="POST", path="/api/preflight", gone=gone)
+        request = Request(method="POST", path="/api/preflight", gone=copies.begun)
         given: dict[str, object] = {"revision": 1, "missions": None}
         one = Asked(
             station=Served(), audit=Audit(None), request=request, role="fly", given=given, body=b""
         )
         assert await answered(one) is GONE
-        await ended()
+        await copies.ended()
 
     asyncio.run(asked())
 
 
-@pytest.mark.usefixtures("endless")
 def test_one_that_has_flown_nothing_in_time_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, copies: Copies, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(running, "FIRST_WITHIN", 0.0)
 
     async def cut_off() -> None:
         with pytest.raises(BadInput, match="not even one run of this plan was flown within"):
             await Preflight(tmp_path).ask(question(ONE), ["mission-one"], [])
-        await ended()
+        await copies.ended()
 
     asyncio.run(cut_off())
 
