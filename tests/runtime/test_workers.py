@@ -140,6 +140,24 @@ def test_an_interrupt_ends_all_at_once() -> None:
         list(in_workers(interrupts, [60, 60], 2))
 
 
+@pytest.mark.usefixtures("no_worker_left")
+def test_an_interrupt_that_raises_nothing_ends_all_too() -> None:
+    """An app's own handler raises nothing, and what one raises while objects are freed is dropped."""
+    parent, heard = os.getpid(), list[int]()
+
+    def interrupts(seconds: int) -> None:
+        os.kill(parent, signal.SIGINT)
+        time.sleep(seconds)
+
+    before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            list(in_workers(interrupts, [60, 60], 2))
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert heard
+
+
 def test_a_child_of_a_hook_that_lives_on_is_not_waited_for(tmp_path: Path) -> None:
     """It has what a worker had open, but the way to its reader."""
     note = tmp_path / "child"

@@ -243,7 +243,9 @@ class LiveFlight:
 
     async def _asked(self, question: Coroutine[Any, Any, str], what: str) -> None:
         """Ask the gateway; raise `BadInput` with its reason why that cannot be."""
-        why = await self._kernel.offer(self._kernel.spawn(question, FLEET, what))
+        asked: list[Task[str]] = []
+        self._kernel.post(lambda: asked.append(self._kernel.spawn(question, FLEET, what)))
+        why = await self._kernel.offer(asked[0])
         if why:
             raise BadInput(why)
 

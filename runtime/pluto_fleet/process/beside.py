@@ -9,7 +9,6 @@ from __future__ import annotations
 import asyncio
 import gc
 import os
-import pickle
 import signal
 import threading
 import traceback
@@ -100,7 +99,7 @@ class _Copy:
                     yield message
         except (EOFError, OSError):
             pass  # it has ended without
-        except pickle.UnpicklingError as error:
+        except Exception as error:  # noqa: BLE001 - to read it may raise anything
             end = _End(error)
         self._pipe.close()
         with self._reaped:

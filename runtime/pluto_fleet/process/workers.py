@@ -96,6 +96,8 @@ def in_workers(
             while place not in done:
                 while parts and len(workers) < jobs:
                     _begin(work, tasks, parts.popleft(), workers)
+                if not workers:  # an interrupt has ended them, and its handler has not raised
+                    raise KeyboardInterrupt
                 for pipe in wait(list(workers)):
                     assert isinstance(pipe, Connection)
                     _take(pipe, workers, done)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -166,6 +166,21 @@ def test_one_that_has_flown_nothing_in_time_is_refused(
         await copies.ended()
 
     asyncio.run(cut_off())
+
+
+class Unreadable:
+    """Can be sent, and not be received."""
+
+    def __reduce__(self) -> tuple[Callable[[str], int], tuple[str]]:
+        return int, ("none",)
+
+
+def test_what_cannot_be_read_is_raised() -> None:
+    async def found() -> list[object]:
+        return [one async for one in in_a_copy(lambda: [Unreadable()])]
+
+    with pytest.raises(ValueError, match="none"):
+        asyncio.run(asyncio.wait_for(found(), PATIENCE))
 
 
 def test_what_goes_wrong_in_a_copy_is_raised_here_and_its_death_is_told() -> None:
