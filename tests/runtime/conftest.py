@@ -13,6 +13,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from tests.forks import recorded
 from tests.one_brain import Elsewhere
 
 EMBEDDED = os.environ.get("PLUTO_EMBEDDED")
@@ -38,15 +39,7 @@ if EMBEDDED:
 @pytest.fixture
 def no_worker_left(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Hold that each process that a test forks has ended, and was waited for; others may have children here."""
-    forked: list[int] = []
-    fork = os.fork
-
-    def forks() -> int:
-        child = fork()
-        forked.append(child)
-        return child
-
-    monkeypatch.setattr(os, "fork", forks)
+    forked = recorded(monkeypatch)
     yield
     assert forked, "nothing was forked"
     for child in forked:

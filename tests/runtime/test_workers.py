@@ -141,21 +141,48 @@ def test_an_interrupt_ends_all_at_once() -> None:
 
 
 @pytest.mark.usefixtures("no_worker_left")
-def test_an_interrupt_that_raises_nothing_ends_all_too() -> None:
-    """An app's own handler raises nothing, and what one raises while objects are freed is dropped."""
+def test_an_interrupt_whose_handler_raises_nothing_ends_all_too() -> None:
+    """Such is an app's own."""
     parent, heard = os.getpid(), list[int]()
 
-    def interrupts(seconds: int) -> None:
-        os.kill(parent, signal.SIGINT)
-        time.sleep(seconds)
+    def work(number: int) -> None:
+        if number == 0:
+            os.kill(parent, signal.SIGINT)
+        time.sleep(60)
 
     before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
     try:
         with pytest.raises(KeyboardInterrupt):
-            list(in_workers(interrupts, [60, 60], 2))
+            list(in_workers(work, [0, 1], 2))
     finally:
         signal.signal(signal.SIGINT, before)
-    assert heard
+    assert heard == [signal.SIGINT]
+
+
+class Interrupts:
+    """Interrupts its process as it is freed, where Python drops what a handler raises."""
+
+    def __init__(self, process: int) -> None:
+        self.process = process
+
+    def __del__(self) -> None:
+        if os.getpid() == self.process:
+            signal.raise_signal(signal.SIGINT)
+
+
+@pytest.mark.usefixtures("no_worker_left")
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_an_interrupt_that_python_drops_ends_all_too() -> None:
+    """The first result is freed as the second one comes; nothing would come of the third any more."""
+    parent = os.getpid()
+
+    def work(number: int) -> Interrupts | None:
+        if number == 2:
+            time.sleep(60)
+        return Interrupts(parent) if number == 0 else None
+
+    with pytest.raises(KeyboardInterrupt):
+        list(map(type, in_workers(work, [0, 1, 2], 3)))
 
 
 def test_a_child_of_a_hook_that_lives_on_is_not_waited_for(tmp_path: Path) -> None:

@@ -242,7 +242,7 @@ class LiveFlight:
                 await self._asked(life.control.mishaps.happen(drone, kind), "a mishap")
 
     async def _asked(self, question: Coroutine[Any, Any, str], what: str) -> None:
-        """Ask the gateway; raise `BadInput` with its reason why that cannot be."""
+        """Ask the gateway at once; raise `BadInput` with its reason why that cannot be."""
         asked: list[Task[str]] = []
         self._kernel.post(lambda: asked.append(self._kernel.spawn(question, FLEET, what)))
         why = await self._kernel.offer(asked[0])

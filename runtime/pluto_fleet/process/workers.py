@@ -30,6 +30,9 @@ R = TypeVar("R")
 _ENOUGH, _MOST = 20, 50
 """Into how many parts tasks are divided, unless a part would have more than so many of them."""
 
+_A_MOMENT = 0.5
+"""Seconds: a signal that comes just before a wait is handled only after it."""
+
 _BY_A_PERSON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """The signals that ask a process to end; the first raises, so its handler is replaced first."""
 
@@ -91,16 +94,16 @@ def in_workers(
     )
     workers: dict[Connection, _Worker] = {}
     done: dict[int, Message] = {}
-    with _ending(workers):
+    with _ending(workers) as interrupts:
         for place in range(len(tasks)):
             while place not in done:
                 while parts and len(workers) < jobs:
                     _begin(work, tasks, parts.popleft(), workers)
-                if not workers:  # an interrupt has ended them, and its handler has not raised
-                    raise KeyboardInterrupt
-                for pipe in wait(list(workers)):
+                for pipe in wait(list(workers), _A_MOMENT):
                     assert isinstance(pipe, Connection)
                     _take(pipe, workers, done)
+                if interrupts:  # its handler raises nothing, or Python has dropped what it raised
+                    raise KeyboardInterrupt
             this = done.pop(place)
             if isinstance(this, Raised):
                 raise this.error from (_InAWorker(f"\n{this.trace}") if this.trace else None)
@@ -226,18 +229,25 @@ def _held() -> Iterator[None]:
 
 
 @contextmanager
-def _ending(workers: dict[Connection, _Worker]) -> Iterator[None]:
-    """End all workers with this context, and with this process if that is asked to end."""
+def _ending(workers: dict[Connection, _Worker]) -> Iterator[set[int]]:
+    """End all workers with this context, and with this process if that is asked to end.
 
-    def end() -> None:
+    The set has what has interrupted this process.
+    """
+    interrupts: set[int] = set()
+
+    def kill() -> None:
         for worker in workers.values():
             with suppress(ProcessLookupError):
                 os.kill(worker.process, signal.SIGKILL)
-        for pipe, worker in workers.items():
+
+    def end() -> None:
+        kill()
+        while workers:
+            pipe, worker = workers.popitem()
             pipe.close()
             with suppress(ChildProcessError):
                 os.waitpid(worker.process, 0)
-        workers.clear()
 
     def ended(number: int, _: FrameType | None) -> None:
         end()
@@ -245,8 +255,8 @@ def _ending(workers: dict[Connection, _Worker]) -> Iterator[None]:
         os.kill(os.getpid(), number)
 
     def interrupted(number: int, frame: FrameType | None) -> None:
-        with _held():  # a second interrupt must not keep any worker alive
-            end()
+        interrupts.add(number)
+        kill()  # and no more: whoever is interrupted may be about to read from them
         assert callable(interrupt)
         interrupt(number, frame)
 
@@ -259,8 +269,11 @@ def _ending(workers: dict[Connection, _Worker]) -> Iterator[None]:
         if callable(interrupt):
             before[signal.SIGINT] = signal.signal(signal.SIGINT, interrupted)
     try:
-        yield
+        yield interrupts
     finally:
-        end()
-        for number, handler in before.items():
-            signal.signal(number, handler)
+        try:
+            with _held():  # a second interrupt must not keep any worker alive
+                end()
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)

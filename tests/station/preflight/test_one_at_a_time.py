@@ -25,21 +25,21 @@ from pluto_fleet.station.web.forecasts import preflight as answered
 from pluto_fleet.station.web.http import Request
 from pluto_fleet.station.web.served import Asked
 from pluto_fleet.station.wire import Forecast
+from tests.forks import recorded
 from tests.runtime.files.an_app import APP
+from tests.station.browser.serving import PATIENCE
 from tests.station.plan.drawing import drawn
 from tests.station.preflight.asking import FLEET, photos, question
 from tests.station.server.asking import AStation
 
 ONE = photos("mission-one", 1)
-PATIENCE = 60.0
-"""Seconds until something that does not happen is called a failure."""
 
 
 @dataclass(slots=True)
 class Copies:
     """The processes of forecasts that fly one run and then hang, until they are ended."""
 
-    forked: list[int] = field(default_factory=list)
+    forked: list[int]
     flying: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(0))
 
     def of(self, preflight: Preflight) -> None:
@@ -70,12 +70,7 @@ def _is_there(child: int) -> bool:
 @pytest.fixture
 def copies(monkeypatch: pytest.MonkeyPatch) -> Iterator[Copies]:
     """Let each forecast fly one run and then hang, until its process is ended."""
-    copies, fork = Copies(), os.fork
     reads, writes = os.pipe()
-
-    def forks() -> int:
-        copies.forked.append(fork())
-        return copies.forked[-1]
 
     def hangs(asked: Question, recording: Path | None) -> Iterator[Found]:
         yield Needs({}, {})
@@ -83,9 +78,8 @@ def copies(monkeypatch: pytest.MonkeyPatch) -> Iterator[Copies]:
         os.read(reads, 1)
 
     with monkeypatch.context() as patched:
-        patched.setattr(os, "fork", forks)
         patched.setattr(running, "found", hangs)
-        yield copies
+        yield Copies(recorded(patched))
     os.close(reads)
     os.close(writes)
 
