@@ -19,9 +19,9 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from playwright.sync_api import Page, sync_playwright
 
 from measuring.options import at_least_one
-from tests.editor.browser.large import large
-from tests.editor.browser.serving import NAME, Editor
-from tests.station.browser.chrome import ARGUMENTS, chromium
+from tests.compiler.editor.browser.large import large
+from tests.compiler.editor.browser.serving import NAME, Editor
+from tests.library.station.browser.chrome import ARGUMENTS, chromium
 
 DRAGGED = 3.0
 """Seconds."""

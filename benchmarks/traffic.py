@@ -30,11 +30,11 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.gateway.traffic.narrow import PLACES, longest_wait
-from tests.gateway.traffic.narrow import flown as flown_in
-from tests.gateway.traffic.real_skies import PRECISE
-from tests.gateway.traffic.real_skies import late as late_for_real
-from tests.gateway.traffic.skies import Sky
+from tests.library.gateway.traffic.narrow import PLACES, longest_wait
+from tests.library.gateway.traffic.narrow import flown as flown_in
+from tests.library.gateway.traffic.real_skies import PRECISE
+from tests.library.gateway.traffic.real_skies import late as late_for_real
+from tests.library.gateway.traffic.skies import Sky
 
 APART, HEIGHT = 0.5, 1.2
 

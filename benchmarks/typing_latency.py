@@ -20,7 +20,7 @@ from lsprotocol import types
 
 from large_apps import SHAPES
 from measuring.options import at_least_one
-from tests.lsp.client import Client
+from tests.compiler.lsp.client import Client
 
 TYPED = "  again = PriorityManager(max_attempts: 3)\n  again -> end when FAILED\n"
 

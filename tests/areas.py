@@ -24,7 +24,7 @@ from pluto_fleet.files.reading import parsed
 from pluto_fleet.files.toml import toml_text
 from pluto_fleet.shared.domain.airspace import Airspace, Corner, Polygon, distance, inside
 from pluto_fleet.shared.domain.errors import BadInput
-from tests.runtime.files.an_app import APP
+from tests.library.files.an_app import APP
 
 SIZE = (20.0, 15.0)
 STREWN = 400

@@ -20,12 +20,13 @@ from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.trials.invariants import Items, items_of
 from plutoc.cli import main
+from tests.paths import ROOT
 
 if TYPE_CHECKING:
     from pluto_fleet.flight.outcome import SimulationResult
     from pluto_fleet.shared.domain.model import Mission
 
-EXAMPLES = Path(__file__).parents[1] / "examples"
+EXAMPLES = ROOT / "examples"
 NAMES = sorted(path.parent.name for path in EXAMPLES.glob("*/app.pluto"))
 
 A_WEEK = 7 * 86_400.0

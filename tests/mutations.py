@@ -12,15 +12,15 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 from plutoc.compile import analyse, check_hooks
 from plutoc.diagnostic import Diagnostic, Rejected, Severity
 from plutoc.source import Source
 from plutoc.syntax.parse import read
 from plutoc.syntax.tree import File
+from tests.paths import ROOT
 
-EXAMPLES = Path(__file__).parents[1] / "examples"
+EXAMPLES = ROOT / "examples"
 
 _TOKEN = re.compile(r"\w+|->|\"[^\"\n]*\"|[^\w\s]")
 _CHARACTERS = "abcxyzAZ019 _-.,:;()[]{}<>=#\"'/\\%→é\t"

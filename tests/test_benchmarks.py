@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[1]
+from tests.paths import ROOT
+
 EXAMPLES = sorted(path.parent.name for path in ROOT.glob("examples/*/app.pluto"))
 FOR_PACKAGES = ("jinja2", "black", "asyncio")
 

@@ -16,7 +16,8 @@ from typing import NamedTuple
 import pytest
 from ruamel.yaml import YAML
 
-ROOT = Path(__file__).parent.parent
+from tests.paths import ROOT
+
 CI = ROOT / "docs" / "ci"
 APP = Path("warehouse/app.pluto")
 FORM, SOUND, PACKAGE = (

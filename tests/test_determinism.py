@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parent.parent
+from tests.paths import ROOT
+
 EXAMPLES = ROOT / "examples"
 HASH_SEEDS = ("0", "1", "4711")
 FAULTS = "crash=10%,link=5%,action=5%,battery=5%"

@@ -14,11 +14,10 @@ import plutoc_runtime
 from plutoc.emit.embed import Carried, embed
 from plutoc.registry import STD
 from plutoc_blocks import BLOCKS
+from tests.paths import ROOT
 
 # the tests of the runtime once more; the packages' own tests run on a copy, too
 pytestmark = [pytest.mark.long, pytest.mark.first]
-
-ROOT = Path(__file__).parent.parent
 
 
 def test_the_runtimes_tests_pass_on_an_embedded_copy(tmp_path: Path) -> None:
@@ -35,10 +34,10 @@ def test_the_runtimes_tests_pass_on_an_embedded_copy(tmp_path: Path) -> None:
         file = package / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
-    tests = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/runtime"]
+    tests = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/brain"]
     # commands and files are the library's, and read the same with any copy; two take a minute
-    others = ("cli", "files", "test_workers.py", "policies/test_ageing.py")
-    tests += [f"--ignore=tests/runtime/{name}" for name in others]
+    others = ("test_workers.py", "policies/test_ageing.py")
+    tests += [f"--ignore=tests/brain/{name}" for name in others]
     environment = {**os.environ, "PLUTO_EMBEDDED": str(tmp_path)}
     done = subprocess.run(
         tests, cwd=ROOT, env=environment, capture_output=True, text=True, check=False

@@ -22,8 +22,8 @@ from measuring.chart import Bar, Group, chart
 from measuring.figures import FIGURES, figures
 from measuring.page import picture, rewritten
 from measuring.rounds import Case, Measured, Spread, run
+from tests.paths import ROOT
 
-ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 PROMISED = (
     "ratio_ideal_contended",

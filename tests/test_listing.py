@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 from tests.__main__ import CAMPAIGNS, MEASURES, REWRITES, listing
-
-ROOT = Path(__file__).parents[1]
+from tests.paths import ROOT
 
 
 def test_every_command_names_something_that_is_there() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.emit.apps import TYPED
+from tests.compiler.emit.apps import TYPED
 from tests.mutations import mutants, outcome, share
 
 ENOUGH = 0.98

@@ -95,7 +95,7 @@ _RELATIVE = re.compile(r"^[ ]*from (\.+)([\w.]*) import (\([^)]*\)|[^\n#]*)", re
 def _ours(module: Module) -> Iterator[ImportFrom]:
     """Yield the same for a module of the runtime, whose form is known: to parse all takes long.
 
-    `tests/emit/test_embed.py` holds that it has no other imports than Python would find.
+    `tests/compiler/emit/test_embed.py` holds that it has no other imports than Python would find.
     """
     for match in _RELATIVE.finditer(module.text):
         dots, inner, names = match.groups()

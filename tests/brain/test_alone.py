@@ -24,9 +24,9 @@ from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Point, T
 from pluto_fleet.shared.domain.status import DroneStatus, Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.flow.standing import fleet_data
+from tests.brain import apps
 from tests.equivalence.fly import alone as by_itself
 from tests.flying import A_WEEK, Example
-from tests.runtime import apps
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App

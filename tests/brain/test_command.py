@@ -24,10 +24,10 @@ from pluto_fleet.shared.alone import simulate as alone
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain import app
 from pluto_fleet.shared.domain.trace import dumped
+from tests.brain import apps
 from tests.flying import EXAMPLES, compiled
-from tests.runtime import apps
-from tests.runtime.cli.conftest import MISSIONS
-from tests.runtime.files.an_app import APP
+from tests.library.cli.conftest import MISSIONS
+from tests.library.files.an_app import APP
 
 Run = Callable[..., tuple[int, str, str]]
 SEAM = ".".join(map(str, app.SEAM))

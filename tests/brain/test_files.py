@@ -24,8 +24,8 @@ from pluto_fleet.shared.domain.model import AfterTrip
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT
 from pluto_fleet.trials.explore import random_missions
 from tests.flying import EXAMPLES
-from tests.runtime.files.an_app import APP, PLAIN
-from tests.runtime.files.test_fleet import FULL
+from tests.library.files.an_app import APP, PLAIN
+from tests.library.files.test_fleet import FULL
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App

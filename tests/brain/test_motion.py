@@ -34,8 +34,8 @@ from pluto_fleet.shared.domain.motion import (
 from pluto_fleet.shared.fleet.reach import flight_seconds
 from pluto_fleet.shared.fleet.telemetry import Charge, Leg
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.gateway.traffic.skies import Sky
-from tests.runtime.files.an_app import APP
+from tests.library.files.an_app import APP
+from tests.library.gateway.traffic.skies import Sky
 
 STEPS = 400
 TIGHT = 0.995

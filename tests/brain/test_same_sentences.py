@@ -24,7 +24,7 @@ from pluto_fleet.shared.alone import files
 from pluto_fleet.shared.alone.files import LARGEST
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
-from tests.runtime.files.an_app import APP, OWN, PLAIN
+from tests.library.files.an_app import APP, OWN, PLAIN
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App

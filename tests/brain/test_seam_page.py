@@ -10,9 +10,10 @@ from pathlib import Path
 from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.flow.control import _COMMANDS
 from tests.flying import compiled
+from tests.paths import ROOT
 
-PAGE = (Path(__file__).parents[2] / "docs/seam.md").read_text("utf-8")
-ORDERS = (Path(__file__).parents[2] / "runtime/plutoc_runtime/fleet/orders.py").read_text("utf-8")
+PAGE = (ROOT / "docs/seam.md").read_text("utf-8")
+ORDERS = (ROOT / "runtime/plutoc_runtime/fleet/orders.py").read_text("utf-8")
 
 
 def test_the_flight_by_hand_is_flown(tmp_path: Path) -> None:

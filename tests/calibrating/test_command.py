@@ -15,8 +15,9 @@ from pluto_fleet.__main__ import main
 from pluto_fleet.journal.store import Store
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from tests.calibrating.flights import surveyed
+from tests.paths import ROOT
 
-OLD = Path(__file__).parents[1] / "journal" / "golden" / "1-0.1.0-1" / "flight.journal"
+OLD = ROOT / "tests" / "library" / "journal" / "golden" / "1-0.1.0-1" / "flight.journal"
 MOVES = replace(
     CRAZYFLIE, pace=1.1, settles=0.6, take_off=0.8, landing=1.2, drain=1.25, spread=0.02
 )

@@ -11,8 +11,9 @@ import pytest
 from pluto_fleet.__main__ import main
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from tests.calibrating.flights import surveyed
+from tests.paths import ROOT
 
-PAGE = Path(__file__).parents[2] / "docs" / "calibration.md"
+PAGE = ROOT / "docs" / "calibration.md"
 COMMAND = re.compile(r"```console\n\$ pluto-fleet (.*)\n```")
 SHOWN = re.compile(r"(?<=## What it prints\n\n```\n).*?(?=```)", re.DOTALL)
 FLOWN = replace(

@@ -19,8 +19,9 @@ from plutoc.diagnostic import Rejected
 from plutoc.graph.resolve import resolve
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
+from tests.paths import ROOT
 
-DOCS = Path(__file__).parents[2] / "docs"
+DOCS = ROOT / "docs"
 PAGES = sorted([DOCS / "language.md", *DOCS.glob("tutorial/*.md")])
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 

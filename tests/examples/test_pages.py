@@ -12,9 +12,8 @@ import pytest
 
 from pluto_fleet.cli.options import parse
 from plutoc.cli import main
-from tests.runtime.files.an_app import APP
-
-ROOT = Path(__file__).parents[2]
+from tests.library.files.an_app import APP
+from tests.paths import ROOT
 
 
 def script() -> ModuleType:

@@ -18,7 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
 
-ROOT = Path(__file__).parents[2]
+from tests.paths import ROOT
+
 _PATHS = [str(ROOT), *(str(ROOT / name) for name in ("grammar", "runtime", "stdlib_blocks"))]
 _BLOCK = re.compile(
     r"(?:^<!-- (?P<what>first|needs): (?P<how>[^\n]+) -->\n)?^```console\n(?P<text>.*?)^```$",

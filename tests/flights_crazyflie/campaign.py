@@ -21,7 +21,6 @@ from tempfile import mkdtemp
 
 from pluto_fleet.crtp import process
 from tests.apart import apart
-from tests.crtp.starting import COMMAND
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import unmeant
 from tests.flights_crazyflie.plans import (
@@ -37,6 +36,7 @@ from tests.flights_crazyflie.plans import (
 from tests.flights_crazyflie.scenarios import ALL, SCENARIOS, Scenario
 from tests.kill.lives import eventually
 from tests.kill.trial import gateway_of
+from tests.library.crtp.starting import COMMAND
 
 _LEAVES = 180.0
 """Seconds within which the gateway ends, once the app has."""

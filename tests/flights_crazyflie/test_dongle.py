@@ -11,12 +11,12 @@ from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Point
-from tests.crtp.radio import Ether, plugged_in
 from tests.flights_crazyflie.team import commanded, no_thread_is_left
+from tests.library.crtp.radio import Ether, plugged_in
 
 pytest.importorskip("cflib")
 pytestmark = [
-    pytest.mark.long,  # in real time; tests/crazyflie/test_radio.py pulls it out from three
+    pytest.mark.long,  # in real time; tests/library/crazyflie/test_radio.py pulls it out from three
     pytest.mark.filterwarnings(
         # the thread of cflib's that has the dongle ends so when it is pulled out
         "ignore:Exception in thread Shared Radio:pytest.PytestUnhandledThreadExceptionWarning"

@@ -1,7 +1,7 @@
 """Ten Crazyflies in the air at once, crossing each other's ways home: Stop brings all of them down.
 
 How long it takes is printed and not judged here, where a busy machine would be judged with it:
-`tests/gateway/traffic/test_real_descents.py` does it in virtual time, with real drones' profiles,
+`tests/library/gateway/traffic/test_real_descents.py` does it in virtual time, with real drones' profiles,
 and `python -m tests.flights_crazyflie.together` on a quiet machine.
 """
 
@@ -15,7 +15,7 @@ from tests.flights_crazyflie.plans import DISTRIBUTION, quick_package
 from tests.flights_crazyflie.together import Figures, stopped
 
 pytest.importorskip("cflib")
-# a minute in real time; tests/gateway/traffic does it in virtual time
+# a minute in real time; tests/library/gateway/traffic does it in virtual time
 pytestmark = pytest.mark.long
 
 SPEED = 1.0

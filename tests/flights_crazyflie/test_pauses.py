@@ -12,7 +12,7 @@ from tests.flights_crazyflie.pauses import Outcome, pauses, sweep
 from tests.flights_crazyflie.team import no_thread_is_left
 
 pytest.importorskip("cflib")
-# in real time; tests/crazyflie/test_take_off.py has one such pause
+# in real time; tests/library/crazyflie/test_take_off.py has one such pause
 pytestmark = pytest.mark.long
 
 AROUND = pauses(2.9, 3.2, 0.05)

@@ -21,7 +21,7 @@ from tests.flights_crazyflie.judge import dropped
 from tests.flights_crazyflie.team import Flown, commanded, no_thread_is_left
 
 pytest.importorskip("cflib")
-# in real time; tests/crazyflie and tests/drones have each fault alone
+# in real time; tests/library/crazyflie and tests/library/drones have each fault alone
 pytestmark = pytest.mark.long
 
 HOMES: dict[str, Point] = {

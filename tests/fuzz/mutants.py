@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 from random import Random
 
 from tests.fuzz.texts import HOSTILE
-
-ROOT = Path(__file__).parent.parent.parent
+from tests.paths import ROOT
 
 ODD_BYTES = (
     *(b"\0", b"\r", b"\t", b"\xff", b"\xc3", b"\xef\xbb\xbf", b'"', b"\\", b"#", b"{", b"}", b"("),

@@ -1,7 +1,7 @@
-"""The command line, as tests/cli calls it."""
+"""The command line, as tests/compiler/cli calls it."""
 
 from __future__ import annotations
 
-from tests.cli.conftest import app, here, plutoc
+from tests.compiler.cli.conftest import app, here, plutoc
 
 __all__ = ["app", "here", "plutoc"]

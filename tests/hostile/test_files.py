@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import APP, Call
+from tests.compiler.cli.conftest import APP, Call
 
 
 @pytest.mark.parametrize(

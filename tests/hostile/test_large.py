@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Call
+from tests.compiler.cli.conftest import Call
 
 BLOCKS = 10_000
 

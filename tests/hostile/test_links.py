@@ -13,7 +13,7 @@ from plutoc.emit.lock import lock
 from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.source import Source, Span
-from tests.cli.conftest import APP, Call, tree
+from tests.compiler.cli.conftest import APP, Call, tree
 
 SECRET = "-----BEGIN PRIVATE KEY-----\nxyzzy = (\n"
 PLACE = Place(source=Source("a.pluto", "app a {}"), span=Span(4, 5))

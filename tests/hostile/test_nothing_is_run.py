@@ -14,7 +14,7 @@ import plutoc
 import plutoc_blocks
 import plutoc_grammar
 import plutoc_runtime
-from tests.cli.conftest import Call
+from tests.compiler.cli.conftest import Call
 
 FOLDERS = [Path(one.__path__[0]) for one in (plutoc, plutoc_runtime, plutoc_blocks, plutoc_grammar)]
 MODULES = [path for folder in FOLDERS for path in sorted(folder.rglob("*.py"))]

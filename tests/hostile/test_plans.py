@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.app import App
 from pluto_fleet.cli import main
-from tests.runtime.files.an_app import APP, OWN
+from tests.library.files.an_app import APP, OWN
 
 MISSIONS = """
 [[mission]]

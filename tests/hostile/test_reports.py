@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import APP, Call
+from tests.compiler.cli.conftest import APP, Call
 from tests.fuzz.texts import HOSTILE
 
 WRONG = APP.replace("max_attempts: 3", 'max_attempts: "{}"').replace("Crop watch", "{}")

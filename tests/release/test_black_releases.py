@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.emit.texts import APPS, modules_of
+from tests.compiler.emit.texts import APPS, modules_of
 from tests.release.environments import ROOT, succeed
 
 # pip fetches each

@@ -9,7 +9,7 @@ import pytest
 
 from tests.release.environments import ROOT, fresh, succeed
 
-# pip installs it into a fresh environment; tests/cli has blocks of another package
+# pip installs it into a fresh environment; tests/compiler/cli has blocks of another package
 pytestmark = pytest.mark.long
 
 SOURCE = """\

@@ -125,7 +125,7 @@ def test_lists_areas_and_promises_need_the_library_and_its_extra(
     assert {mission["status"] for mission in missions} == {"COMPLETED"}, together.err
 
 
-@pytest.mark.long  # tests/runtime/cli has every command; here they are installed
+@pytest.mark.long  # tests/library/cli has every command; here they are installed
 def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> None:
     """Also those that want an extra, where what it brings is there."""
     example = ROOT / "examples/drugs_distribution"
@@ -172,7 +172,7 @@ def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> 
             serving.wait(timeout=30)
 
 
-@pytest.mark.long  # an environment of its own; tests/emit has what is carried
+@pytest.mark.long  # an environment of its own; tests/compiler/emit has what is carried
 def test_a_package_that_carries_the_library_flies_alone(tmp_path: Path) -> None:
     """`compile --carry fleet`: one distribution, and all commands."""
     example = ROOT / "examples/drugs_distribution"

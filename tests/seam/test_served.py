@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.seam import NEWEST, written
+from tests.library.station.browser.installed import App
+from tests.library.station.browser.serving import Station, until
 from tests.seam.packages import (
     SEAMS,
     SOURCES,
@@ -19,8 +21,6 @@ from tests.seam.packages import (
     imported,
     unpacked,
 )
-from tests.station.browser.installed import App
-from tests.station.browser.serving import Station, until
 
 POURS = "pours on"
 

@@ -22,7 +22,7 @@ from pluto_fleet.shared.domain.app import SEAM, moving
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, PEAK, STRAIGHT, Motion
 from tests.flying import EXAMPLES, compiled
-from tests.runtime.files.an_app import APP
+from tests.library.files.an_app import APP
 
 NAME = "drugs_distribution"
 LIBRARY = Path(pluto_fleet.__path__[0]).parent

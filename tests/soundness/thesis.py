@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from tests.paths import EXAMPLES
 from tests.soundness.app import App, read
 
 HERE = Path(__file__).parent
-EXAMPLES = HERE.parents[1] / "examples"
 
 
 def thesis_graphs() -> dict[str, App]:

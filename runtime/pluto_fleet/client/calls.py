@@ -1,4 +1,4 @@
-"""Every address of a station as a method; made by `python -m tests.station.schema`."""
+"""Every address of a station as a method; made by `python -m tests.library.station.schema`."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """What a heat map shows between the places of measurements: the one formula of pages and files.
 
 Shepard's inverse distance weighting with a bounded reach (Franke and Little). docs/station.md says it
-in words, and tests/station/results/vectors.json by examples, which the pages' own must give as well.
+in words, and tests/library/station/results/vectors.json by examples, which the pages' own must give as well.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 // What a heat map shows between the places of measurements: the formula of station/results/heat.py, of
-// which tests/station/results/vectors.json has examples for both. Pure.
+// which tests/library/station/results/vectors.json has examples for both. Pure.
 
 import { colourAt, shareOf } from "./colours.js";
 import { numberOf, placeOf } from "./layers.js";

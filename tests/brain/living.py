@@ -1,0 +1,192 @@
+"""A little world in which one app lives several lives, for tests of what becomes of missions."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from pluto_fleet.app import App
+from pluto_fleet.files.fleet import FleetFile, with_joined
+from pluto_fleet.flight.recorded_flight import RecordedFlight
+from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.gateway.ledger import Ledger
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.journal.fold import Records
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.fields import Entity, Field, FieldType
+from pluto_fleet.shared.domain.model import Mission
+from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import FLEET, EventKind
+from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.simulation.body import simulated
+from pluto_fleet.simulation.drones import SimulatedNavigation, WorldAction
+from tests.library.journal.memory import Memory
+
+from . import apps
+from .mortal import Mortal
+
+FIELDS = (
+    Field(name="at", on=Entity.MISSION, type=FieldType.TIME_OF_DAY, label="At"),
+    Field(name="repeat", on=Entity.MISSION, type=FieldType.ROUNDS, label="Repeat", default=0),
+    Field(name="every", on=Entity.MISSION, type=FieldType.TIME, label="Every"),
+    Field(name="safe_time", on=Entity.MISSION, type=FieldType.TIME, label="Safe time"),
+    Field(name="delay", on=Entity.TRIP, type=FieldType.TIME, label="Delay"),
+    Field(name="priority", on=Entity.TRIP, type=FieldType.INT, label="Priority", default=0),
+)
+
+
+def enterable(**flow: Any) -> App:
+    """Return an app that can go on at its Clock and at its DroneAllocator."""
+    actions = flow.pop("actions", ())
+    app = apps.app(apps.flow(**flow), actions=actions)
+    points = ("wait", "allocate") if flow.get("clock") else ("allocate",)
+    return apps.changed(app, resumes=points, fields=FIELDS)
+
+
+class _AtOnce:
+    """A disk that takes no time."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+        self.life: RecordedFlight | None = None
+
+    def add(self, row: str) -> int:
+        """Make a row durable."""
+        number = self._memory.add(row)
+        self._memory.commit()
+        if self.life is not None:
+            self.life.recorder.durable(number)
+        return number
+
+
+class Living:
+    """Drones and their gateway, and one brain after another."""
+
+    def __init__(
+        self,
+        app: App,
+        *missions: Mission[Any],
+        on: FleetFile | None = None,
+        faults: Faults = apps.NO_FAULTS,
+    ) -> None:
+        for index, mission in enumerate(missions):
+            mission.index = index
+        self.app, self.fleet, self.planned = app, on or apps.fleet(), missions
+        self.kernel, self.memory = VirtualTime(), Memory({"event": "journal.begun"})
+        drones = simulated(app, self.fleet)
+        space = self.fleet.airspace
+        world = World(0, space, self.fleet.world)
+        self.done_by_drones: list[tuple[str, str]] = []
+        """What the drones really did: the action, and the item if there was one."""
+        self.navigation = SimulatedNavigation(
+            self.kernel, drones, world, faults, 0, space, self._see
+        )
+        self.gateway = Gateway(
+            self.kernel, self.navigation, drones, space, ledger=Ledger(), measures=True
+        )
+        self.gateway.take_in = self.navigation.join
+        self.gateway.rehearse = self.navigation.mishap
+        self.events: list[Event] = []
+        self.done: Future[float] = Future()
+        self._epoch = 0
+        self._brain = Mortal(self.kernel)
+        self.life = self._new_life()
+        self.life.start(missions).watch(self._is_done)
+
+    def _new_life(self) -> RecordedFlight:
+        self._epoch += 1
+        self._brain = Mortal(self.kernel)
+        records = Records()
+        for event in self.memory.read().events:
+            records.take(event)
+        fleet = with_joined(self.app, self.fleet, records.joined)
+        disk, link = _AtOnce(self.memory), self.gateway.link(self._epoch)
+        life = RecordedFlight(
+            self.app,
+            fleet,
+            self._brain,
+            link,
+            disk,
+            records,
+            epoch=self._epoch,
+            listeners=[self.events.append],
+        )
+        disk.life = life
+        link.on_flown(life.flown)  # as in real flights: nothing may follow from it
+        return life
+
+    def _is_done(self, task: Future[float]) -> None:
+        if task.error is None:  # else everything was stopped
+            self.done.set(task.result())
+
+    def at(self, when: float, call: Callable[[], object]) -> None:
+        """Do something at a time."""
+        self.kernel.schedule(when, EventKind.CLOCK, FLEET, call)
+
+    def die(self) -> None:
+        """Kill the brain."""
+        self.gateway.cut()
+        self._brain.kill()
+
+    def live_on(self, app: App | None = None) -> None:
+        """Begin another life, of the same app or of one that was changed."""
+        self.app = app or self.app
+        self.memory.reopen()
+        self.life = self._new_life()
+        self.life.go_on(self.planned).watch(self._is_done)
+
+    def crash(self, when: float, *, down: float = 1.0, app: App | None = None) -> None:
+        """Let the brain die at a time, and another begin some seconds later."""
+        self.at(when, self.die)
+        self.at(when + down, lambda: self.live_on(app))
+
+    def stop(self, when: float, how: Down = Down.HOME, *, rest: float = 1.0) -> None:
+        """Stop everything at a time, and go on when all was down for some seconds."""
+
+        def stopped(_: object) -> None:
+            self.at(self.kernel.now + 0.001, self.die)  # what was said last is written down
+            self.at(self.kernel.now + rest, self.live_on)
+
+        def now() -> None:
+            self.life.control.stop(how)
+            self.life.control.stopped.watch(stopped)
+
+        self.at(when, now)
+
+    def decide_at_rest(self, mission: str, answer: str) -> None:
+        """Write a person's decision into the journal while no brain lives, and begin another life."""
+        self.die()
+        decided = {"t": self.kernel.now, "event": "mission.decided", "mission": mission}
+        self.memory.append([json.dumps([{**decided, "answer": answer}])])
+        self.done = Future()
+        self.live_on()
+
+    def run(self, until: float = 100_000.0) -> list[str]:
+        """Let time pass until all is done; return how the missions stand."""
+        self.kernel.run(self.done, until)
+        return self.statuses
+
+    @property
+    def statuses(self) -> list[str]:
+        """How the missions stand."""
+        return [mission.status.value for mission in self.life.missions]
+
+    def named(self, kind: str) -> list[Event]:
+        """Return the events of one kind, of all lives."""
+        return [event for event in self.events if event["event"] == kind]
+
+    def times(self, kind: str, trip: str | None = None) -> list[float]:
+        """Return when events of one kind happened."""
+        found = [event for event in self.named(kind) if trip in (None, event.get("trip"))]
+        return [float(str(event["t"])) for event in found]
+
+    def _see(self, deed: WorldAction) -> None:
+        self.done_by_drones.append((deed.action, deed.item.name if deed.item else ""))
+
+
+def names(events: Sequence[Event], fact: str) -> list[object]:
+    """Return one fact of each event."""
+    return [event.get(fact) for event in events]

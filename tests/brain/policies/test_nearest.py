@@ -1,0 +1,51 @@
+"""`nearest` gives the closest of the free drones that are able."""
+
+from __future__ import annotations
+
+from pluto_fleet.shared.domain.model import Drone
+from pluto_fleet.shared.fleet.policies import nearest
+from tests.brain.policies.fleets import anyone, fleet, trip
+
+
+def test_the_closest_gets_the_trip_and_it_is_said_why() -> None:
+    drones = fleet((0.0, 0.0, 0.0), (9.0, 0.0, 0.0), (4.0, 0.0, 0.0))
+    assert nearest(trip((7.0, 0.0, 0.0)), drones, anyone) == (
+        drones[1],
+        "nearest of 3 free: 2.0 m away",
+    )
+
+
+def test_the_distance_is_to_where_the_trip_begins() -> None:
+    drones = fleet((0.0, 0.0, 0.0), (9.0, 0.0, 0.0))
+    choice = nearest(trip((9.0, 0.0, 0.0), source=(1.0, 0.0, 0.0)), drones, anyone)
+    assert choice == (drones[0], "nearest of 2 free: 1.0 m away")
+
+
+def test_who_is_not_able_is_passed_over_and_counts_as_free() -> None:
+    drones = fleet((0.0, 0.0, 0.0), (9.0, 0.0, 0.0))
+    choice = nearest(trip((9.0, 0.0, 0.0)), drones, lambda drone: drone is drones[0])
+    assert choice == (drones[0], "nearest of 2 free: 9.0 m away")
+    assert nearest(trip((9.0, 0.0, 0.0)), drones, lambda drone: False) is None
+
+
+def test_of_two_that_are_equally_far_it_is_the_first_of_the_fleet() -> None:
+    drones = fleet((0.0, 0.0, 0.0), (2.0, 0.0, 0.0))
+    choice = nearest(trip((1.0, 0.0, 0.0)), drones, anyone)
+    assert choice == (drones[0], "nearest of 2 free: 1.0 m away")
+
+
+def test_a_drone_that_is_farther_away_than_an_able_one_is_not_asked() -> None:
+    """To be able can take a route."""
+    asked: list[str] = []
+
+    def able(drone: Drone) -> bool:
+        asked.append(drone.id)
+        return True
+
+    drones = fleet((4.0, 0.0, 0.0), (9.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.0, 0.0))
+    nearest(trip((0.0, 0.0, 0.0)), drones, able)
+    assert asked == ["cf2"]
+
+
+def test_without_drones_there_is_no_choice() -> None:
+    assert nearest(trip((0.0, 0.0, 0.0)), [], anyone) is None

@@ -1,0 +1,220 @@
+"""Evaluators: what their verdicts do, and what becomes of verdicts that cannot be followed."""
+
+from __future__ import annotations
+
+from collections import UserList, deque
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pluto_fleet.files.toml import toml_text
+from pluto_fleet.shared.alone import files
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Mission, Results
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Verdict
+from tests.brain import apps
+from tests.library.files import an_app
+
+
+def judged(hook: object, *trips: apps.Trip, **more: Any) -> apps.SimulationResult:
+    assert callable(hook)
+    tested = apps.app(
+        apps.flow(evaluator=hook, repeater=True), evaluators={"other": lambda m, r: Verdict()}
+    )
+    return apps.fly(tested, apps.mission("m", *(trips or (apps.trip("A", 3.0),)), **more))
+
+
+def test_a_good_mission_is_completed_and_its_log_is_shown() -> None:
+    outcome = judged(lambda mission, results: Verdict(log=("all is well",)))
+    assert outcome.completed
+    assert outcome.log == ["all is well"]
+
+
+@pytest.mark.parametrize("made", [list, tuple, deque, UserList])
+def test_a_verdict_takes_lists_and_other_sequences(made: Any) -> None:
+    """As its types say: for trips to fly again, for new ones and for lines."""
+
+    def again(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
+        if mission.attempts > 1:
+            return Verdict(log=made(["done"]))
+        new = apps.Trip(name="B", action="measure", target=(2.0, 2.0, 1.2))
+        return Verdict(redo=made(mission.completed_trips), add=made([new]), log=made(["once more"]))
+
+    outcome = judged(again)
+    assert outcome.completed
+    assert outcome.log == ["once more", "done"]
+    assert [trip.name for trip in outcome.missions[0].completed_trips] == ["A", "B"]
+
+
+@pytest.mark.parametrize(
+    ("verdict", "reason"),
+    [
+        (Verdict(ok=False), "<lambda> did not accept it"),
+        (Verdict(fail="the field is flooded"), "the field is flooded"),
+    ],
+)
+def test_a_rejected_mission_has_failed_with_the_reason(verdict: Verdict, reason: str) -> None:
+    (mission,) = judged(lambda mission, results: verdict).missions
+    assert (mission.status, mission.reason) == (Status.FAILED, reason)
+
+
+def test_trips_to_redo_fly_again_as_a_further_attempt() -> None:
+    def once_more(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
+        first = [r.trip for r in results.new if r.attempt == 1]
+        return Verdict(ok=not first, redo=tuple(first))
+
+    outcome = judged(once_more, apps.trip("A", 3.0), apps.trip("B", 4.0))
+    assert outcome.completed
+    assert [e["attempt"] for e in apps.events(outcome, "trip.launched")] == [1, 1, 2, 2]
+
+
+def test_added_trips_fly_and_are_not_repeated_by_a_further_round() -> None:
+    def add_one(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
+        if mission.round == 0 and len(mission.completed_trips) == 1:
+            return Verdict(add=(apps.trip("extra", 5.0),))
+        return Verdict()
+
+    outcome = judged(add_one, repeat=1)
+    flown = [(e["round"], e["trip"]) for e in apps.events(outcome, "trip.launched")]
+    assert flown == [(0, "A"), (0, "extra"), (1, "A")]
+
+
+@pytest.mark.parametrize("together", [1, 2])
+def test_added_trips_of_one_name_get_names_of_their_own(together: int) -> None:
+    """One after the other, or both at once."""
+
+    def add_two(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
+        twins = tuple(apps.trip("A", 5.0) for _ in range(together))
+        return Verdict(add=twins if len(mission.completed_trips) < 3 else ())
+
+    (mission,) = judged(add_two).missions
+    assert [trip.name for trip in mission.completed_trips] == ["A", "A 2", "A 3"]
+
+
+def test_an_evaluator_sees_what_is_new_of_its_mission_and_everything_of_all() -> None:
+    seen: list[tuple[str, int, int]] = []
+
+    def look(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
+        seen.append((mission.name, len(results.new), len(results.all)))
+        return Verdict()
+
+    tested = apps.app(apps.flow(evaluator=look, repeater=True))
+    apps.fly(
+        tested,
+        apps.mission("near", apps.trip("A", 2.0), repeat=1),
+        apps.mission("far", apps.trip("A", 9.0)),
+        on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0)),
+    )
+    assert seen == [("near", 1, 1), ("near", 1, 2), ("far", 1, 3)]
+
+
+def test_a_mission_may_choose_another_of_the_apps_evaluators() -> None:
+    outcome = judged(lambda mission, results: Verdict(fail="not asked"), evaluator="other")
+    assert outcome.completed
+
+
+@pytest.mark.parametrize(
+    ("returned", "says"),
+    [
+        (None, "must return a Verdict, not NoneType"),
+        (Verdict(redo=(apps.trip("B", 1.0),)), "redo a trip that mission m has not completed"),
+        (Verdict(add=(apps.trip("B", 99.0),)), "cannot be flown"),
+        (Verdict(add=(apps.trip("B", 9.0, action="dance"),)), "there is no action 'dance'"),
+        (Verdict(add=(apps.pick("B", 9.0),)), "pick and release cannot be added"),
+        (
+            Verdict(add=(apps.trip("B", 9.0, parameters={"x": 1}),)),
+            'trip B: take_photo has no parameters, and "x" is given',
+        ),
+    ],
+)
+def test_a_verdict_that_cannot_be_followed_fails_the_mission(returned: object, says: str) -> None:
+    (mission,) = judged(lambda mission, results: returned).missions
+    assert mission.status is Status.FAILED
+    assert says in mission.reason
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"dose": "3 m"}, 'dose "3 m" is a length, not a mass: it takes mg, g, kg'),
+        ({"dose": "much"}, 'dose "much" is not a mass: write a number and a unit (mg, g, kg)'),
+        ({"dose": True}, "dose true is not a mass: write a number, or a text with a unit"),
+        ({"dose": float("inf")}, "dose inf is not a finite number"),
+        ({"dose": 1, "strokes": 2.5}, "strokes 2.5 is not a whole number"),
+        ({"dose": 1, "gently": 1}, "gently 1 is neither true nor false"),
+        ({"dose": 1, "note": 1}, "note 1 is not a text: put it in quotes"),
+        ({"dose": 1, "doze": 1}, 'unknown parameter "doze"; there may be: dose, '),
+        ({}, "pollinate needs the parameter dose"),
+        # such as no missions file can have
+        ({"dose": 1, 3: 1}, 'unknown parameter "3"; there may be: dose, '),
+        ({"dose": [1]}, "its parameter 'dose' must be a number or a text, not [1]"),
+    ],
+)
+def test_a_trips_parameters_are_checked_as_those_of_a_missions_file(
+    tmp_path: Path, given: Any, says: str
+) -> None:
+    """With the same sentence; the evaluator and the trip are named."""
+    outcome = judged_with_parameters(given)
+    (mission,) = outcome.missions
+    adds = "evaluator adds adds a trip that cannot be flown: trip bloom: "
+    assert mission.status is Status.FAILED
+    assert mission.reason.startswith(adds + says)
+    if all(isinstance(name, str) and type(value) is not list for name, value in given.items()):
+        path = tmp_path / "missions.toml"
+        trip = {"action": "pollinate", "target": [2, 2], "parameters": given}
+        path.write_text(toml_text({"mission": [{"trip": [trip]}]}), "utf-8")
+        with pytest.raises(BadInput) as said:
+            files.load_missions(path, an_app.APP, Airspace())
+        told = f"{path}: mission 1, trip 1, parameters: {mission.reason.removeprefix(adds)}"
+        assert str(said.value) == told
+
+
+def test_a_parameter_with_a_unit_is_read_as_in_a_missions_file() -> None:
+    """What is a number already stays as it was given."""
+    outcome = judged_with_parameters({"strokes": 3, "note": "3 m", "dose": "50 mg", "force": 2})
+    (mission,) = outcome.missions
+    assert mission.status is Status.COMPLETED
+    flown = {**mission.completed_trips[1].parameters}
+    assert {name: flown[name] for name in ("strokes", "note", "dose", "force")} == {
+        "strokes": 3,
+        "note": "3 m",
+        "dose": 5e-05,
+        "force": 2,
+    }
+    assert type(flown["force"]) is int
+
+
+def judged_with_parameters(given: Any) -> apps.SimulationResult:
+    """Fly a mission to which its evaluator adds a trip with these parameters."""
+
+    def adds(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
+        bloom = apps.trip("bloom", 4.0, action="pollinate", parameters=given)
+        return Verdict(add=() if len(mission.completed_trips) > 1 else (bloom,))
+
+    declared = an_app.APP.actions["pollinate"].parameters
+    pollinate = OwnAction(name="pollinate", parameters=declared, hook=lambda *_, **__: None)
+    return apps.fly(
+        apps.app(apps.flow(evaluator=adds), actions=[pollinate]),
+        apps.mission("m", apps.trip("A", 3.0)),
+    )
+
+
+def test_an_evaluator_that_raises_fails_its_mission_and_no_other() -> None:
+    def broken(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
+        if mission.name == "bad":
+            raise KeyError("no such photo")
+        return Verdict()
+
+    outcome = apps.fly(
+        apps.app(apps.flow(evaluator=broken)),
+        apps.mission("bad", apps.trip("A", 2.0)),
+        apps.mission("good", apps.trip("A", 9.0)),
+    )
+    bad, good = outcome.missions
+    assert bad.reason == "hook broken raised KeyError: 'no such photo'"
+    assert "Traceback" in outcome.log[0]
+    assert good.status is Status.COMPLETED

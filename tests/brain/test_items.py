@@ -1,0 +1,104 @@
+"""Items: from pick to release a mission keeps its drone."""
+
+from __future__ import annotations
+
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.errors import ActionFailed
+from pluto_fleet.shared.domain.model import Drone
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Context
+from tests.brain import apps
+
+HOMES = ((0.5, 0.5, 0.0), (6.0, 0.5, 0.0))
+
+
+def carrying() -> apps.Mission:
+    trips = (apps.pick("A", 3.0), apps.trip("B", 6.0), apps.release("C", 9.0), apps.trip("D", 6.0))
+    return apps.mission("m", *trips)
+
+
+def test_one_drone_flies_from_the_pick_to_the_release() -> None:
+    outcome = apps.fly(apps.app(apps.flow()), carrying(), on=apps.fleet(*HOMES))
+    assert outcome.completed
+    drones = [event["drone"] for event in apps.events(outcome, "trip.launched")]
+    assert drones == ["cf1", "cf1", "cf1", "cf2"]
+
+
+def test_a_drone_with_an_item_aboard_is_not_handed_to_another_mission() -> None:
+    outcome = apps.fly(
+        apps.app(apps.flow()), carrying(), apps.mission("other", apps.trip("X", 3.0))
+    )
+    assert outcome.completed
+    order = [event["trip"] for event in apps.events(outcome, "trip.launched")]
+    assert order.index("X") > order.index("C")
+
+
+def test_a_failure_with_an_item_aboard_ends_the_mission_against_the_graph() -> None:
+    async def fails(drone: object, trip: object, context: object) -> None:
+        raise ActionFailed("the door is shut")
+
+    knock = OwnAction(name="knock", hook=fails)
+    trips = (apps.pick("A", 3.0), apps.trip("B", 6.0, action="knock"), apps.release("C", 9.0))
+    outcome = apps.fly(apps.app(apps.flow(attempts=5), actions=[knock]), apps.mission("m", *trips))
+    (mission,) = outcome.missions
+    assert mission.status is Status.FAILED
+    assert mission.reason == "knock failed: the door is shut, with pills aboard"
+    assert outcome.count("trip.launched") == 2
+
+
+def test_a_failure_before_the_pick_is_retried() -> None:
+    seed = next(
+        seed
+        for seed in range(50)
+        if apps.fly(
+            apps.app(apps.flow(attempts=3)),
+            apps.mission("m", apps.pick("A", 3.0), apps.release("B", 9.0)),
+            faults=Faults(action=0.3),
+            seed=seed,
+        ).count("trip.failed")
+        == 1
+    )
+    outcome = apps.fly(
+        apps.app(apps.flow(attempts=3)),
+        apps.mission("m", apps.pick("A", 3.0), apps.release("B", 9.0)),
+        faults=Faults(action=0.3),
+        seed=seed,
+    )
+    failed_trip = apps.events(outcome, "trip.failed")[0]["trip"]
+    assert outcome.completed == (failed_trip == "A")
+
+
+def test_what_is_aboard_when_a_mission_ends_is_taken_off_before_the_drone_is_free() -> None:
+    def breaks(mission: apps.Mission, context: object) -> None:
+        if mission.name == "m" and mission.completed_trips:
+            raise ValueError("no")
+
+    def two() -> tuple[apps.Trip, apps.Trip]:
+        return apps.pick("A", 3.0), apps.release("B", 9.0)
+
+    outcome = apps.fly(
+        apps.app(apps.flow(prepare=breaks)), apps.mission("m", *two()), apps.mission("n", *two())
+    )
+    assert [mission.status for mission in outcome.missions] == [Status.FAILED, Status.COMPLETED]
+    free, *_ = apps.times(outcome, "drone.free")
+    assert apps.times(outcome, "trip.launched")[1] >= free > apps.times(outcome, "mission.ended")[0]
+
+
+def test_a_drone_that_fails_as_it_waits_with_an_item_is_lost_to_its_mission() -> None:
+    async def lingers(drone: Drone, trip: apps.Trip, context: Context) -> None:
+        await context.sleep(drone.battery_level * drone.category.flight_time - 2.0)
+
+    linger = OwnAction(name="linger", hook=lingers)
+    trips = (apps.pick("A", 3.0), apps.trip("B", 3.0, action="linger"), apps.release("C", 9.0))
+    trips[2].delay = 1000.0
+    outcome = apps.fly(
+        apps.app(apps.flow(clock=True), actions=[linger]),
+        apps.mission("m", *trips),
+        apps.mission("other", apps.trip("X", 3.0)),
+    )
+    mission, other = outcome.missions
+    assert mission.status is Status.FAILED
+    assert mission.reason.startswith("cf1 ran out of battery at (3, 0.5), with pills aboard")
+    assert other.status is Status.COMPLETED
+    assert apps.times(outcome, "mission.ended")[0] < 500.0

@@ -1,0 +1,294 @@
+"""Lives of an app in real time: stopped, lost, gone on with, over a real journal."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Awaitable, Callable
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.flight.config import End, FlightConfig, FlightResult, Stops
+from pluto_fleet.flight.fly import live
+from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.gateway.ledger import Ledger
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.journal import header
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.place import commands_note
+from pluto_fleet.journal.store import Store
+from pluto_fleet.process.ipc import NotRunning, ask
+from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.simulation.body import simulated
+from pluto_fleet.simulation.drones import SimulatedNavigation
+from tests.brain import apps
+
+SCOUT = Category(name="scout", speed=1.0)
+AIRSPACE = Airspace(cruise_height=1.0)
+
+
+class Near(Link):
+    """A link to a gateway in this process, which ends with it."""
+
+    def on_telemetry(self, watcher: Callable[[], object]) -> None:
+        """It is not watched."""
+
+    async def goodbye(self) -> None:
+        """There is no one to tell."""
+
+    async def close(self) -> None:
+        """Nothing is open."""
+
+
+class Tried:
+    """An app with two trips, its journal and its drone, which outlives the app."""
+
+    def __init__(self, folder: Path) -> None:
+        self.path = folder / "a.journal"
+        self.app = apps.changed(
+            apps.app(apps.flow(), categories=[SCOUT]), resumes=("wait", "allocate")
+        )
+        self.fleet = apps.fleet(airspace=AIRSPACE)
+        self.told: list[Event] = []
+        self.drones = simulated(self.app, self.fleet)
+        self.ledger = Ledger()
+        self.gateway: Gateway | None = None
+        self.watch: Callable[[Event], object] = lambda event: None
+        whole = header.header(self.app, missions="", fleet=None, sim=True, seed=0)
+        Store.create(self.path, whole).close()
+
+    @property
+    def missions(self) -> list[apps.Mission]:
+        trips = (
+            apps.Trip(name=name, action="measure", target=(x, 0.5, 1.0))
+            for name, x in (("A", 3.0), ("B", 4.0))
+        )
+        return [apps.mission("m", *trips)]
+
+    async def connect(
+        self, kernel: RealTime, _: FleetFile, epoch: int, lost: Callable[[], object]
+    ) -> Near:
+        """Let new drones stand where they stand: of each life they are new."""
+        world = World(0, AIRSPACE, None)
+        navigation = SimulatedNavigation(kernel, self.drones, world, Faults(), 0, AIRSPACE)
+        self.gateway = Gateway(kernel, navigation, self.drones, AIRSPACE, ledger=self.ledger)
+        link = self.gateway.link(epoch, lost)
+        link.__class__ = Near
+        assert isinstance(link, Near)
+        return link
+
+    def tell(self, event: Event) -> None:
+        self.told.append(event)
+        self.watch(event)
+
+    async def live(self, stops: Stops | None = None) -> FlightResult:
+        setting = FlightConfig(
+            app=self.app,
+            missions=self.missions,
+            fleet=self.fleet,
+            connect=self.connect,
+            note=commands_note(self.path),
+            tell=self.tell,
+            speed=1000.0,
+        )
+        with closing(Store.open(self.path)) as store:
+            return await live(setting, store, stops or Stops())
+
+    def on(self, kind: str, call: Callable[[], object]) -> None:
+        """Call this, once, as soon as there is such an event, from outside of the kernel."""
+
+        def watch(event: Event) -> None:
+            if event["event"] == kind:
+                self.watch = lambda event: None
+                asyncio.get_running_loop().call_soon(call)
+
+        self.watch = watch
+
+    @property
+    def kinds(self) -> list[str]:
+        return [str(event["event"]) for event in self.told]
+
+    @property
+    def journal(self) -> list[dict[str, Any]]:
+        with closing(Store.open(self.path)) as store:
+            return list(store.read().events)
+
+
+@pytest.fixture
+def tried(tmp_path: Path) -> Tried:
+    return Tried(tmp_path)
+
+
+def test_a_life_ends_when_all_missions_have(tried: Tried) -> None:
+    lived = asyncio.run(tried.live())
+    assert lived.end is End.OVER
+    assert [mission.status for mission in lived.missions] == [Status.COMPLETED]
+    assert tried.kinds.count("trip.completed") == 2
+
+
+def test_what_is_told_is_on_record(tried: Tried) -> None:
+    """All of it, in the same order."""
+    asyncio.run(tried.live())
+    written = [(event["t"], event["event"]) for event in tried.journal]
+    assert [(event["t"], event["event"]) for event in tried.told] == written
+
+
+@pytest.fixture
+def durable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The kinds of the events that are on record, as soon as they are."""
+    kinds: list[str] = []
+    append = Store.append
+
+    def noted(store: Store, rows: list[str]) -> None:
+        append(store, rows)
+        kinds.extend(event["event"] for row in rows for event in json.loads(row))
+
+    monkeypatch.setattr(Store, "append", noted)
+    return kinds
+
+
+def test_nothing_is_told_before_it_is_on_record(tried: Tried, durable: list[str]) -> None:
+    """So what was read on a screen is there after a crash."""
+
+    def watch(event: Event) -> None:
+        assert len(tried.told) <= len(durable)
+
+    tried.watch = watch
+    asyncio.run(tried.live())
+    assert tried.kinds == durable
+
+
+@pytest.mark.parametrize("how", Down)
+def test_a_stopped_app_goes_on_where_it_was(how: Down, tried: Tried) -> None:
+    stops = Stops()
+    tried.on("trip.launched", lambda: stops.stop(how))
+    assert asyncio.run(tried.live(stops)).end is End.STOPPED
+    assert tried.kinds[-1] == "stopped"
+    lived = asyncio.run(tried.live())
+    assert lived.end is End.OVER
+    assert tried.kinds.count("trip.completed") == 2
+    assert tried.kinds.count("mission.created") == 1
+    assert [mission.status for mission in lived.missions] == [Status.COMPLETED]
+    assert [trip.attempt for trip in lived.missions[0].completed_trips] == [1, 1]
+
+
+def test_a_stop_before_the_app_lives_stops_it(tried: Tried) -> None:
+    """Ctrl-C pressed at once is meant."""
+    stops = Stops()
+    stops.stop(Down.LAND)
+    assert asyncio.run(tried.live(stops)).end is End.STOPPED
+    assert "trip.launched" not in tried.kinds
+
+
+def test_an_app_whose_gateway_dies_begins_another_life(tried: Tried) -> None:
+    def crash() -> None:
+        assert tried.gateway is not None
+        tried.gateway.crash()
+
+    async def lives() -> list[FlightResult]:
+        tried.on("trip.launched", crash)
+        return [await tried.live(), await tried.live()]
+
+    first, second = asyncio.run(lives())
+    assert (first.end, second.end) == (End.LOST, End.OVER)
+    assert tried.kinds.count("trip.completed") == 2
+
+
+def test_commands_reach_a_living_app(tried: Tried) -> None:
+    """And what they do is on record."""
+    said: list[object] = []
+
+    async def client() -> None:
+        note = commands_note(tried.path)
+        for request in (
+            {"command": "pause", "mission": "m"},
+            {"command": "decide", "mission": "m", "answer": "done"},
+            {"command": "go-on", "mission": "m"},
+        ):
+            try:
+                said.append(await asyncio.to_thread(ask, note, request, 5.0))
+            except BadInput as error:
+                said.append(str(error))
+
+    async def whole() -> FlightResult:
+        talks: list[Awaitable[None]] = []
+        tried.on("trip.completed", lambda: talks.append(asyncio.ensure_future(client())))
+        lived = await tried.live()
+        await talks[0]
+        return lived
+
+    assert asyncio.run(whole()).end is End.OVER
+    assert said == [
+        'mission "m": paused',
+        'mission "m" is PAUSED: it asks nothing',
+        'mission "m": going on',
+    ]
+    assert tried.kinds.count("mission.paused") == tried.kinds.count("mission.resumed") == 1
+    with pytest.raises(NotRunning):
+        ask(commands_note(tried.path), {"command": "pause", "mission": None}, 5.0)
+
+
+def test_what_an_app_has_answered_is_on_record(tried: Tried, durable: list[str]) -> None:
+    """Nothing that was told is lost by what happens a moment later."""
+
+    async def client() -> None:
+        request = {"command": "cancel", "mission": "m"}
+        await asyncio.to_thread(ask, commands_note(tried.path), request, 5.0)
+        assert "mission.ended" in durable
+
+    async def whole() -> FlightResult:
+        talks: list[Awaitable[None]] = []
+        tried.on("trip.launched", lambda: talks.append(asyncio.ensure_future(client())))
+        lived = await tried.live()
+        await talks[0]
+        return lived
+
+    assert [mission.status for mission in asyncio.run(whole()).missions] == [Status.CANCELLED]
+
+
+def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
+    tried: Tried, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    append, rows_left = Store.append, [2]
+
+    def full(store: Store, rows: list[str]) -> None:
+        rows_left[0] -= len(rows)
+        if rows_left[0] < 0:
+            store.failure = JournalError("the disk is full")
+            raise store.failure
+        append(store, rows)
+
+    monkeypatch.setattr(Store, "append", full)
+    with pytest.raises(JournalError, match="the disk is full"):
+        asyncio.run(tried.live())
+    assert tried.gateway is not None
+    assert not tried.gateway.flies
+    written = tried.journal
+    assert [event["event"] for event in written[:-1]] == tried.kinds
+    assert "the disk is full" in str(written[-1]["text"])
+
+
+def test_a_snapshot_is_taken_now_and_then(tried: Tried, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the next life goes on from there."""
+    monkeypatch.setattr("pluto_fleet.flight.live_flight.SNAPSHOT_EVERY", 5)  # within a life
+    monkeypatch.setattr("pluto_fleet.flight.live_flight.SNAPSHOT_AT_END", 0)
+    stops = Stops()
+    tried.on("trip.completed", lambda: stops.stop(Down.LAND))
+    asyncio.run(tried.live(stops))
+    with closing(Store.open(tried.path)) as store:
+        read = store.read()
+        assert read.snapshot is not None
+        assert read.after > 0
+    lived = asyncio.run(tried.live())
+    assert [mission.status for mission in lived.missions] == [Status.COMPLETED]

@@ -1,0 +1,284 @@
+"""Drones that are lost, not ready or slow to charge: who waits for them, and how they come back."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from pluto_fleet.gateway.executor import Executor
+from pluto_fleet.jobs.reports import DroneReport
+from pluto_fleet.journal.fold import Records
+from pluto_fleet.report.sentences import line_of
+from pluto_fleet.shared.domain.errors import BadInput, Failure
+from pluto_fleet.shared.domain.model import Drone
+from pluto_fleet.shared.domain.status import DroneStatus
+from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import FLEET
+from tests.brain import apps
+from tests.brain.living import Living, enterable, names
+from tests.library.journal.memory import Memory
+
+HOMES = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
+
+
+def living(*names: str, homes: int = 2, attempts: int = 5) -> Living:
+    """Return a fleet with a trip for each of these missions; what failed is flown again."""
+    missions = [apps.mission(name, apps.trip("1", 4.0)) for name in names]
+    return Living(enterable(attempts=attempts), *missions, on=apps.fleet(*HOMES[:homes]))
+
+
+def drone(living: Living, id: str = "cf1") -> Drone:
+    """Return a drone as the latest life sees it."""
+    return next(one for one in living.life.brain._core.fleet.drones if one.id == id)
+
+
+def records(living: Living) -> Records:
+    """Return what the journal says to the latest life."""
+    return living.life.recorder.records
+
+
+def flights_of(living: Living, id: str) -> list[float]:
+    """Return when a drone has set out."""
+    flights = [event for event in living.named("trip.launched") if event["drone"] == id]
+    return [float(str(event["t"])) for event in flights]
+
+
+def passes(living: Living, until: float) -> None:
+    """Let time pass until then."""
+    kernel = living.kernel
+    kernel.run(kernel.spawn(kernel.sleep(until - kernel.now), FLEET, "time passes"))
+
+
+def crashes(living: Living, when: float) -> None:
+    """Let cf1 crash at a time."""
+    living.at(when, lambda: living.navigation.strike("cf1", Failure.CRASH))
+
+
+def test_a_lost_drone_flies_again_when_a_person_has_looked_after_it() -> None:
+    """It is RECOVERING until it says that it is well; before, no mission gets it."""
+    fleet = living(*"abcdefgh")
+    said: list[object] = []
+    crashes(fleet, 5.0)
+    fleet.at(30.0, lambda: said.append(drone(fleet).status))
+    fleet.at(40.0, lambda: said.append(fleet.life.control.bring_back("cf1")))
+    assert fleet.run() == ["COMPLETED"] * 8
+    assert said == [DroneStatus.LOST, "cf1 is asked whether it is well"]
+    assert fleet.times("drone.recovering")[-1] == 40.0
+    flights = [event for event in fleet.named("trip.launched") if event["drone"] == "cf1"]
+    times = [float(str(event["t"])) for event in flights]
+    assert len(times) > 1
+    assert not [time for time in times if 5.0 < time < 40.0]
+    (back,) = fleet.named("drone.brought_back")
+    assert "cf1 was lost, and a person has looked after it" in str(line_of(back))
+
+
+def test_one_that_is_as_lost_as_before_stays_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It was not looked after: it is asked, and it is LOST again, with the reason."""
+
+    async def drone_report(drone: str) -> DroneReport:
+        return replace(fleet.navigation.bodies[drone].report, problems=("it lies on its back",))
+
+    fleet = living(*"abcd")  # the others fly long enough for it to be asked
+    monkeypatch.setattr(fleet.navigation, "mended", lambda _: None)
+    fleet.at(20.0, lambda: vars(fleet.navigation).update(drone_report=drone_report))
+    crashes(fleet, 5.0)
+    fleet.at(40.0, lambda: fleet.life.control.bring_back("cf1"))
+    assert fleet.run() == ["COMPLETED"] * 4
+    assert drone(fleet).status is DroneStatus.LOST
+    assert len(fleet.named("drone.lost")) == 2
+    (event,) = fleet.named("drone.not_ready")
+    assert event["reason"] == "it lies on its back"
+
+
+def test_what_a_person_has_said_of_a_lost_drone_outlives_the_app() -> None:
+    """The app dies before its gateway has heard of it: the next life says so again."""
+    fleet = living(*"abc")
+    heard: list[str] = []
+
+    async def never(_: str) -> bool:
+        await Future[None]()
+        return False
+
+    navigation = fleet.gateway.navigation
+    crashes(fleet, 5.0)
+    fleet.at(14.0, lambda: vars(navigation).update(mended=heard.append, recover=never))
+    fleet.at(15.0, lambda: fleet.life.control.bring_back("cf1"))
+    fleet.at(15.5, lambda: [vars(navigation).pop(name) for name in ("mended", "recover")])
+    fleet.crash(16.0)
+    fleet.run()
+    assert heard == ["cf1"]
+    assert drone(fleet).status is DroneStatus.FREE
+    assert fleet.life.recorder.records.mended == []
+
+
+def test_a_lost_drone_stays_lost_in_the_next_life_though_it_calls_itself_well() -> None:
+    """The app dies; the drone is put home and is well, but no person has said that they saw to it."""
+    fleet = living(*"abcdefgh")
+    crashes(fleet, 5.0)
+    fleet.at(19.0, lambda: fleet.navigation.mended("cf1"))
+    fleet.crash(20.0)
+    seen: list[Any] = []
+    fleet.at(60.0, lambda: seen.append((drone(fleet).status, records(fleet).lost["cf1"]["at"])))
+    fleet.at(60.0, lambda: seen.append(fleet.life.brain.drones()["cf1"]["unready"]))
+    fleet.at(61.0, lambda: fleet.life.control.bring_back("cf1"))
+    assert fleet.run() == ["COMPLETED"] * 8
+    (status, at), why = seen
+    assert status is DroneStatus.LOST
+    assert why == f"cf1 crashed at ({at[0]:g}, {at[1]:g})"
+    assert not [time for time in flights_of(fleet, "cf1") if 5.0 < time < 61.0]
+    assert flights_of(fleet, "cf1")[-1] > 61.0
+    assert records(fleet).lost == {}
+
+
+def test_a_lost_drone_that_hovers_when_the_app_goes_on_is_brought_down_and_stays_lost() -> None:
+    """It could not be reached when its action failed; it can now, but was not looked after."""
+    action_fails = replace(apps.NO_FAULTS, action=1.0)
+    fleet = Living(
+        enterable(attempts=1), apps.mission("a", apps.trip("1", 4.0)), faults=action_fails
+    )
+
+    async def in_vain(_: str) -> bool:
+        return False
+
+    navigation = fleet.gateway.navigation
+    vars(navigation).update(recover=in_vain)
+
+    def start_anew() -> None:
+        fleet.die()
+        del vars(navigation)["recover"]
+        fleet.live_on()
+
+    fleet.at(40.0, start_anew)
+    passes(fleet, 39.0)
+    (lost,) = fleet.named("drone.lost")
+    who = str(lost["drone"])
+    assert not fleet.navigation.bodies[who].landed
+    passes(fleet, 100.0)
+    assert fleet.navigation.bodies[who].is_docked
+    assert drone(fleet, who).status is DroneStatus.LOST
+    assert records(fleet).lost[who]["reason"] == lost["reason"]
+
+
+def test_a_new_journal_knows_who_was_lost_and_who_was_brought_back_before() -> None:
+    """Drones do not heal because a journal is new."""
+    known = Records()
+    before = {"cf1": {"reason": "cf1 crashed", "at": [1.0, 2.0, 0.0]}}
+    begun = {"t": 0.0, "event": "journal.begun", "lost": before, "mended": ["cf2"]}
+    known.take({**begun, "retired": ["cf3"]})
+    assert (known.lost, known.mended, known.retired) == (before, ["cf2"], ["cf3"])
+    known.take({"t": 1.0, "event": "drone.lost", "drone": "cf1", "at": [9.0, 9.0, 0.0]})
+    assert known.lost["cf1"]["at"] == [1.0, 2.0, 0.0]
+    known.take({"t": 2.0, "event": "drone.brought_back", "drone": "cf1", "lost": True})
+    assert (known.lost, known.mended) == ({}, ["cf2", "cf1"])
+
+
+def test_where_every_drone_is_lost_nothing_begins() -> None:
+    """It says who, why, and what to do."""
+    fleet = living("a", homes=1)
+    fleet.die()
+    lost = {"cf1": {"reason": "cf1 crashed at (1, 2)", "at": [1.0, 2.0, 0.0]}}
+    fleet.memory = Memory({"t": 0.0, "event": "journal.begun", "lost": lost})
+    fleet.memory.append([json.dumps([{"t": 0.0, "event": "journal.begun", "lost": lost}])])
+    fleet.live_on()
+    passes(fleet, 10.0)
+    assert fleet.life.control.whole is not None
+    with pytest.raises(BadInput, match="cf1: it is lost, and was not brought back"):
+        fleet.life.control.whole.result()
+
+
+def test_where_one_was_brought_back_it_is_told_so_before_another_is_refused() -> None:
+    """It crashed in an earlier flight, and remembers that until it has heard."""
+    fleet = living("a", homes=1)
+    fleet.die()
+    begun = {"t": 0.0, "event": "journal.begun", "mended": ["cf1"]}
+    fleet.memory = Memory(begun)
+    fleet.memory.append([json.dumps([begun])])
+    heard: list[str] = []
+
+    async def drone_report(drone: str) -> DroneReport:
+        report = fleet.navigation.bodies[drone].report
+        return replace(report, problems=() if heard else ("it has crashed",))
+
+    vars(fleet.gateway.navigation).update(mended=heard.append, drone_report=drone_report)
+    fleet.live_on()
+    assert fleet.run() == ["COMPLETED"]
+    assert heard == ["cf1"]
+
+
+def test_a_drone_that_was_not_ready_is_asked_anew_when_a_person_has_looked_after_it() -> None:
+    """It crashed before anything began, say, and waits for just that."""
+    fleet = living("a")
+    fleet.run(2.0)
+    heard: list[str] = []
+    vars(fleet.gateway.navigation).update(mended=heard.append)
+    fleet.life.brain._core.fleet.unready[drone(fleet)] = "it has crashed"
+    assert fleet.life.control.bring_back("cf1") == "cf1 is asked whether it is well"
+    assert heard == ["cf1"]
+
+
+def test_a_drone_that_is_neither_retired_nor_lost_need_not_be_brought_back() -> None:
+    """Nothing is on record of that."""
+    fleet = living("a")
+    fleet.run(2.0)
+    assert fleet.life.control.bring_back("cf1") == "cf1 is neither retired nor lost"
+    assert not fleet.named("drone.brought_back")
+
+
+def test_a_battery_that_charges_slowly_is_waited_for() -> None:
+    """A category's charging time is what is expected; what counts is the battery."""
+    fleet = living("a", homes=1)
+    body = fleet.navigation.bodies["cf1"]
+    slow = replace(body.drone.category, flight_time=21.0, charge_time=12_000.0)
+    body.drone = replace(body.drone, category=slow)
+    assert fleet.run() == ["COMPLETED"]
+    (low,) = fleet.named("drone.charging")
+    missing = 0.2 - float(str(low["battery"]))
+    assert missing > 0
+    passes(fleet, float(str(low["t"])) + missing * 12_000 - 1)
+    assert drone(fleet).status is DroneStatus.CHARGING
+    passes(fleet, fleet.kernel.now + 12)
+    assert drone(fleet).status is DroneStatus.FREE
+
+
+def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The others fly; what a drone says of itself commands no terminal, and is not endless."""
+
+    async def drone_report(self: Executor, drone: str) -> DroneReport:
+        report = fleet.navigation.bodies[drone].report
+        problems = ("its battery has 3.4 V", "\x1b[31m" + "x" * 1000) if drone == "cf1" else ()
+        return replace(report, problems=problems)
+
+    async def fetched(drone: str) -> bool:
+        await Future[None]()
+        return False
+
+    monkeypatch.setattr(Executor, "drone_report", drone_report)
+    fleet = living(*"ab")
+    vars(fleet.gateway.navigation).update(recover=fetched)
+    fleet.life.carried_home = False
+    assert fleet.run() == ["COMPLETED"] * 2
+    assert names(fleet.named("trip.launched"), "drone") == ["cf2", "cf2"]
+    assert drone(fleet).status is DroneStatus.RECOVERING
+    assert "cf1 stands at (0.5, 0.5) and needs a person: go and look" in names(
+        fleet.named("log"), "text"
+    )
+    (event,) = fleet.named("drone.not_ready")
+    line = str(line_of(event))
+    assert "cf1 is not ready: its battery has 3.4 V; \\x1b[31mxxx" in line
+    assert line.endswith("x…")
+    assert len(line) < 600
+
+
+def test_who_flies_home_after_a_failure_is_waited_for() -> None:
+    """It needs no person."""
+    fleet = living("a", homes=1)
+    fleet.life.carried_home = False
+    fleet.at(8.0, lambda: fleet.life.control.cancel("a"))
+    assert fleet.run() == ["CANCELLED"]
+    assert names(fleet.named("drone.recovering"), "drone") == ["cf1"]
+    assert drone(fleet).status is DroneStatus.FREE

@@ -1,0 +1,258 @@
+"""Modifiers: the thesis's third exercise, and statuses that cannot be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+import pytest
+
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.model import Mission
+from pluto_fleet.shared.domain.status import Status, TripStatus
+from pluto_fleet.shared.flow import asking
+from pluto_fleet.shared.flow.run import Run
+from pluto_fleet.shared.hooks.context import Context
+from pluto_fleet.trials.invariants import violations
+from plutoc_blocks.mission_modifier.step import modify_mission
+from tests.brain import apps
+
+ANY_END = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
+
+
+async def limit_trip(mission: Mission[apps.Trip], context: Context) -> Status:
+    """A timer of 12 s, as an app's developer would write it."""
+    trip = mission.current
+    if await context.trip_ended(trip, within=12.0):
+        return mission.status
+    assert trip.expired(12.0)
+    return Status.FAILED
+
+
+def test_a_timer_written_as_a_modifier_fails_a_trip_that_takes_too_long() -> None:
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=apps.modified(limit_trip, *ANY_END))),
+        apps.mission("m", apps.trip("A", 2.0), apps.trip("B", 15.0)),
+    )
+    (mission,) = outcome.missions
+    assert mission.status is Status.FAILED
+    assert mission.reason == "modifier limit_trip failed the trip"
+    (failure,) = apps.events(outcome, "trip.failed")
+    assert failure["t"] == pytest.approx(apps.times(outcome, "trip.launched")[1] + 12.0)
+
+
+def test_a_timer_written_as_a_modifier_lets_short_trips_pass() -> None:
+    trips = [apps.trip("A", 2.0), apps.trip("B", 2.0), apps.trip("C", 2.0)]
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=apps.modified(limit_trip, *ANY_END))), apps.mission("m", *trips)
+    )
+    assert outcome.completed
+
+
+async def says_standby(mission: Mission[apps.Trip], context: Context) -> Status:
+    return Status.STANDBY
+
+
+async def says_nothing(mission: Mission[apps.Trip], context: Context) -> None:
+    return None
+
+
+async def says_running(mission: Mission[apps.Trip], context: Context) -> Status:
+    return Status.RUNNING
+
+
+@pytest.mark.parametrize(
+    ("hook", "says"),
+    [
+        (says_standby, "returned STANDBY, but trip A is still flying"),
+        (says_nothing, "must return one of STANDBY, COMPLETED, FAILED, not None"),
+        (says_running, "must return one of STANDBY, COMPLETED, FAILED, not RUNNING"),
+    ],
+)
+def test_a_status_that_cannot_be_fails_the_mission(hook: object, says: str) -> None:
+    assert callable(hook)
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=apps.modified(hook, *ANY_END))),
+        apps.mission("m", apps.trip("A", 5.0), apps.trip("B", 5.0)),
+    )
+    (mission,) = outcome.missions
+    assert mission.status is Status.FAILED
+    assert says in mission.reason
+    assert outcome.drones[0].status.value == "FREE", "its drone was called home"
+
+
+@pytest.mark.parametrize(
+    ("emits", "returned", "says"),
+    [
+        (ANY_END, Status.RUNNING, "must return one of STANDBY, COMPLETED, FAILED, not RUNNING"),
+        (ANY_END, "done", "must return one of STANDBY, COMPLETED, FAILED, not 'done'"),
+        ((), Status.FAILED, "declares no `emits` and so must return nothing, not FAILED"),
+        (ANY_END, Status.FAILED, ""),
+        ((), None, ""),
+    ],
+)
+def test_what_a_modifier_returns_is_told_also_where_another_branch_was_faster(
+    emits: tuple[Status, ...], returned: object, says: str
+) -> None:
+    """The mission goes on with the branch that won: the trip's own end, which called the hook off."""
+
+    async def returns_when_called_off(mission: Mission[apps.Trip], context: Context) -> object:
+        with suppress(BaseException):
+            await context.trip_ended(mission.current, within=1e6)
+        return returned
+
+    watch = apps.modified(returns_when_called_off, *emits)
+    outcome = apps.fly(apps.app(apps.flow(watch=watch)), apps.mission("m", apps.trip("A", 2.0)))
+    assert outcome.completed
+    assert outcome.log == ([f"modifier returns_when_called_off {says}"] if says else [])
+
+
+def test_a_modifier_may_fail_a_mission_that_does_not_fly_and_the_reason_says_so() -> None:
+    async def refuse(mission: Mission[apps.Trip], context: Context) -> Status:
+        await context.trip_ended(mission.current)
+        return Status.FAILED
+
+    async def watch_then_refuse(run: Run[Any], status: Status) -> Status:
+        status = await apps.watched(run, status)
+        return await modify_mission(run, status, hook=refuse, emits=(Status.FAILED,))
+
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=watch_then_refuse)), apps.mission("m", apps.trip("A", 2.0))
+    )
+    (mission,) = outcome.missions
+    assert (mission.status, mission.reason) == (
+        Status.FAILED,
+        "modifier refuse failed the mission",
+    )
+
+
+def test_a_modifier_without_emits_changes_the_mission_and_not_its_status() -> None:
+    def go_elsewhere(mission: Mission[apps.Trip], context: Context) -> None:
+        mission.current.target = (7.0, 7.0, 1.2)
+        context.log(f"{context.now:g} s: elsewhere")
+
+    outcome = apps.fly(
+        apps.app(apps.flow(prepare=go_elsewhere)), apps.mission("m", apps.trip("A", 2.0))
+    )
+    assert outcome.completed
+    assert outcome.log == ["0 s: elsewhere"]
+    assert outcome.flown["cf1"] > 15.0
+
+
+def test_a_modifier_without_emits_may_return_nothing_at_all() -> None:
+    outcome = apps.fly(
+        apps.app(apps.flow(prepare=lambda mission, context: Status.FAILED)),
+        apps.mission("m", apps.trip("A", 2.0)),
+    )
+    assert "must return nothing" in outcome.missions[0].reason
+
+
+def test_a_trip_is_reset_only_when_it_is_over() -> None:
+    trip = apps.trip("A", 2.0)
+    trip.status = TripStatus.EXECUTING
+    with pytest.raises(ValueError, match="in flight"):
+        trip.reset()
+    trip.status = TripStatus.FAILED
+    trip.reset()
+    assert (trip.status, trip.attempt) == (TripStatus.WAITING, 2)
+
+
+async def round_and_round(run: Run[Any], status: Status) -> Status:
+    """A loop of one modifier, which sleeps or does not."""
+    while True:
+        status = await modify_mission(run, status, hook=LOOKS[run.mission.name])
+
+
+def look(mission: Mission[apps.Trip], context: Context) -> None:
+    """Look, and change nothing."""
+
+
+async def look_later(mission: Mission[apps.Trip], context: Context) -> None:
+    """Look after a while."""
+    await context.sleep(0.001)
+
+
+LOOKS = {"at once": look, "later": look_later}
+
+
+@pytest.mark.parametrize("name", LOOKS)
+def test_a_mission_that_goes_round_for_ever_fails_with_the_reason(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where its hook sleeps in between: then the clock does not stand still."""
+    monkeypatch.setattr(asking, "MOST_CALLS", 5_000)
+    outcome = apps.fly(
+        apps.app(apps.flow(watch=round_and_round)), apps.mission(name, apps.trip("A", 2.0))
+    )
+    (mission,) = outcome.missions
+    assert mission.status is Status.FAILED
+    assert "it goes round in its graph for ever" in mission.reason
+    assert outcome.drones[0].status.value == "FREE"
+
+
+def test_hooks_calls_are_counted_from_launch_to_launch(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A mission of many trips calls its hooks often, and goes round nowhere."""
+    monkeypatch.setattr(asking, "MOST_CALLS", 1)
+    trips = [apps.trip(f"{number}", 1.0 + number) for number in range(4)]
+    assert apps.fly(apps.app(apps.flow(prepare=look)), apps.mission("m", *trips)).completed
+
+
+def more(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Ask for another trip, which belongs to the mission from now on."""
+    if mission.status is Status.COMPLETED and mission.round == 0 and mission.attempts == 2:
+        mission.trips.append(apps.trip("more", 3.0))
+        return Status.STANDBY
+    return mission.status
+
+
+def more_alike(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Ask for another trip, by the name of one that there is."""
+    if mission.status is Status.COMPLETED and mission.round == 0 and mission.attempts == 2:
+        mission.trips.append(apps.trip("A", 3.0))
+        return Status.STANDBY
+    return mission.status
+
+
+def forget(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Let no life repeat what was done first."""
+    if mission.round == 0 and mission.status is Status.COMPLETED:
+        del mission.completed_trips[0]
+    return mission.status
+
+
+def call_otherwise(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Put a trip that failed back, by another name."""
+    if mission.status is Status.FAILED:
+        mission.current.name += "'"
+        mission.current.reset()
+        return Status.STANDBY
+    return mission.status
+
+
+def leave_out(mission: Mission[apps.Trip], context: Context) -> Status:
+    """Do not try a trip again that failed."""
+    if mission.status is Status.FAILED:
+        del mission.trips[0]
+        return Status.STANDBY if mission.trips else Status.COMPLETED
+    return mission.status
+
+
+@pytest.mark.parametrize("hook", [more, more_alike, forget, call_otherwise, leave_out])
+def test_what_a_modifier_makes_of_a_mission_is_told_in_simulations_too(
+    hook: Callable[..., object],
+) -> None:
+    """Otherwise it looks as if trips had been flown too often, or not at all."""
+
+    async def watch(run: Run[Any], status: Status) -> Status:
+        status = await apps.watched(run, status)
+        return await modify_mission(run, status, hook=hook, emits=ANY_END)
+
+    for seed in range(6):
+        outcome = apps.fly(
+            apps.app(apps.flow(watch=watch, repeater=True)),
+            apps.mission("m", apps.trip("A", 2.0), apps.trip("B", 2.0), repeat=2),
+            faults=Faults(action=0.2),
+            seed=seed,
+        )
+        assert violations(outcome.events, {}) == []

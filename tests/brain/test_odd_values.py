@@ -1,0 +1,342 @@
+"""Hooks give, and leave behind, values of any kind: none of them stops anything but its mission."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from enum import IntEnum
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from pluto_fleet.journal.fold import Records
+from pluto_fleet.shared.domain.errors import ActionFailed
+from pluto_fleet.shared.domain.model import Mission, Photo
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.domain.text import LONGEST_VALUE, shown
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Context, Verdict
+from pluto_fleet.shared.hooks.plain_data import keepable, value_data, value_of
+from tests.brain import apps
+from tests.brain.living import Living, enterable
+
+
+def refuses(error: type[BaseException]) -> type:
+    """Return a class whose objects answer nothing."""
+
+    def refuse(*_: object) -> Any:
+        raise error
+
+    asked = ("repr", "str", "eq", "iter", "len", "float", "index", "bool", "hash", "getattribute")
+    return type("Odd", (), {f"__{name}__": refuse for name in asked})
+
+
+class Text(str):
+    """A text that is not what it says."""
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        raise SystemExit
+
+    __repr__ = __len__ = __iter__ = __eq__ = __str__  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment]
+
+
+class Number(float):
+    """A number that is not what it says."""
+
+    def __repr__(self) -> str:
+        return "no number"
+
+    __str__ = __repr__
+
+    def __float__(self) -> float:
+        raise GeneratorExit
+
+
+class Level(IntEnum):
+    """A number with a name."""
+
+    HIGH = 3
+
+
+class Refusing(type):
+    """The class of a class that does not even say its name."""
+
+    def __getattribute__(cls, name: str) -> Any:
+        if name in ("__name__", "__module__", "__qualname__"):
+            raise SystemExit
+        return super().__getattribute__(name)
+
+    def __eq__(cls, other: object) -> bool:
+        raise SystemExit
+
+    __hash__ = type.__hash__
+
+
+class Nameless(metaclass=Refusing):
+    """A class that does not even say its name."""
+
+
+class Classless(Exception):
+    """An error that does not say what it is."""
+
+    @property
+    def __class__(self) -> Any:
+        raise SystemExit
+
+    @__class__.setter
+    def __class__(self, value: object) -> None:
+        raise SystemExit
+
+
+def round_list() -> list[Any]:
+    value: list[Any] = []
+    value.append(value)
+    return value
+
+
+def round_dict() -> dict[str, Any]:
+    value: dict[str, Any] = {}
+    value["itself"] = [value]
+    return value
+
+
+def deep(depth: int = 100_000) -> list[Any]:
+    value: list[Any] = []
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+def many() -> list[Any]:
+    """The same few lists again and again: written out, more than there is room for."""
+    value: list[Any] = ["ha"] * 10
+    for _ in range(30):
+        value = [value] * 10
+    return value
+
+
+def deep_tuple() -> tuple[Any, ...]:
+    value: tuple[Any, ...] = ()
+    for _ in range(5_000):
+        value = (value,)
+    return value
+
+
+ODD: dict[str, Callable[[], object]] = {
+    "digits": lambda: 10**10_000,
+    "digits in a list": lambda: [-(10**10_000)],
+    "round list": round_list,
+    "round dict": round_dict,
+    "deep": deep,
+    "deep enough to be written": lambda: deep(300),
+    "deep tuple": deep_tuple,
+    "many": many,
+    "an object that refuses": refuses(ValueError),
+    "an object that exits": refuses(SystemExit),
+    "an object that ends coroutines": refuses(GeneratorExit),
+    "such objects in a list": lambda: [refuses(RecursionError)()],
+    "as keys": lambda: {1: 2, None: {3}, (4,): "x"},
+    "reserved keys": lambda: {"$number": "none", "$photo": {}},
+    "long": lambda: "x" * 5_000_000,
+    "longer": lambda: ["x" * 5_000_000] * 3,
+    "bytes": lambda: b"\xff" * 5_000_000,
+    "lone surrogate": lambda: {"\udc80": "\ud800"},
+    "control characters": lambda: "\x1b[2J\x00",
+    "no numbers": lambda: [float("nan"), float("inf"), -0.0],
+    "a text of its own": lambda: Text("x"),
+    "a number of its own": lambda: [Number("nan"), Number(1.0)],
+    "an enumeration": lambda: Level.HIGH,
+    "a generator": lambda: (n for n in range(3)),
+    "a set": lambda: {1, "a", frozenset()},
+    "an object whose class refuses": lambda: Nameless(),
+    "a photo of nothing": lambda: Photo(position=None, width="x", height=1j),  # type: ignore[arg-type]
+    "a class": lambda: int,
+    "a half photo": lambda: {"photo": Photo(position=(1, 2), width=0, height=0)},  # type: ignore[arg-type]
+}
+
+
+def lived(hook: Callable[..., object]) -> Mission[Any]:
+    """Return a mission whose action this is; another one beside it is completed, on record."""
+
+    def act(drone: Any, trip: Any, context: Context) -> object:
+        return hook(trip) if trip.name == "odd" else 1
+
+    tested = enterable(actions=[OwnAction(name="look", hook=act)])
+    living = Living(
+        tested,
+        apps.mission("odd", apps.trip("odd", 3.0, action="look"), apps.trip("B", 4.0)),
+        apps.mission("good", apps.trip("A", 9.0, action="look")),
+        on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0)),
+    )
+    living.run()
+    odd, good = living.life.missions
+    assert good.status is Status.COMPLETED
+    records = Records()
+    for event in living.memory.read().events:
+        records.take(event)
+    json.dumps(records.data)
+    assert {name: one["status"] for name, one in records.missions.items()} == {
+        one.name: one.status.value for one in (odd, good)
+    }
+    return odd
+
+
+@pytest.mark.parametrize("make", ODD.values(), ids=ODD)
+def test_what_an_action_gives_is_kept_as_far_as_it_can_be(make: Callable[[], object]) -> None:
+    assert lived(lambda trip: make()).status is Status.COMPLETED
+
+
+@pytest.mark.parametrize("make", ODD.values(), ids=ODD)
+def test_any_failure_of_an_action_is_a_reason_of_some_length(make: Callable[[], object]) -> None:
+    def fails(trip: Any) -> None:
+        raise ActionFailed(make())
+
+    mission = lived(fails)
+    assert mission.status is Status.FAILED
+    assert 0 < len(mission.reason) < 4_000
+
+
+@pytest.mark.parametrize("make", ODD.values(), ids=ODD)
+def test_a_verdict_of_anything_fails_one_mission(make: Callable[[], Any]) -> None:
+    def verdict(mission: Any, results: Any) -> Any:
+        odd, kind = make(), mission.name
+        return {
+            "it": odd,
+            "ok": Verdict(ok=odd),
+            "fail": Verdict(fail=odd),
+            "redo": Verdict(redo=(odd,)),
+            "add": Verdict(add=(odd,)),
+            "adds": Verdict(add=odd),
+            "log": Verdict(log=(odd,), ok=False),
+            "good": Verdict(),
+        }[kind]
+
+    names = ("it", "ok", "fail", "redo", "add", "adds", "log", "good")
+    missions = [apps.mission(name, apps.trip("A", 3.0)) for name in names]
+    outcome = apps.fly(apps.app(apps.flow(evaluator=verdict)), *missions)
+    ends = {mission.name: mission.status for mission in outcome.missions}
+    assert ends.pop("good") is Status.COMPLETED
+    assert {name for name, status in ends.items() if status is not Status.FAILED} <= {"ok", "adds"}
+    assert all(len(mission.reason) < 4_000 for mission in outcome.missions)
+    assert all(len(line) < 25_000 for line in outcome.log)
+
+
+@pytest.mark.parametrize(
+    "make", [Classless, lambda: type("Odd", (Nameless, ValueError), {})()], ids=["self", "class"]
+)
+def test_an_error_that_cannot_be_asked_fails_one_mission(make: Callable[[], Exception]) -> None:
+    def fails(trip: Any) -> None:
+        raise make()
+
+    mission = lived(fails)
+    assert mission.status is Status.FAILED
+    assert mission.reason.startswith("hook act raised ")
+
+
+def test_an_action_that_fails_without_a_word_has_a_reason() -> None:
+    def fails(trip: Any) -> None:
+        raise ActionFailed
+
+    assert lived(fails).reason == "look failed: it does not say why"
+
+
+FACTS = ("name", "status", "reason", "round", "attempts", "index", "trips", "completed_trips")
+TRIP_FACTS = ("name", "action", "target", "source", "parameters", "item", "status", "attempt")
+FIELDS = ("every", "safe_time", "repeat")
+
+
+def setting(mission: Any, fact: str, value: object) -> None:
+    """Put a value into a mission, or into its trip, as a hook may."""
+    where, _, name = fact.partition(".")
+    setattr(mission if where == "mission" else mission.current, name, value)
+
+
+PLACES = (
+    *(f"mission.{fact}" for fact in (*FACTS, *FIELDS)),
+    *(f"trip.{fact}" for fact in (*TRIP_FACTS, "delay", "priority")),
+)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_what_a_modifier_leaves_anywhere_fails_one_mission(place: str) -> None:
+    """Or is harmless, as a number is in a field for numbers."""
+    for name, make in ODD.items():
+
+        def leaves(mission: Any, context: Context, make: Callable[[], object] = make) -> None:
+            if mission.name == "odd":
+                setting(mission, place, make())
+
+        living = Living(
+            enterable(prepare=leaves),
+            apps.mission("odd", apps.trip("A", 3.0)),
+            apps.mission("good", apps.trip("A", 9.0)),
+            on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0)),
+        )
+        living.run()
+        odd, good = living.life.missions
+        assert good.status is Status.COMPLETED, name
+        assert odd.status in (Status.FAILED, Status.COMPLETED), name
+        assert len(odd.reason) < 4_000, name
+
+
+@pytest.mark.parametrize("field", ["trip.delay", "trip.priority", "mission.every"])
+def test_a_block_that_cannot_go_by_a_field_fails_one_mission(field: str) -> None:
+    """And the reason names the field, and not the block."""
+
+    def leaves(mission: Any, context: Context) -> None:
+        if mission.name == "odd":
+            setting(mission, field, [[...]])
+
+    tested = enterable(prepare=leaves, clock=True)
+    outcome = apps.fly(
+        tested, apps.mission("odd", apps.trip("A", 3.0)), apps.mission("good", apps.trip("A", 9.0))
+    )
+    odd, good = outcome.missions
+    assert good.status is Status.COMPLETED
+    if odd.status is Status.FAILED:
+        assert f"its {field.partition('.')[2]} must be a number" in odd.reason
+
+
+@pytest.mark.parametrize("fact", TRIP_FACTS)
+def test_an_action_leaves_its_trip_as_it_was_given(fact: str) -> None:
+    for make in (ODD["digits"], ODD["round list"], ODD["an object that exits"]):
+
+        def leaves(trip: Any, make: Callable[[], object] = make) -> None:
+            setattr(trip, fact, make())
+
+        assert lived(leaves).status in (Status.FAILED, Status.COMPLETED)
+
+
+values = st.recursive(
+    st.one_of(
+        st.none(),
+        st.booleans(),
+        st.integers(),
+        st.floats(),
+        st.text(st.characters(codec=None)),
+        st.binary(max_size=8),
+        st.sampled_from(sorted(ODD)).map(lambda name: ODD[name]()),
+    ),
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=4),
+        st.tuples(inner, inner),
+        st.dictionaries(st.one_of(st.text(max_size=3), st.integers()), inner, max_size=3),
+    ),
+    max_leaves=6,
+)
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@given(values)
+def test_any_value_can_be_written_and_read_again(value: object) -> None:
+    """As it is, or as text; and what was read stays the same from then on."""
+    read = value_of(json.loads(json.dumps(value_data(value))))
+    written = json.dumps(value_data(read))
+    assert json.dumps(value_data(value_of(json.loads(written)))) == written
+    assert len(shown(value)) < LONGEST_VALUE + 100
+    keepable(value)

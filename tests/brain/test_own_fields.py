@@ -1,0 +1,372 @@
+"""An app with fields of its own, evaluators with parameters and actions that say what they give, flown."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from importlib import import_module, invalidate_caches
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pluto_fleet import api
+from pluto_fleet.app import App, described
+from pluto_fleet.files.fleet import default_fleet
+from pluto_fleet.files.missions import load_missions
+from pluto_fleet.files.missions_text import missions_text
+from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.trials.explore import random_missions
+from tests.brain.living import Living
+from tests.flying import compiled_file
+
+SOURCE = """pluto 1
+
+app NAME "Wards" {
+  mission has patient: text, margin: time = 10 min
+  trip has note: text = "", layers: int, gentle: bool = yes
+  action spray(dose: mass = 50 mg) -> float safe
+  action look -> photo safe
+  evaluator strict(least: int = 2, share: percent = 50 %)
+  evaluator lenient(most: int = 7)
+  modifier count_layers(by: int = 1) writes patient
+
+  create = MissionCreator
+  wait = Clock
+  count = MissionModifier(hook: count_layers)
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  judge = MissionEvaluator(hook: strict, least: 3)
+  retry = PriorityManager
+
+  start -> create -> wait -> count -> allocate -> launch -> watch
+  watch -> wait when STANDBY
+  watch -> retry when FAILED
+  watch -> judge when COMPLETED
+  [retry, judge] -> wait when STANDBY
+  [retry, judge] -> end otherwise
+}
+"""
+HOOKS = """from . import Context, Drone, Mission, Photo, Results, Status, Trip, Verdict
+
+CALLS: list[tuple[object, ...]] = []
+
+
+async def spray(drone: Drone, trip: Trip, context: Context, *, dose: float) -> float:
+    await context.sleep(2.0)
+    trip.note += "!"
+    return dose
+
+
+def look(drone: Drone, trip: Trip, context: Context) -> Photo:
+    return Photo(position=trip.target, width=1.0, height=1.0)
+
+
+def strict(mission: Mission, results: Results, *, least: int, share: float) -> Verdict:
+    CALLS.append(("strict", least, share, mission.patient, mission.margin))
+    values = [one.value for one in results.new]
+    CALLS.append(("gave", *values))
+    return Verdict(log=[f"{mission.patient}: {one.note} {one.layers}" for one in mission.completed_trips])
+
+
+def lenient(mission: Mission, results: Results, *, most: int) -> Verdict:
+    CALLS.append(("lenient", most))
+    return Verdict()
+
+
+def count_layers(mission: Mission, context: Context, *, by: int) -> None:
+    mission.current.layers += by
+    mission.patient = mission.patient.upper()
+"""
+TRIP = '[[mission.trip]]\naction = "{action}"\ntarget = [{x}, 3]\nlayers = {layers}\n'
+PLAN = '[[mission]]\nname = "one"\npatient = "Ada"\n' + "".join(
+    TRIP.format(action=action, x=x, layers=x)
+    for x, action in enumerate(("spray", "look", "measure"), 1)
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Made:
+    """A package that was compiled and imported."""
+
+    app: App
+    hooks: Any
+    package: Path
+
+    def missions(self, text: str = PLAN) -> list[Any]:
+        """Read a missions file."""
+        path = self.package / "missions.toml"
+        path.write_text(text, encoding="utf-8")
+        return load_missions(path, self.app, default_fleet(self.app).airspace)
+
+    def fly(self, text: str = PLAN, **hooks: Any) -> Any:
+        """Simulate a plan of one mission, perhaps with another hook."""
+        self.hooks.CALLS.clear()
+        app = self.app if not hooks else self.changed(hooks)
+        fleet = default_fleet(app)
+        outcome = simulate(
+            app, self.missions(text), fleet, seed=1, faults=Faults(), until=9e4, on_event=None
+        )
+        return outcome.missions[0]
+
+    def changed(self, hooks: Mapping[str, Any]) -> App:
+        """Return the app with other actions, in the place of those of these names."""
+        given: Any = self.app.given
+        actions = {
+            name: replace(one, hook=hooks.get(name, one.hook))
+            for name, one in given.actions.items()
+        }
+        return described(replace(given, actions=actions))
+
+
+NUMBERS = iter(range(1_000))
+
+
+def made(folder: Path, source: str = SOURCE, hooks: str = HOOKS) -> Made:
+    """Compile and import an app under a name of its own."""
+    name = f"own_wards_{next(NUMBERS)}"
+    (folder / "app.pluto").write_text(source.replace("NAME", name), encoding="utf-8")
+    (folder / "hooks.py").write_text(hooks, encoding="utf-8")
+    package = compiled_file(folder / "app.pluto", folder / name)
+    sys.path.insert(0, str(package / "src"))
+    invalidate_caches()
+    try:
+        app = described(import_module(f"{name}.flow").APP)
+        return Made(app=app, hooks=import_module(f"{name}.hooks"), package=package)
+    finally:
+        sys.path.remove(str(package / "src"))
+
+
+@pytest.fixture(scope="module")
+def wards(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Made]:
+    """The app of these tests."""
+    yield made(tmp_path_factory.mktemp("wards"))
+
+
+def test_hooks_read_and_write_them(wards: Made) -> None:
+    """In SI units; what is left out has its default."""
+    mission = wards.fly()
+    assert (mission.status.value, mission.reason) == ("COMPLETED", "")
+    assert wards.hooks.CALLS[0] == ("strict", 3, 0.5, "ADA", 600.0)
+    trips = mission.completed_trips
+    assert [(one.note, one.layers, one.gentle) for one in trips] == [
+        ("!", 2, True),
+        ("", 3, True),
+        ("", 4, True),
+    ]
+    assert (mission.patient, mission.margin) == ("ADA", 600.0)
+
+
+def test_results_are_what_the_actions_declare(wards: Made) -> None:
+    wards.fly()
+    said, dose, photo, measured = wards.hooks.CALLS[1]
+    assert (said, dose) == ("gave", 5e-05)
+    assert (type(photo).__name__, type(measured)) == ("Photo", float)
+
+
+@pytest.mark.parametrize(
+    ("chosen", "calls"),
+    [
+        ("", ("strict", 3, 0.5)),
+        ('evaluator = "strict"', ("strict", 3, 0.5)),
+        ('evaluator = "lenient"', ("lenient", 7)),
+    ],
+)
+def test_the_blocks_settings_are_for_its_own_evaluator(
+    wards: Made, chosen: str, calls: tuple[object, ...]
+) -> None:
+    wards.fly(PLAN.replace('patient = "Ada"', f'patient = "Ada"\n{chosen}'))
+    assert wards.hooks.CALLS[0][: len(calls)] == calls
+
+
+class Fancy(float):
+    """A number of another class."""
+
+
+class Index:
+    """What Python takes for a whole number."""
+
+    def __index__(self) -> int:
+        return 3
+
+
+@pytest.mark.parametrize(
+    ("value", "kept"),
+    [(0.5, 0.5), (3, 3.0), (Fancy(2.5), 2.5), (Index(), 3.0), (10**18, 1e18), (float("inf"),) * 2],
+)
+def test_a_number_is_kept_as_one(wards: Made, value: object, kept: float) -> None:
+    mission = wards.fly(spray=lambda drone, trip, context, dose: value)
+    assert mission.status.value == "COMPLETED"
+    given = wards.hooks.CALLS[1][1]
+    assert (type(given), given) == (float, kept)
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (None, "not None"),
+        (True, "not True, which is bool"),
+        ("5 mg", "not '5 mg', which is str"),
+        ([1.0], "not [1.0], which is list"),
+        (10**400, "not 1000"),
+    ],
+)
+def test_a_value_of_another_type_fails_the_mission(wards: Made, value: object, said: str) -> None:
+    """As a fault of the hook: no other flight would mend it."""
+    mission = wards.fly(spray=lambda drone, trip, context, dose: value)
+    assert mission.status.value == "FAILED"
+    assert mission.reason.startswith(f"hook spray must return a number, {said}")
+    assert mission.attempts == 1
+
+
+def test_a_photo_is_one(wards: Made) -> None:
+    mission = wards.fly(look=lambda drone, trip, context: "a photo")
+    assert mission.reason == "hook look must return a Photo, not 'a photo', which is str"
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "said"),
+    [
+        ("note", None, "note must be a text, and a hook has put None there"),
+        ("note", b"x", "note must be a text, and a hook has put b'x' there"),
+        ("layers", 1.5, "layers must be a whole number, and a hook has put 1.5 there"),
+        ("layers", True, "layers must be a whole number, and a hook has put True there"),
+        ("gentle", 1, "gentle must be True or False, and a hook has put 1 there"),
+    ],
+)
+def test_a_wrong_value_that_an_action_leaves_is_told(
+    wards: Made, field: str, value: object, said: str
+) -> None:
+    def spray(drone: Any, trip: Any, context: Any, *, dose: float) -> float:
+        setattr(trip, field, value)
+        return dose
+
+    mission = wards.fly(spray=spray)
+    assert mission.reason == f"hook spray left a trip that cannot go on: its {said}"
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("mission.patient = None", "patient must be a text, and a hook has put None there"),
+        ("mission.margin = 'soon'", "margin must be a number, and a hook has put 'soon' there"),
+        ("mission.margin = float('nan')", "margin must be a number, and a hook has put nan there"),
+    ],
+)
+def test_a_wrong_value_that_a_modifier_leaves_is_told(tmp_path: Path, line: str, said: str) -> None:
+    app = made(tmp_path, hooks=HOOKS.replace("mission.patient = mission.patient.upper()", line))
+    reason = "hook count_layers left a mission that cannot go on: its "
+    assert app.fly().reason == reason + said
+
+
+def test_a_plan_is_written_and_read_again(wards: Made) -> None:
+    missions = wards.missions()
+    text = missions_text(wards.app, missions)
+    assert 'patient = "Ada"' in text and "margin = 600.0" in text and "layers = 3" in text
+    assert missions_text(wards.app, wards.missions(text)) == text
+
+
+def test_random_missions_have_what_must_be_filled_in(wards: Made) -> None:
+    """And their values are of the types that the app declares."""
+    seen = set()
+    for seed in range(30):
+        for mission in random_missions(wards.app, default_fleet(wards.app), seed):
+            given: Any = mission
+            assert type(given.patient) is str and type(given.margin) in (int, float)
+            for trip in mission.trips:
+                assert type(trip.layers) is int and type(trip.gentle) is bool
+                seen.add(type(trip.note))
+    assert seen == {str}
+
+
+def lived(app: Made) -> Living:
+    return Living(app.app, *app.missions(), on=default_fleet(app.app))
+
+
+@pytest.mark.parametrize("when", [0.5, 8.0, 15.0, 25.0, 40.0])
+def test_they_survive_a_crash_and_a_stop(wards: Made, when: float) -> None:
+    """At any time, as their hooks have left them."""
+    for end in ("crash", "stop"):
+        life = lived(wards)
+        getattr(life, end)(when)
+        assert life.run() == ["COMPLETED"]
+        mission: Any = life.life.missions[0]
+        assert (mission.patient, mission.margin) == ("ADA", 600.0)
+        assert [one.layers for one in mission.completed_trips][1:] == [3, 4]
+        assert all(one.gentle is True for one in mission.completed_trips)
+
+
+FIELDS = 'mission has patient: text, margin: time = 10 min\n  trip has note: text = "", layers: int, gentle: bool = yes'
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        (f"{FIELDS}\n  mission has ward: text", "it has no ward"),
+        (f"{FIELDS}\n  trip has ward: text", "it has no ward"),
+        (FIELDS.replace("layers: int", "layers: text"), "its layers must be a text now"),
+        (FIELDS.replace("patient: text", "patient: bool"), "its patient must be True or False now"),
+        (FIELDS.replace("patient: text, ", ""), "there is no field patient"),
+    ],
+)
+def test_a_mission_is_held_if_the_fields_were_changed(
+    wards: Made, tmp_path: Path, fields: str, said: str
+) -> None:
+    """It says why, and nothing of it flies."""
+    hooks = HOOKS.replace("    mission.patient = mission.patient.upper()\n", "")
+    other = made(tmp_path, SOURCE.replace(FIELDS, fields), hooks.replace("mission.patient", "1"))
+    life = lived(wards)
+    life.crash(10.0, app=other.app)
+    life.run(2_000.0)
+    (mission,) = life.life.missions
+    assert mission.status.value == "HELD"
+    assert mission.reason == f"it does not fit into the app as it is now: {said}"
+
+
+def test_a_field_with_a_default_may_come_in_between(wards: Made, tmp_path: Path) -> None:
+    other = made(tmp_path, SOURCE.replace(FIELDS, f'{FIELDS}\n  mission has ward: text = "A"'))
+    life = lived(wards)
+    life.crash(10.0, app=other.app)
+    assert life.run() == ["COMPLETED"]
+    mission: Any = life.life.missions[0]
+    assert mission.ward == "A"
+
+
+def test_a_script_is_told_what_it_has_left_out(wards: Made) -> None:
+    """Before anything flies."""
+    app: Any = wards.app
+    trip = app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers="two")
+    mission = app.mission(name="one", trips=[trip])
+    with pytest.raises(BadInput) as refused:
+        api.simulate(app, [mission])
+    assert str(refused.value).split("\n") == [
+        'mission "one": has no patient',
+        'mission "one", trip a: layers must be a whole number, not "two"',
+    ]
+    trip = app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers=2)
+    assert api.simulate(wards.app, [app.mission(name="one", trips=[trip], patient="A")]).completed
+
+
+def test_a_new_trip_with_a_wrong_value_is_told_of_its_evaluator(tmp_path: Path) -> None:
+    """And one without what must be filled in cannot be made."""
+    for more, said in (
+        (
+            "layers=1.5",
+            "evaluator strict adds a trip that cannot be flown: layers must be a whole number",
+        ),
+        (
+            "note=''",
+            "hook strict raised TypeError: Trip.__init__() missing 1 required keyword-only",
+        ),
+    ):
+        made_of = f'Trip(name="b", action="measure", target=(1, 2, 1), {more})'
+        hooks = HOOKS.replace(
+            "    values = [", f"    return Verdict(add=[{made_of}])\n    values = ["
+        )
+        folder = tmp_path / more[:4]
+        folder.mkdir()
+        assert made(folder, hooks=hooks).fly().reason.startswith(said)

@@ -1,0 +1,202 @@
+"""Real time drives the same coroutines: short flights, no sleeping in the test itself."""
+
+from __future__ import annotations
+
+import asyncio
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Coroutine
+from functools import wraps
+from typing import Any
+
+import pytest
+
+from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Category, Drone, Mission
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.flow import asking
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.flow.run import Run
+from pluto_fleet.shared.hooks.context import Context
+from pluto_fleet.shared.time.kernel import FLEET
+from plutoc_blocks.mission_modifier.step import modify_mission
+from tests.brain import apps, in_real_time
+
+FAST = Category(name="scout", speed=200.0)
+LOW = Airspace(cruise_height=0.003)
+
+
+async def blink(drone: Drone, trip: apps.Trip, context: Context) -> int:
+    """An action of the app's own that uses asyncio and its context; it gives the thread."""
+    await asyncio.sleep(0)
+    await context.sleep(0.001)
+    return threading.get_ident()
+
+
+def fly(*missions: apps.Mission) -> tuple[apps.SimulationResult, list[Event]]:
+    seen: list[Event] = []
+    for index, mission in enumerate(missions):
+        mission.index = index
+    outcome = in_real_time.fly(
+        apps.app(
+            apps.flow(watch=apps.timed),
+            categories=[FAST],
+            actions=[OwnAction(name="blink", hook=blink, seconds=0.01)],
+        ),
+        missions,
+        apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), airspace=LOW),
+        seen.append,
+    )
+    return outcome, seen
+
+
+def low(name: str, x: float) -> apps.Trip:
+    return apps.Trip(name=name, action="blink", target=(x, 0.5, 0.003))
+
+
+def test_missions_fly_side_by_side_in_one_thread() -> None:
+    outcome, seen = fly(
+        apps.mission("a", low("A", 3.0), low("B", 4.0), safe_time=60.0),
+        apps.mission("b", low("A", 3.0), safe_time=60.0),
+    )
+    assert outcome.completed
+    values = {event["value"] for event in seen if event["event"] == "trip.completed"}
+    assert values == {str(threading.get_ident())}
+    launches = [event["mission"] for event in seen if event["event"] == "trip.launched"]
+    assert launches[:2] == ["a", "b"]
+
+
+def hooked(hook: Callable[..., object]) -> str:
+    """Fly a mission with this action, and say why it failed or what it gave."""
+    seen: list[Event] = []
+    mission = apps.mission("m", low("A", 3.0))
+    in_real_time.fly(
+        apps.app(
+            apps.flow(),
+            categories=[FAST],
+            actions=[OwnAction(name="blink", hook=hook, seconds=0.01)],
+        ),
+        [mission],
+        apps.fleet(airspace=LOW),
+        seen.append,
+    )
+    return mission.reason or next(
+        str(event["value"]) for event in seen if event["event"] == "trip.completed"
+    )
+
+
+@pytest.mark.parametrize(
+    ("error", "says"),
+    [
+        (StopIteration(), "raised StopIteration"),
+        (SystemExit(3), "hook raises raised SystemExit: 3"),
+        (asyncio.CancelledError(), "hook raises raised CancelledError"),
+    ],
+)
+def test_any_error_of_a_hook_ends_its_mission_and_never_hangs(
+    error: BaseException, says: str
+) -> None:
+    def raises(drone: Drone, trip: apps.Trip, context: Context) -> None:
+        raise error
+
+    assert says in hooked(raises)
+
+
+def test_an_async_hook_whose_own_work_was_called_off_fails_its_mission() -> None:
+    async def loses_its_work(drone: Drone, trip: apps.Trip, context: Context) -> None:
+        work = asyncio.ensure_future(asyncio.sleep(60))
+        work.cancel()
+        await work
+
+    assert hooked(loses_its_work) == "hook loses_its_work raised CancelledError"
+
+
+def test_a_hook_behind_a_plain_function_is_awaited_as_in_a_simulation() -> None:
+    def plainly(
+        hook: Callable[..., Coroutine[Any, Any, object]],
+    ) -> Callable[..., Coroutine[Any, Any, object]]:
+        @wraps(hook)
+        def called(*args: object, **named: object) -> Coroutine[Any, Any, object]:
+            return hook(*args, **named)
+
+        return called
+
+    @plainly
+    async def seven(drone: Drone, trip: apps.Trip, context: Context) -> int:
+        await context.sleep(0.001)
+        return 7
+
+    assert hooked(seven) == "7"
+
+
+STUCK = """
+import asyncio, threading
+from pluto_fleet.process.realtime import RealTime
+
+async def main():
+    kernel = RealTime()
+    inside = threading.Event()
+
+    def stuck():
+        inside.set()
+        threading.Event().wait()
+
+    task = kernel.spawn(kernel.call_hook(stuck), 0, "hook")
+    running = asyncio.ensure_future(kernel.run(task))
+    while not inside.is_set():
+        await asyncio.sleep(0)
+    running.cancel()
+    kernel.close()
+
+asyncio.run(main())
+print("left")
+"""
+
+
+def test_a_hook_that_never_comes_back_keeps_no_one_from_leaving() -> None:
+    path = [*sys.path]
+    code = f"import sys; sys.path[:0] = {path!r}\n{STUCK}"
+    ended = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert (ended.stdout, ended.stderr) == ("left\n", "")
+
+
+def test_time_can_pass_faster_than_on_the_wall() -> None:
+    """A thousand seconds at a million times the speed take a millisecond."""
+
+    async def main() -> float:
+        kernel = RealTime(speed=1e6)
+        await kernel.run(kernel.spawn(kernel.sleep(1000), FLEET, "waits"))
+        return kernel.now
+
+    assert asyncio.run(main()) >= 1000
+
+
+async def look(mission: Mission[apps.Trip], context: Context) -> None:
+    """Look again and again, and change nothing."""
+    await context.sleep(0.0001)
+
+
+def test_a_mission_that_goes_round_for_ever_fails_though_time_passes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Here the clock never stands still; what counts is what lies between two launches."""
+    monkeypatch.setattr(asking, "MOST_CALLS", 20)
+
+    async def round_and_round(run: Run[Any], status: Status) -> Status:
+        while True:
+            status = await modify_mission(run, status, hook=look)
+
+    mission = apps.mission("a", apps.trip("A", 0.6))
+    in_real_time.fly(
+        apps.app(apps.flow(watch=round_and_round), categories=[FAST]),
+        [mission],
+        apps.fleet((0.5, 0.5, 0.0), airspace=LOW),
+        lambda event: None,
+    )
+    assert mission.status is Status.FAILED
+    assert "it goes round in its graph for ever" in mission.reason

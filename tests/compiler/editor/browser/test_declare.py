@@ -1,0 +1,108 @@
+"""What an app declares, without a line of text: fields of its own, evaluators and actions with their types."""
+
+from __future__ import annotations
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.compiler.editor.browser.conftest import Edit, Visit
+from tests.compiler.editor.browser.hand import block
+from tests.library.station.browser.serving import until
+
+
+def declare(page: Page, what: str) -> None:
+    """Choose what to declare; its name is selected then."""
+    page.get_by_role("button", name="Declare").click()
+    page.keyboard.type(what)
+    page.keyboard.press("Enter")
+
+
+def line_of(page: Page, name: str) -> Locator:
+    """Return the line in which something is declared."""
+    return page.get_by_role("textbox", name=f"The declaration of {name}", exact=True)
+
+
+def write(line: Locator, text: str) -> None:
+    line.fill(text)
+    line.press("Enter")
+
+
+def test_fields_of_missions_and_trips(edit: Edit, visit: Visit) -> None:
+    """One types the name over the one that it came with, and then its type; each is taken out again."""
+    editor = edit("drugs_distribution")
+    before = editor.text
+    page = visit(editor)
+    declare(page, "field of missions")
+    expect(line_of(page, "mission.note")).to_be_focused()
+    page.keyboard.type("patient")
+    page.keyboard.press("Enter")
+    expect(line_of(page, "mission.patient")).to_have_value('patient: text = ""')
+    expect(line_of(page, "mission.patient")).to_be_focused()
+    declare(page, "field of trips")
+    expect(line_of(page, "trip.note")).to_be_focused()
+    write(line_of(page, "trip.note"), "depth: length = 30 cm")
+    expect(line_of(page, "trip.depth")).to_be_visible()
+    declare(page, "field of missions")
+    write(line_of(page, "mission.note"), "margin: time")
+    text = 'mission has patient: text = ""\n  trip has depth: length = 30 cm\n  mission has margin: time\n'
+    until(lambda: text in editor.text, lambda: editor.text)
+    write(line_of(page, "mission.margin"), "status: time")
+    expect(page.get_by_role("alert")).to_contain_text("every mission of this app has a `status`")
+    line_of(page, "mission.margin").press("Escape")
+    expect(page.get_by_text("Missions files are not changed")).to_have_count(
+        0
+    )  # none can have them
+    for name in ("mission.patient", "trip.depth", "mission.margin"):
+        page.get_by_role("button", name=f"Remove {name}", exact=True).click()
+        expect(line_of(page, name)).to_have_count(0)
+    until(lambda: editor.text.split() == before.split(), lambda: editor.text)
+
+
+def test_another_name_goes_into_the_code_and_not_into_plans(edit: Edit, visit: Visit) -> None:
+    editor = edit("night_round")
+    page = visit(editor)
+    write(line_of(page, "mission.patient"), 'client: text = ""')
+    expect(
+        page.get_by_role("status").filter(has_text="Missions files are not changed")
+    ).to_contain_text("where one has `patient`, write `client`")
+    until(
+        lambda: 'mission has client: text = "", most: float = 20' in editor.text,
+        lambda: editor.text,
+    )
+    until(lambda: "{mission.client} sleeps" in editor.hooks, lambda: editor.hooks)
+    assert "mission.patient" not in editor.hooks
+    assert 'patient = "{patient}"' in editor.file.with_name("missions.toml").read_text()
+
+
+def test_an_evaluator_takes_values(edit: Edit, visit: Visit) -> None:
+    """What it declares is a field of the block that asks it."""
+    editor = edit("alfalfa")
+    page = visit(editor)
+    write(line_of(page, "find_blooms"), "evaluator find_blooms(least: int = 2)")
+    until(lambda: "evaluator find_blooms(least: int = 2)" in editor.text, lambda: editor.text)
+    block(page, "judge").locator(".face").click()
+    field = page.locator('.field[data-field="least"]')
+    expect(field.locator("input")).to_have_attribute("placeholder", "2")
+    field.locator("input").fill("many")
+    expect(field.locator(".field-problem")).to_have_text("This must be a whole number.")
+    write(field.locator("input"), "3")
+    until(lambda: "hook: find_blooms, least: 3" in editor.text, lambda: editor.text)
+
+
+def test_an_action_says_what_it_gives(edit: Edit, visit: Visit) -> None:
+    """And the code that is begun for it is typed so."""
+    editor = edit("drugs_distribution")
+    page = visit(editor)
+    declare(page, "an action")
+    expect(line_of(page, "my_action")).to_be_focused()
+    write(line_of(page, "my_action"), "action listen(seconds: time = 6 s) -> float safe")
+    until(
+        lambda: "action listen(seconds: time = 6 s) -> float safe" in editor.text,
+        lambda: editor.text,
+    )
+    page.get_by_role("button", name="Write the code of listen").click()
+    code = page.get_by_role("textbox", name="hooks.py: your own code")
+    expect(code).to_contain_text("def listen(")
+    until(
+        lambda: "seconds: float" in editor.hooks and "-> float:" in editor.hooks,
+        lambda: editor.hooks,
+    )

@@ -1,0 +1,77 @@
+"""`version` and `requires` in the generated pyproject.toml."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import replace
+from typing import Any
+
+import hypothesis.strategies as st
+from hypothesis import given
+from packaging.requirements import Requirement
+
+from plutoc.emit.project_files import project_file
+from plutoc.graph.model import Graph, Library
+from plutoc.source import Span
+from tests.compiler.emit.apps import PLAIN
+from tests.compiler.emit.plans import plan_of
+
+
+def graph_with(settings: str) -> Graph:
+    """Return the plain app's graph with settings of its package."""
+    text = PLAIN.replace("{\n", f"{{\n{settings}\n", 1)
+    assert text != PLAIN
+    return plan_of(text).checked.graph
+
+
+def written(graph: Graph) -> dict[str, Any]:
+    """Return what its pyproject.toml holds."""
+    return tomllib.loads(project_file(graph, "app.pluto", carry=False))
+
+
+def test_they_stand_where_installers_read_them() -> None:
+    """A list of a line each: another library is one line in a pull request."""
+    graph = graph_with('version "1.2.0-beta"\nrequires "numpy>=2", "b; os_name == \'nt\'"')
+    project = written(graph)["project"]
+    assert (project["version"], project["dependencies"]) == (
+        "1.2.0b0",
+        ["numpy>=2", "b; os_name == 'nt'"],
+    )
+    assert '\ndependencies = [\n    "numpy>=2",\n' in project_file(graph, "app.pluto", carry=False)
+
+
+def test_without_them_the_project_is_as_it_always_was() -> None:
+    project = written(graph_with("# nothing"))
+    assert (project["project"]["version"], project["project"]["dependencies"]) == ("0.1.0", [])
+    assert "metadata" not in project["tool"]["hatch"]
+
+
+def test_a_library_with_an_address_is_allowed() -> None:
+    """What builds the package refuses one elsewhere."""
+    project = written(graph_with('requires "a", "tools @ https://example.org/tools.whl"'))
+    assert project["tool"]["hatch"]["metadata"] == {"allow-direct-references": True}
+    assert [Requirement(one).name for one in project["project"]["dependencies"]] == ["a", "tools"]
+
+
+def test_a_library_leaves_all_other_files_as_they_are() -> None:
+    """Nothing that flies knows of it."""
+    from tests.compiler.emit.test_package import package_of
+
+    plain = package_of(PLAIN)
+    other = package_of(PLAIN.replace("{\n", '{\n  version "2"\n  requires "numpy"\n', 1))
+    differing = {path for path, text in plain.owned.items() if other.owned[path] != text}
+    assert differing == {"pyproject.toml", "pluto.lock"}
+
+
+@given(st.text(st.characters(exclude_categories=["Cs"])))
+def test_no_text_changes_the_shape_of_the_project(text: str) -> None:
+    """Everything that some version of PEP 508's reader lets through."""
+    library = Library(name="a", requirement=text, direct=False, span=Span(0, 0))
+    graph = replace(GRAPH, version=text, libraries=(library, library))
+    project = written(graph)
+    assert list(project) == ["build-system", "project", "tool"]
+    assert project["project"]["dependencies"] == [text, text]
+    assert project["project"]["version"] == text
+
+
+GRAPH = plan_of(PLAIN).checked.graph

@@ -1,0 +1,85 @@
+"""A mission does in its plan what it does in its graph."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import partial
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plutoc.block import IN_GRAPH
+from plutoc.check.model import Checked
+from plutoc.check.run import check
+from plutoc.diagnostic import Rejected
+from plutoc.plan.build import build
+from plutoc.plan.model import Plan
+from plutoc.plan.optimise import stages
+from plutoc.plan.show import show
+from plutoc.plan.verify import verify
+from plutoc_runtime.domain.status import Status
+from tests.compiler.check import graphs
+from tests.compiler.check.test_walks import edited
+from tests.compiler.plan.graphs import GRAPHS, random_graphs
+from tests.compiler.plan.walks import along_graph, kept, through_plan
+
+
+def compare(checked: Checked, seeds: range) -> Plan:
+    """Walk the graph, the plan as it is built, and the plan after all passes."""
+    plans = [plan for _, plan in stages(build(checked))]
+    for plan in plans:
+        verify(plan)
+    for seed in seeds:
+        wanted = kept(lambda diary: along_graph(checked, diary), seed)
+        for plan in (plans[0], plans[-1]):
+            assert kept(partial(through_plan, plan), seed) == wanted
+        for place, status in goes_on(checked):
+            wanted = kept(partial(along_graph, checked, place=place, status=status), seed)
+            for plan in (plans[0], plans[-1]):
+                through = partial(through_plan, plan, place=place, status=status)
+                assert kept(through, seed) == wanted
+    return plans[-1]
+
+
+def goes_on(checked: Checked) -> list[tuple[str, Status]]:
+    """Return where interrupted missions go on, and with which status."""
+    return [
+        (name, s) for name, statuses in checked.entries.items() for s in IN_GRAPH if s in statuses
+    ]
+
+
+@pytest.mark.parametrize("name", GRAPHS)
+def test_a_plan_visits_the_blocks_that_the_graph_does(name: str) -> None:
+    """The same blocks, branches and gates, in the same order, with the same statuses."""
+    checked = graphs.checked(GRAPHS[name])
+    compare(checked, range(40))
+
+
+def test_plans_of_random_graphs_do_what_the_graphs_do() -> None:
+    """Blocks that route and fork wherever they like; and all that a plan can hold turned up."""
+    seen: Counter[str] = Counter()
+
+    @settings(max_examples=350, deadline=None, derandomize=True, database=None)
+    @given(text=random_graphs(), seed=st.integers(0, 1000))
+    def each(text: str, seed: int) -> None:
+        try:
+            checked = graphs.checked(text)
+        except Rejected:
+            return
+        shown = show(compare(checked, range(seed, seed + 6)))
+        seen.update(word for word in ("call", "loop", "break", "join", "goto") if word in shown)
+
+    each()
+    assert all(seen[word] > 2 for word in ("call", "loop", "break", "join", "goto")), seen
+
+
+@settings(max_examples=60, deadline=None)
+@given(text=edited(), seed=st.integers(0, 1000))
+def test_plans_of_edited_graphs_do_what_the_graphs_do(text: str, seed: int) -> None:
+    """A sound graph with a line bent: if it passes the checks, its plan is right."""
+    try:
+        checked, _ = check(graphs.build(text))
+    except Rejected:
+        return
+    compare(checked, range(seed, seed + 6))

@@ -1,0 +1,266 @@
+"""Edits of an app by operations: what is meant, no more, and back again."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from plutoc.edits import applied
+from plutoc.registry import Blocks, standard
+from plutoc.service.document import Document
+from plutoc.service.editing.edit import CannotEdit, edit
+from plutoc.service.editing.operations import (
+    KINDS,
+    AddBlock,
+    Arrow,
+    Bracket,
+    Connect,
+    Declare,
+    Disconnect,
+    Duplicate,
+    Move,
+    NotAnOperation,
+    Operation,
+    Paste,
+    RemoveBlocks,
+    Rename,
+    Rewrite,
+    SetArgument,
+    SetGuard,
+    SetTitle,
+    operation,
+)
+from plutoc.source import Source
+from tests.compiler.service.model import app_of
+from tests.compiler.service.sequences import EXAMPLES, Tally, run
+
+EMPTY = "pluto 1\n\napp ward {\n}\n"
+
+
+def done(text: str, *operations: Operation) -> str:
+    for each in operations:
+        edits = edit(Document(path="a.pluto", text=text), each).edits
+        text = applied(Source("a.pluto", text), edits)
+    return text
+
+
+def test_random_sequences_of_edits_do_what_was_meant() -> None:
+    """A share of `python -m tests.compiler.service`; every operation turns up."""
+    tally = Tally()
+    for seed in range(60):
+        run(seed, tally)
+    of_fields = ("Declare", "Paste", "Rewrite", "Rename", "RemoveDeclaration")
+    assert set(tally.done) == {*KINDS, *(f"{kind} field" for kind in of_fields)}
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.parent.name)
+def test_what_a_picture_shows_can_be_drawn_again(path: Path) -> None:
+    """From an empty canvas, block by block and edge by edge, an example comes out as it is."""
+    written = path.read_text(encoding="utf-8")
+    app, text = app_of(written), EMPTY
+    for name, words in app.fields:
+        text = done(text, Declare(text=f"{name.partition('.')[0]} has {_written(words)}"))
+    for words in sorted(app.others):
+        text = done(text, Declare(text=_written(words)))
+    for name, (kind, arguments) in app.blocks.items():
+        text = done(text, AddBlock(kind=kind, name=name, arguments=arguments))
+    for source, target, when, otherwise in sorted(app.edges, key=str):
+        arrow = Arrow(source=source, target=target, when=tuple(when), otherwise=otherwise)
+        text = done(text, Connect(arrow=arrow))
+    text = done(text, SetTitle(title=app.title or ""))
+    assert app_of(text) == app
+    assert told(text) == told(written)
+
+
+def told(text: str) -> list[str]:
+    return sorted(one.code for one in Document(path="a.pluto", text=text).diagnostics)
+
+
+def _written(words: tuple[str, ...]) -> str:
+    """A declaration's words as a text: a quantity is one word here."""
+    return " ".join(words)
+
+
+def test_a_graph_that_is_drawn_reads_as_one_writes_it() -> None:
+    text = done(
+        EMPTY,
+        SetTitle(title="The ward"),
+        AddBlock(kind="MissionCreator", name="create"),
+        AddBlock(kind="DroneAllocator", name="allocate"),
+        AddBlock(kind="TripLauncher"),
+        AddBlock(kind="TripMonitor", name="watch"),
+        AddBlock(kind="TimerMonitor", arguments={"default": "5 min"}),
+        AddBlock(kind="GateFIFO", name="first"),
+        Connect(arrow=Arrow(source="start", target="create")),
+        Connect(arrow=Arrow(source="create", target="allocate")),
+        Connect(arrow=Arrow(source="allocate", target="launcher")),
+        Connect(arrow=Arrow(source="launcher", target="watch")),
+        Connect(arrow=Arrow(source="launcher", target="monitor")),
+        Connect(arrow=Arrow(source="watch", target="first")),
+        Connect(arrow=Arrow(source="monitor", target="first")),
+        Bracket(source="launcher", targets=("watch", "monitor")),
+        Connect(arrow=Arrow(source="first", target="allocate", when=("STANDBY",))),
+        Connect(arrow=Arrow(source="first", target="end", otherwise=True)),
+        Rename(name="launcher", new="launch"),
+        SetArgument(owner="allocate", parameter="policy", value="least_used"),
+    )
+    assert text == (
+        "pluto 1\n\n"
+        'app ward "The ward" {\n'
+        "  create = MissionCreator\n"
+        "  allocate = DroneAllocator(policy: least_used)\n"
+        "  launch = TripLauncher\n"
+        "  watch = TripMonitor\n"
+        "  monitor = TimerMonitor(default: 5 min)\n"
+        "  first = GateFIFO\n\n"
+        "  start -> create -> allocate -> launch -> [watch, monitor] -> first\n"
+        "  first -> allocate when STANDBY\n"
+        "  first -> end\n"
+        "}\n"
+    )
+
+
+def test_comments_of_what_is_taken_out_stay() -> None:
+    text = (
+        "pluto 1\napp a {\n  # why\n  one = Clock  # beside\n  two = Clock\n"
+        "  start -> one  # amid\n    -> two\n  # behind\n}\n"
+    )
+    assert done(text, RemoveBlocks(names=("one",))) == (
+        "pluto 1\napp a {\n  # why\n  # beside\n  two = Clock\n  # amid\n  # behind\n}\n"
+    )
+
+
+def test_copies_are_counted_on() -> None:
+    text = done(FORK, Duplicate(names=("x",)), Duplicate(names=("x_2",)), Paste(text="x_2 = Clock"))
+    assert list(app_of(text).blocks) == ["x", "y", "z", "x_2", "x_3", "x_4"]
+
+
+def test_a_kind_that_needs_a_hook_brings_one() -> None:
+    text = done(EMPTY, AddBlock(kind="MissionEvaluator", name="judge"))
+    assert "evaluator my_evaluator\n" in text
+    assert "judge = MissionEvaluator(hook: my_evaluator)" in text
+
+
+FORK = "pluto 1\napp a {\n  x = Clock\n  y = Clock\n  z = Clock\n  x -> [y, z]\n}\n"
+
+
+@pytest.mark.parametrize(
+    ("wanted", "why"),
+    [
+        (Connect(arrow=Arrow(source="x", target="y")), "there already"),
+        (Connect(arrow=Arrow(source="x", target="start")), "no edge leads to `start`"),
+        (Connect(arrow=Arrow(source="end", target="x")), "no edge leaves `end`"),
+        (Connect(arrow=Arrow(source="x", target="nowhere")), "declares no `nowhere`"),
+        (Disconnect(arrow=Arrow(source="y", target="x")), "no edge from `y` to `x`"),
+        (Rename(name="x", new="start"), "where every mission begins"),
+        (Rename(name="x", new="Y"), "snake_case"),
+        (SetGuard(arrow=Arrow(source="z", target="x")), "no edge from `z`"),
+        (SetArgument(owner="x", parameter="p", value="1) -> y"), "no Pluto text"),
+        (SetArgument(owner="x", parameter="p", value="1 # no"), "no Pluto text"),
+        (SetArgument(owner="x", parameter="p", value='1) # "'), "is no value"),
+        (AddBlock(kind="Nothing"), "no kind of block `Nothing`"),
+        (AddBlock(kind="survey.Grid"), "no package of blocks named survey"),
+        (Declare(text="x -> y"), "not one declaration"),
+        (SetTitle(title="two\nlines"), "one line"),
+    ],
+    ids=str,
+)
+def test_what_cannot_be_done_is_said(wanted: Operation, why: str) -> None:
+    with pytest.raises(CannotEdit, match=why):
+        edit(Document(path="a.pluto", text=FORK), wanted)
+
+
+@pytest.mark.parametrize(
+    "wanted",
+    [
+        Paste(text="w = Clock(\r\n  at: 5 min\r\n)\r\n"),
+        Rewrite(name="y", text="y = Clock(\r\n  at: 5 min\r\n)"),
+        Declare(text="w = Clock(\r\n  at: 5 min\r\n)"),
+        SetArgument(owner="y", parameter="at", value="[\r\n1]"),
+    ],
+    ids=lambda one: type(one).__name__,
+)
+def test_a_text_from_elsewhere_gets_the_line_ends_of_the_app(wanted: Operation) -> None:
+    written = done(FORK.replace("\n", "\r\n"), wanted)
+    assert written == done(FORK, wanted).replace("\n", "\r\n")
+
+
+def test_a_brace_in_a_comment_opens_no_app() -> None:
+    for text in ("pluto 1\napp a # {\n", 'pluto 1\napp a "x" # {\n{\n}\n'):
+        with pytest.raises(CannotEdit, match=r"has no `\{`"):
+            done(text, AddBlock(kind="Clock"))
+    assert done('pluto 1\napp a "{" {\n}\n', AddBlock(kind="Clock")) == (
+        'pluto 1\napp a "{" {\n  clock = Clock\n}\n'
+    )
+
+
+def test_a_declaration_moves_to_the_end_of_an_app_without_its_brace() -> None:
+    text = "pluto 1\napp a {\n  x = Clock\n  y = Clock"
+    assert done(text, Move(name="x")) == "pluto 1\napp a {\n  y = Clock\n  x = Clock"
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_a_package_comes_in_below_the_header(end: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    kit = Blocks(packages=("std", "kit"), of=lambda _: standard().of("std"))
+    monkeypatch.setattr("plutoc.service.editing.declarations.blocks", lambda: kit)
+    text = "# ours\npluto 1  # first\n\napp a {\n}\n".replace("\n", end)
+    whole = "# ours\npluto 1  # first\nuse kit\n\napp a {\n  clock = kit.Clock\n}\n"
+    assert done(text, AddBlock(kind="kit.Clock")) == whole.replace("\n", end)
+    with pytest.raises(CannotEdit, match="does not begin with `pluto 1`"):
+        done("app a {\n}\n", AddBlock(kind="kit.Clock"))
+
+
+HOOKS = """from . import Mission, Results, Verdict
+
+
+def judge(mission: Mission, results: Results) -> Verdict:
+    return Verdict()
+
+
+def again(judge: int) -> int:
+    return judge
+
+
+def twice(mission: Mission, results: Results) -> Verdict:
+    return judge(mission, results)
+"""
+
+
+def test_a_hook_is_renamed_in_its_module_too() -> None:
+    text = "pluto 1\napp a {\n  evaluator judge\n  j = MissionEvaluator(hook: judge)\n  c = MissionCreator\n  start -> c\n}\n"
+    found = Document(path="a.pluto", text=text)
+    hooks = Source("hooks.py", HOOKS)
+    object.__setattr__(found, "hooks", hooks)
+    edited = edit(found, Rename(name="judge", new="assess"))
+    renamed = applied(hooks, edited.hooks)
+    assert "def assess(mission" in renamed and "return assess(mission" in renamed
+    assert "def again(judge: int) -> int:\n    return judge\n" in renamed
+    assert "hook: assess" in applied(found.source, edited.edits)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_operations_come_as_plain_data(name: str) -> None:
+    samples = {
+        "str": "x",
+        "str | None": None,
+        "bool": False,
+        "tuple[str, ...]": ["x"],
+        "Mapping[str, str]": {"a": "b"},
+        "Arrow": {"source": "x", "target": "y"},
+    }
+    kind = KINDS[name]
+    data = {one.name: samples[str(one.type)] for one in fields(kind)}
+    assert isinstance(operation({"do": name, **data}), kind)
+    for field in data:
+        with pytest.raises(NotAnOperation, match=field):
+            operation({"do": name, **data, field: 7.5})
+    with pytest.raises(NotAnOperation, match="strange"):
+        operation({"do": name, **data, "strange": 1})
+
+
+@pytest.mark.parametrize("data", [None, [], {}, {"do": "Fly"}, {"do": "Connect"}, {"do": 3}])
+def test_what_is_no_operation_is_refused(data: object) -> None:
+    with pytest.raises(NotAnOperation):
+        operation(data)

@@ -1,0 +1,242 @@
+"""What `simulate` prints, and how it ends."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pluto_fleet.app import App
+from pluto_fleet.shared.alone.faults import FAULTS, Faults
+from tests.brain import apps
+from tests.library.cli.conftest import Command
+from tests.library.files.an_app import APP, POLLINATE
+
+
+def with_pollinate(hook: Any) -> App:
+    """Return the app with another hook for its action."""
+    return apps.changed(APP, actions={**APP.actions, "pollinate": replace(POLLINATE, hook=hook)})
+
+
+def test_the_log_is_told_as_it_happens_then_two_tables_and_a_last_line(
+    missions: Path, command: Command
+) -> None:
+    """A person reads it from top to bottom."""
+    code, out, err = command("simulate", missions)
+    assert (code, err) == (0, "")
+    log, table, drones, end = out.split("\n\n")
+    last, world = end.splitlines()
+    assert log.startswith("     0.0 s  North: trip A launched (cf1)\n")
+    assert log.endswith("North: COMPLETED")
+    assert table.split("\n") == [
+        "mission  status     trips  rounds  attempts  reason",
+        "North    COMPLETED    2/2       1         2",
+        "South    COMPLETED    1/1       1         1",
+    ]
+    assert drones.startswith("drone  category  trips")
+    assert len(drones.split("\n")) == 6
+    assert last.startswith("2 of 2 missions completed in ")
+    assert last.endswith(" s (3 flights)")
+    assert world == "flown with traffic: drones keep 0.5 m apart from each other"
+
+
+def test_an_app_that_repeats_nothing_has_no_column_for_rounds(
+    missions: Path, command: Command
+) -> None:
+    """A column is there because a field is; JSON has the same keys for every app."""
+    out = command("simulate", missions, app=apps.changed(APP, fields=()))[1]
+    assert "\nmission  status     trips  attempts  reason\n" in out
+    assert "\nNorth    COMPLETED    2/2         2\n" in out
+
+
+def test_json_is_one_object_and_nothing_else(missions: Path, command: Command) -> None:
+    """With just the keys that are promised, and numbers of three decimals."""
+    code, out, err = command("simulate", missions, "--json", "--seed", 7)
+    assert (code, err, out.count("\n")) == (0, "", 1)
+    data = json.loads(out)
+    assert list(data) == ["app", "seed", "duration_s", "missions", "trips", "drones", "log"]
+    assert (data["app"], data["seed"], data["log"]) == ("alfalfa", 7, [])
+    assert data["duration_s"] == round(data["duration_s"], 3) > 10
+    assert data["missions"][0] == {
+        "name": "North",
+        "status": "COMPLETED",
+        "reason": "",
+        "completed_trips": ["A", "2"],
+        "rounds": 1,
+        "attempts": 2,
+    }
+    assert data["trips"] == {"completed": 3, "failed": 0, "attempts": 3}
+    assert list(data["drones"][0]) == ["id", "trips", "flown_m", "battery_level", "status"]
+
+
+def test_the_same_seed_gives_the_same_text(missions: Path, command: Command) -> None:
+    """Byte for byte, with faults too; another seed gives another."""
+    flags = ("simulate", missions, "--json", "--fail", "crash=40%", "--seed")
+    first, again, other = command(*flags, 1), command(*flags, 1), command(*flags, 3)
+    assert first == again
+    assert first[1].replace('"seed": 1', '"seed": 3') != other[1]
+
+
+def test_a_mission_that_failed_is_exit_1(missions: Path, command: Command) -> None:
+    """And the table says why."""
+    code, out, _ = command("simulate", missions, "--fail", "action=100%")
+    assert code == 1
+    assert "South: FAILED: measure failed" in out
+    assert "0 of 2 missions completed, 2 failed in " in out
+
+
+def test_until_cuts_the_simulation_short(missions: Path, command: Command) -> None:
+    """A mission that has not finished by then has not failed."""
+    code, out, _ = command("simulate", missions, "--until", "5 s")
+    assert code == 0
+    assert "0 of 2 missions completed, 2 not finished in 5 s" in out
+
+
+def test_what_repeats_until_stopped_needs_until(missions: Path, command: Command) -> None:
+    """It would never end."""
+    missions.write_text(missions.read_text().replace('"North"', '"North"\nrepeat = true'))
+    code, out, err = command("simulate", missions)
+    assert (code, out) == (2, "")
+    assert err == (
+        f'{missions}: mission "North" repeats until it is stopped (repeat = true): '
+        "say when with --until, such as --until 2h\n"
+    )
+    assert command("simulate", missions, "--until", "10 min")[0] == 0
+    assert command("check", missions)[0] == 0
+
+
+def test_many_runs_have_a_summary(missions: Path, command: Command) -> None:
+    """Each run is the object of one, and the summary tells what they share."""
+    flags = ("simulate", missions, "--runs", 4, "--seed", 10, "--fail", "crash=30%")
+    code, out, _ = command(*flags, "--json")
+    data = json.loads(out)
+    assert list(data) == ["app", "seed", "runs", "summary"]
+    assert [run["seed"] for run in data["runs"]] == [10, 11, 12, 13]
+    single = json.loads(command("simulate", missions, "--json", *flags[4:])[1])
+    assert data["runs"][0] == single
+    bad = [
+        run["seed"]
+        for run in data["runs"]
+        if any(mission["status"] == "FAILED" for mission in run["missions"])
+    ]
+    assert data["summary"]["failed_seeds"] == bad
+    assert code == (1 if bad else 0)
+    text = command(*flags)[1]
+    assert text.startswith("seed 10: ")
+    assert text.count("\nseed 1") == 3
+    assert f"\n\n{4 - len(bad)} of 4 runs succeeded" in text
+
+
+def test_runs_that_took_the_same_are_not_given_a_range(missions: Path, command: Command) -> None:
+    """Nor is a single one."""
+    words = command("simulate", missions, "--runs", 1)[1].splitlines()[-1]
+    assert "1 of 1 run succeeded (100 %); it took " in words
+    assert " to " not in words
+    words = command("simulate", missions, "--runs", 2, "--no-spread")[1].splitlines()[-1]
+    assert "2 of 2 runs succeeded (100 %); each took " in words
+    words = command("simulate", missions, "--runs", 2)[1].splitlines()[-1]
+    assert re.search(r"; they took [\d.]+ s to [\d.]+ s$", words)
+
+
+def test_the_trace_has_every_event(missions: Path, command: Command, tmp_path: Path) -> None:
+    """One JSON object a line, in order; an older trace is replaced."""
+    trace = tmp_path / "trace.jsonl"
+    trace.write_text("old")
+    assert command("simulate", missions, "--trace", trace)[0] == 0
+    events = [json.loads(line) for line in trace.read_text().splitlines()]
+    assert events[0]["event"] == "mission.created"
+    assert sum(event["event"] == "trip.launched" for event in events) == 3
+    assert [event["t"] for event in events] == sorted(event["t"] for event in events)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["m.toml", "trace.jsonl"]
+
+
+def test_a_trace_that_cannot_be_written_stops_everything(
+    missions: Path, command: Command, tmp_path: Path
+) -> None:
+    """Exit 2 with the reason, and nothing is left behind."""
+    for target, why in (
+        (tmp_path / "none" / "t", "No such file or directory"),
+        (tmp_path, "it is a folder"),
+        (Path("/dev/full"), "No space left on device"),
+    ):
+        code, _, err = command("simulate", missions, "--trace", target)
+        assert (code, err) == (2, f"{target}: the trace cannot be written: {why}\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["m.toml"]
+
+
+def interrupt(*_: object, **__: object) -> None:
+    raise KeyboardInterrupt
+
+
+def test_an_interrupt_is_exit_130_and_leaves_no_half_trace(
+    missions: Path, command: Command, tmp_path: Path
+) -> None:
+    """An earlier trace stays as it was."""
+    trace = tmp_path / "t"
+    trace.write_text("old")
+    app = with_pollinate(interrupt)
+    code, _, err = command("simulate", missions, "--trace", trace, app=app)
+    assert (code, err) == (130, "alfalfa: interrupted\n")
+    assert trace.read_text() == "old"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["m.toml", "t"]
+
+
+def shouts(drone: Any, trip: Any, context: Any, **_: object) -> None:
+    context.log("red \x1b[31m\nand a second line")
+
+
+def test_a_hooks_text_cannot_command_the_terminal(missions: Path, command: Command) -> None:
+    """It is shown escaped, its further lines indented; JSON keeps it as it was."""
+    app = with_pollinate(shouts)
+    out = command("simulate", missions, app=app)[1]
+    assert "s  North: red \\x1b[31m\n" + " " * 12 + "and a second line\n" in out
+    data = json.loads(command("simulate", missions, "--json", app=app)[1])
+    assert data["log"] == ["red \x1b[31m\nand a second line"]
+
+
+async def broken(run: Any) -> Any:
+    return 1 // 0
+
+
+def test_a_mistake_of_ours_is_exit_70(
+    missions: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A short message; where it happened only on request."""
+    app = apps.changed(APP, flow=broken)
+    monkeypatch.delenv("PLUTO_DEBUG", raising=False)
+    code, _, err = command("simulate", missions, app=app)
+    assert code == 70
+    assert err == (
+        "alfalfa: internal error: ZeroDivisionError: integer division or modulo by zero\n"
+        "This is a mistake of ours: please report it (PLUTO_DEBUG=1 shows where it happened).\n"
+    )
+    monkeypatch.setenv("PLUTO_DEBUG", "1")
+    assert "in broken\n    return 1 // 0" in command("simulate", missions, app=app)[2]
+
+
+async def broken_in_a_block(run: Any) -> Any:
+    error = ZeroDivisionError("by accident")
+    error.add_note("in block scan = survey.GridScan")
+    raise error
+
+
+def test_a_mistake_in_a_block_names_the_block(missions: Path, command: Command) -> None:
+    """As its declaration has it: it may be another author's."""
+    err = command("simulate", missions, app=apps.changed(APP, flow=broken_in_a_block))[2]
+    assert err == (
+        "alfalfa: internal error: ZeroDivisionError: by accident\n"
+        "in block scan = survey.GridScan\n"
+        "This is a mistake of ours, or of that block's author: please report it "
+        "(PLUTO_DEBUG=1 shows where it happened).\n"
+    )
+
+
+def test_every_fault_of_the_simulation_can_be_asked_for(missions: Path, command: Command) -> None:
+    """By its own name, in their order."""
+    assert tuple(Faults.__dataclass_fields__) == FAULTS
+    every = ",".join(f"{what}=0.1%" for what in FAULTS)
+    assert command("simulate", missions, "--fail", every)[0] in (0, 1)

@@ -1,0 +1,106 @@
+"""Crazyflies behind one dongle, which is pulled out and put in again; cflib's own radio driver."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.drones.protocol import LINK_LOST, DroneSetup
+from tests.kill.lives import eventually
+from tests.library.crazyflie.hangar import PATIENCE
+from tests.library.crtp.radio import Ether, plugged_in
+
+pytest.importorskip("cflib")
+pytestmark = pytest.mark.filterwarnings(
+    # the thread of cflib's that has the dongle ends so when it is pulled out
+    "ignore:Exception in thread Shared Radio:pytest.PytestUnhandledThreadExceptionWarning"
+)
+
+IDS = ("cf1", "cf2", "cf3")
+THREADS = ("cflib for", "letting go", "Radio", "ping", "Incoming", "Param", "Timer", "Udp")
+
+
+def navigation(ether: Ether, drone: str, folder: Path) -> Crazyflie:
+    home = ether.drones[drone].build.home
+    uri = ether.uris[drone]
+    return Crazyflie(DroneSetup(id=drone, uri=uri, home=home, speed=1.0, options={}, folder=folder))
+
+
+def ether() -> Ether:
+    builds = [Build(id=id, home=(2.0 * at, 1.0, 0.0)) for at, id in enumerate(IDS)]
+    return Ether(builds, MemoryLog())
+
+
+def left() -> list[str]:
+    """Return the threads that should have ended; the one that has the dongle waits for ever."""
+    names = [thread.name for thread in threading.enumerate()]
+    return [one for one in names if one.startswith(THREADS) and not one.startswith("Shared")]
+
+
+def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
+    tmp_path: Path,
+) -> None:
+    air = ether()
+
+    async def fly() -> None:
+        flown = [navigation(air, drone, tmp_path) for drone in IDS]
+        await asyncio.gather(*(one.connect() for one in flown))
+        await asyncio.gather(*(one.takeoff(0.5, 2.0) for one in flown))
+        air.unplugged = True
+        for one in flown:
+            async with asyncio.timeout(PATIENCE):
+                event = await anext(aiter(one.events()))
+            assert event.kind == LINK_LOST
+        again = await asyncio.gather(*(one.connect() for one in flown), return_exceptions=True)
+        assert all(isinstance(one, LinkLost) for one in again)
+        assert "no Crazyradio is plugged in" in str(again[0])
+        air.unplugged = False
+        await asyncio.gather(*(one.connect() for one in flown))
+        assert all(drone.body.airborne for drone in air.drones.values())
+        await asyncio.gather(*(one.land(2.0) for one in flown))
+        await asyncio.gather(*(one.close() for one in flown))
+
+    with plugged_in(air):
+        asyncio.run(fly())
+    for drone in air.drones.values():
+        assert not drone.body.airborne and not drone.supervisor.locked
+    assert left() == []
+
+
+def test_a_dongle_that_hangs_holds_no_one_up(tmp_path: Path) -> None:
+    air = ether()
+
+    async def fly() -> None:
+        one = navigation(air, "cf1", tmp_path)
+        await one.connect()
+        air.stalled = True
+        with pytest.raises(LinkLost):
+            async with asyncio.timeout(PATIENCE):
+                await one.read("pm.vbat")
+        with pytest.raises(LinkLost):
+            async with asyncio.timeout(PATIENCE):
+                await one.connect()
+        async with asyncio.timeout(PATIENCE):
+            await one.close()
+
+    with plugged_in(air):
+        asyncio.run(fly())
+
+
+def test_who_is_there_is_looked_for_at_all_addresses(tmp_path: Path) -> None:
+    air = ether()
+    with plugged_in(air):
+        options = {"addresses": ["E7E7E7E701", "E7E7E7E703", "E7E7E7E7E7"]}
+        found = asyncio.run(Crazyflie.scan(options))
+        assert found == [air.uris["cf1"], air.uris["cf3"]]
+        assert eventually(lambda: not air.is_open, PATIENCE)  # a thread of cflib's closes it
+        air.unplugged = True
+        with pytest.raises(LinkLost, match="no Crazyradio is plugged in"):
+            asyncio.run(Crazyflie.scan(options))

@@ -1,0 +1,125 @@
+"""Log blocks and parameters, byte by byte."""
+
+from __future__ import annotations
+
+import struct
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pluto_fleet.crtp.logs import MOST_BLOCKS, Logs, temperature
+from pluto_fleet.crtp.packets import Errno, Port, packed
+from pluto_fleet.crtp.params import parameters
+from tests.library.crtp.bench import Bench
+
+CREATE, APPEND, START, STOP, DELETE, RESET = 6, 7, 3, 4, 2, 5
+FLOAT = 7
+
+
+def names() -> list[str]:
+    return list(Bench().drone.variables)
+
+
+def created(bench: Bench, number: int, *wanted: str) -> int:
+    kinds = b"".join(struct.pack("<BH", FLOAT, names().index(name)) for name in wanted)
+    answer = bench.told(Port.LOG, 1, bytes([CREATE, number]) + kinds)
+    assert answer is not None
+    return answer[2]
+
+
+def test_a_table_says_how_many_and_then_each() -> None:
+    bench = Bench()
+    head = bench.told(Port.LOG, 0, b"\3")
+    assert head is not None
+    count = struct.unpack("<H", head[1:3])[0]
+    assert count == len(names())
+    item = bench.told(Port.LOG, 0, b"\2" + struct.pack("<H", 1))
+    assert item is not None and item[4:] == b"stateEstimate\0y\0"
+    beyond = bench.told(Port.LOG, 0, b"\2" + struct.pack("<H", count))
+    assert beyond == b"\2"
+
+
+def test_a_block_sends_its_values_at_its_period() -> None:
+    bench = Bench()
+    assert created(bench, 1, "stateEstimate.x", "bme.temp") == Errno.OK
+    bench.told(Port.LOG, 1, bytes([START, 1, 10]))
+    bench.sent.clear()
+    bench.passes(1.0)
+    assert 9 <= len(bench.sent) <= 11
+    port, channel, data = bench.sent[0]
+    assert (port, channel, data[0]) == (Port.LOG, 2, 1)
+    x, warm = struct.unpack("<ff", data[4:])
+    assert x == 1.0 and warm == temperature((1.0, 2.0, 0.0))
+    bench.told(Port.LOG, 1, bytes([STOP, 1]))
+    bench.sent.clear()
+    bench.passes(1.0)
+    assert bench.sent == []
+
+
+def test_a_block_holds_26_bytes_and_there_are_16_of_them() -> None:
+    bench = Bench()
+    six = ("stateEstimate.x",) * 6
+    assert created(bench, 1, *six) == Errno.OK
+    assert created(bench, 1, *six) == Errno.EEXIST
+    assert created(bench, 2, *six, "stateEstimate.y") == Errno.E2BIG
+    for number in range(2, MOST_BLOCKS + 1):
+        assert created(bench, number, "stateEstimate.x") == Errno.OK
+    assert created(bench, 99, "stateEstimate.x") == Errno.ENOMEM
+    bench.told(Port.LOG, 1, bytes([RESET]))
+    assert created(bench, 99, "stateEstimate.x") == Errno.OK
+
+
+def test_a_block_that_is_not_there_is_said_to_be_so() -> None:
+    answer = Bench().told(Port.LOG, 1, bytes([START, 7, 10]))
+    assert answer == bytes([START, 7, Errno.ENOENT])
+
+
+def test_numbers_that_a_type_cannot_say_are_its_last() -> None:
+    logs = Logs({"a.b": ("B", lambda: 300.0)})
+    logs.take(1, bytes([CREATE, 1, 1, 0, 0]), 0.0)
+    logs.take(1, bytes([START, 1, 1]), 0.0)
+    assert [raw[-1] for raw in logs.due(0.0)] == [255]
+
+
+def number_of(name: str) -> bytes:
+    return struct.pack("<H", [one.name for one in parameters()].index(name))
+
+
+def test_a_parameter_is_set_and_read_back() -> None:
+    bench, grip = Bench(), number_of("gripper.closed")
+    assert bench.told(Port.PARAMETERS, 1, grip) == grip + b"\0\0"
+    assert bench.told(Port.PARAMETERS, 2, grip + b"\1") == grip + b"\1"
+    assert bench.told(Port.PARAMETERS, 1, grip) == grip + b"\0\1"
+    assert bench.commands[-1].what == "set gripper.closed"
+
+
+def test_what_is_read_only_keeps_its_value_and_what_is_not_there_is_said_to_be_so() -> None:
+    bench, deck = Bench(), number_of("deck.bcLighthouse4")
+    assert bench.told(Port.PARAMETERS, 2, deck + b"\0") == deck + b"\1"
+    assert bench.told(Port.PARAMETERS, 1, b"\xff\xff") == b"\xff\xff" + bytes([Errno.ENOENT])
+
+
+def test_a_parameter_set_by_its_name_is_told_to_all_that_listen() -> None:
+    bench = Bench()
+    answer = bench.told(Port.PARAMETERS, 3, b"\0led\0bitmask\0\x08\xff")
+    assert answer == b"\0led\0bitmask\0\0"
+    assert bench.sent[-1].data == b"\1" + number_of("led.bitmask") + b"\xff"
+
+
+def test_a_persistent_parameter_says_so_and_outlives_a_restart() -> None:
+    bench, light = Bench(), number_of("ring.ledIntensity")
+    assert bench.told(Port.PARAMETERS, 3, b"\7" + light) == b"\7" + light + b"\0\1"
+    bench.told(Port.PARAMETERS, 2, light + b"\x07")
+    bench.told(Port.PARAMETERS, 3, b"\3" + light)
+    bench.drone.restart()
+    bench.passes(1.1)
+    assert bench.told(Port.PARAMETERS, 1, light) == light + b"\0\x07"
+    assert bench.told(Port.PARAMETERS, 3, b"\x08" + light) == b"\x08" + light + b"\0\x64"
+
+
+@given(st.integers(0, 15), st.integers(0, 3), st.binary(max_size=30))
+def test_it_lives_on_no_matter_what_it_is_sent(port: int, channel: int, data: bytes) -> None:
+    bench = Bench()
+    bench.drone.receive(packed(port, channel, data), bench.now)
+    bench.passes(0.05)
+    assert all(len(answer.data) <= 30 for answer in bench.sent)

@@ -1,0 +1,348 @@
+"""The firmware's rules: what a simulated Crazyflie does, and what it does not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from pluto_fleet.crtp.battery import CHARGE
+from pluto_fleet.crtp.faults import let
+from pluto_fleet.crtp.packets import NULL, LossyChannel, Port
+from pluto_fleet.crtp.server import collide
+from pluto_fleet.lithium import volts_at
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, charged
+from tests.library.crtp.bench import CF1, Bench, hovering
+
+ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED, ACTIVE, DONE = 1, 3, 4, 5, 6, 7, 8, 9
+BUSY, WRONG_STATE = 16, 1
+ZERO_SETPOINT = bytes(14)
+
+
+def test_it_takes_off_only_when_armed_and_answers_busy_before() -> None:
+    bench = Bench()
+    assert bench.takeoff() == BUSY
+    assert bench.arm()
+    assert bench.takeoff() == 0
+    bench.passes(6.0)
+    assert bench.z == pytest.approx(1.0, abs=0.03)
+    assert bench.has(FLYING) and bench.has(ACTIVE) and bench.has(DONE)
+
+
+def test_it_rises_smoothly_and_stays_near_its_way() -> None:
+    bench = Bench()
+    bench.arm()
+    bench.takeoff(1.0, 2.0)
+    heights = []
+    for _ in range(20):
+        bench.passes(0.1)
+        heights.append(bench.z)
+    assert heights == sorted(heights) and max(heights) < 1.1
+    assert max(abs(place.at[0] - 1.0) for place in bench.record.positions) < 0.03
+
+
+def test_arming_is_over_three_seconds_after_it_has_landed() -> None:
+    bench = hovering()
+    assert bench.land() == 0
+    bench.passes(2.1)
+    assert bench.z == 0.0 and not bench.has(ACTIVE) and bench.has(FLYING)
+    bench.passes(2.0)
+    assert bench.drone.info() == 0x20A
+    bench.passes(2.8)
+    assert bench.drone.info() == 0x20A
+    bench.passes(0.15)
+    assert bench.drone.info() == 0x200
+    assert bench.takeoff() == BUSY and not bench.arm()
+    bench.passes(0.1)
+    assert bench.drone.info() == 0x201
+    assert bench.takeoff() == BUSY and bench.land() == BUSY
+    assert bench.arm() and bench.takeoff() == 0
+
+
+def test_a_takeoff_just_before_the_disarming_is_accepted_and_then_cancelled() -> None:
+    bench = hovering()
+    bench.lands()
+    bench.passes(4.97)
+    assert bench.has(ARMED) and bench.takeoff() == 0
+    bench.passes(0.1)
+    assert bench.drone.info() == 0x200 and bench.z == 0.0
+    bench.passes(3.0)
+    assert bench.drone.info() == 0x201 and bench.z == 0.0
+
+
+def test_a_takeoff_a_little_earlier_is_flown() -> None:
+    bench = hovering()
+    bench.lands()
+    bench.passes(4.9)
+    assert bench.takeoff() == 0
+    bench.passes(3.0)
+    assert bench.z > 0.9
+
+
+def test_one_that_arms_by_itself_is_disarmed_for_a_moment_likewise() -> None:
+    bench = Bench(replace(CF1, auto_arm=True))
+    bench.passes(0.1)
+    assert bench.drone.info() == 0x20E
+    assert bench.takeoff() == 0
+    bench.passes(3.0)
+    bench.land()
+    bench.passes(2.1 + 5.0)
+    assert bench.drone.info() == 0x204 and bench.takeoff() == BUSY
+    bench.passes(0.2)
+    assert bench.drone.info() == 0x20E and bench.takeoff() == 0
+
+
+def test_one_that_was_disarmed_can_be_armed_a_moment_later() -> None:
+    bench = Bench()
+    bench.arm()
+    assert bench.told(Port.SUPERVISOR, 1, b"\1\0") == b"\x81\1\0"
+    assert not bench.arm()
+    bench.passes(0.2)
+    assert bench.arm()
+
+
+def test_arming_is_over_when_it_never_takes_off() -> None:
+    bench = Bench()
+    bench.arm()
+    bench.passes(29.0)
+    assert bench.has(ARMED)
+    bench.passes(2.0)
+    assert not bench.has(ARMED)
+
+
+def test_what_makes_no_sense_now_is_answered_so_and_changes_nothing() -> None:
+    bench = Bench()
+    bench.arm()
+    bench.takeoff()
+    assert bench.takeoff(2.0) == WRONG_STATE
+    bench.passes(3.0)
+    assert bench.land() == 0
+    assert bench.land() == WRONG_STATE
+    bench.passes(2.1)
+    assert [command.what for command in bench.commands].count("down") == 1
+
+
+def test_to_land_on_the_ground_is_answered_as_done_and_starts_the_motors() -> None:
+    bench = Bench()
+    bench.arm()
+    assert bench.land() == 0
+    bench.passes(1.0)
+    assert bench.has(FLYING) and bench.z == 0.0
+    bench.passes(1.1)
+    assert not bench.has(ACTIVE) and bench.z == 0.0
+
+
+def test_a_command_that_it_does_not_know_is_said_to_be_so() -> None:
+    answer = Bench().told(Port.HIGH_LEVEL, 0, b"\x63\0\0")
+    assert answer == b"\x63\0\0\x08"
+
+
+def test_a_flight_that_is_broken_off_shoots_past_and_comes_back() -> None:
+    bench = hovering()
+    bench.go_to(5.0, 2.0, 1.0, 8.75)
+    bench.passes(4.4)
+    here = bench.x
+    assert bench.go_to(here, 2.0, 1.0, 1.0) == 0
+    farthest = here
+    for _ in range(30):
+        bench.passes(0.1)
+        farthest = max(farthest, bench.x)
+    assert 0.15 < farthest - here < 0.6
+    assert bench.x == pytest.approx(here, abs=0.04)
+
+
+def test_a_zero_setpoint_in_the_air_drops_and_locks_it() -> None:
+    bench = hovering()
+    bench.told(Port.SETPOINT, 0, ZERO_SETPOINT)
+    bench.passes(3.0)
+    assert bench.z == 0.0 and bench.has(LOCKED) and not bench.has(CAN_FLY)
+    assert any(command.what == "setpoint" and command.flying for command in bench.commands)
+    assert not bench.arm()
+
+
+@pytest.mark.parametrize(("seconds", "locks"), [(0.5, True), (1.2, True), (3.0, False)])
+def test_a_link_that_closes_soon_after_landing_locks_it(seconds: float, locks: bool) -> None:
+    bench = hovering()
+    bench.lands()
+    bench.passes(seconds)
+    bench.told(Port.SETPOINT, 0, ZERO_SETPOINT)
+    bench.passes(4.0)
+    assert bench.has(LOCKED) is locks
+
+
+def test_an_emergency_stop_locks_it_until_it_is_restarted() -> None:
+    bench = hovering()
+    assert bench.told(Port.SUPERVISOR, 1, b"\3") is None
+    bench.passes(2.0)
+    assert bench.z == 0.0 and bench.has(LOCKED)
+    let(bench.drone, _air(), "fetch", True)
+    bench.passes(1.5)
+    assert not bench.has(LOCKED) and bench.arm()
+
+
+def test_a_watchdog_that_is_fed_once_must_be_fed_on() -> None:
+    bench = hovering()
+    assert bench.told(Port.SUPERVISOR, 1, b"\4") is None
+    bench.passes(0.9)
+    assert not bench.has(LOCKED)
+    bench.passes(0.3)
+    assert bench.has(LOCKED)
+
+
+def test_two_that_touch_in_the_air_tumble_and_one_that_stands_there_does_not() -> None:
+    one, other, standing = Bench(), Bench(), Bench()
+    for bench in (one, other):
+        bench.up()
+        collide([bench.drone, standing.drone])
+    one.go_to(1.0, 3.0, 1.0, 4.0)
+    one.passes(4.1)
+    collide([one.drone, other.drone])
+    assert one.drone.body.motors
+    one.go_to(1.0, 2.05, 1.0, 4.0)
+    one.passes(4.1)
+    collide([one.drone, other.drone])
+    for bench in (one, other):
+        bench.passes(2.0)
+        assert bench.has(TUMBLED) and bench.z == 0.0
+    assert not standing.has(TUMBLED)
+
+
+def test_silence_on_its_link_does_not_matter_to_a_drone_that_hovers() -> None:
+    bench = hovering()
+    bench.passes(60.0)
+    assert bench.z == pytest.approx(1.0, abs=0.03)
+
+
+def test_what_no_such_drone_can_follow_tumbles_it() -> None:
+    bench = hovering()
+    bench.go_to(4.0, 2.0, 1.0, 0.5)
+    bench.passes(2.0)
+    assert bench.has(TUMBLED) and bench.has(CRASHED) and bench.z == 0.0
+
+
+def test_a_tumbled_one_flies_again_once_it_stands_upright_and_has_recovered() -> None:
+    bench = hovering()
+    let(bench.drone, _air(), "tumble", True)
+    bench.passes(2.0)
+    assert bench.told(Port.SUPERVISOR, 1, b"\2") == b"\x82\0\0"
+    let(bench.drone, _air(), "upright", True)
+    bench.passes(0.1)
+    assert bench.has(CRASHED) and not bench.has(TUMBLED) and not bench.arm()
+    assert bench.told(Port.SUPERVISOR, 1, b"\2") == b"\x82\1\1"
+    assert bench.arm() and bench.takeoff() == 0
+
+
+def test_a_battery_sags_in_the_air_is_low_after_five_seconds_and_empty_some_time_later() -> None:
+    bench = Bench()
+    rest = bench.drone.battery.volts
+    bench.up()
+    assert rest - bench.drone.battery.volts == pytest.approx(0.3, abs=0.05)
+    let(bench.drone, _air(), "volts", 3.19)
+    bench.passes(4.0)
+    assert bench.drone.battery.state == 0
+    bench.passes(2.0)
+    assert bench.drone.battery.state == 3
+    bench.passes(60.0)
+    assert not bench.drone.on and bench.z == 0.0
+    assert bench.told(15, 0, b"hello") is None
+
+
+@pytest.mark.parametrize("shuts_down", [False, True])
+def test_a_battery_of_3_volts_switches_it_off_only_where_its_build_does_that(
+    shuts_down: bool,
+) -> None:
+    bench = hovering(replace(CF1, shuts_down=shuts_down, flight=4200.0))
+    let(bench.drone, _air(), "volts", 2.99)
+    bench.passes(4.0)
+    assert bench.drone.on
+    bench.passes(2.0)
+    assert bench.drone.on is not shuts_down
+
+
+def test_a_battery_of_two_cells_has_twice_the_volts_and_is_low_at_twice_as_many() -> None:
+    bench = Bench(replace(CF1, cells=2))
+    assert bench.drone.battery.volts == pytest.approx(2 * volts_at(1.0))
+    bench.up()
+    let(bench.drone, _air(), "volts", 6.5)
+    bench.passes(6.0)
+    assert bench.drone.battery.state == 0
+    let(bench.drone, _air(), "volts", 6.3)
+    bench.passes(6.0)
+    assert bench.drone.battery.state == 3
+    assert bench.drone.parameters["pm.lowVoltage"] == pytest.approx(6.4)
+
+
+def test_a_deck_with_a_fault_says_so_and_lets_it_not_be_armed() -> None:
+    bench = Bench()
+    let(bench.drone, _air(), "deck", True)
+    assert bench.drone.info() == 0xA00 and not bench.arm()
+    let(bench.drone, _air(), "deck", False)
+    assert bench.arm()
+    let(bench.drone, _air(), "deck", True)
+    bench.passes(0.5)
+    assert bench.drone.info() == 0xA00
+
+
+def test_a_deck_that_has_a_fault_in_the_air_locks_it() -> None:
+    bench = hovering()
+    let(bench.drone, _air(), "deck", True)
+    bench.passes(2.0)
+    assert bench.has(LOCKED) and bench.has(11) and bench.z == 0.0
+
+
+@pytest.mark.parametrize(
+    ("protocol", "release"), [(8, b"2024.10"), (9, b"2025.02"), (10, b"2025.12"), (12, b"2026.08")]
+)
+def test_a_firmware_speaks_the_protocol_of_its_release(protocol: int, release: bytes) -> None:
+    bench = Bench(replace(CF1, protocol=protocol))
+    assert bench.told(Port.PLATFORM, 1, b"\0") == bytes([0, protocol, 0, 0, 0])
+    assert bench.told(Port.PLATFORM, 1, b"\1") == b"\1" + release + b" simulated"
+
+
+def test_a_pad_charges_what_stands_on_it() -> None:
+    bench = Bench(replace(CF1, level=0.5))
+    bench.passes(60.0)
+    assert bench.drone.battery.level == pytest.approx(charged(0.5, 60.0, CHARGE, CRAZYFLIE.taper))
+    assert bench.drone.battery.state == 1
+
+
+def test_a_restart_in_the_air_lets_it_fall_and_say_nothing_for_a_while() -> None:
+    bench = hovering()
+    let(bench.drone, _air(), "restart", True)
+    assert bench.told(15, 0, b"hello") is None
+    bench.passes(1.1)
+    assert bench.z == 0.0 and bench.told(15, 0, b"hello") == b"hello"
+
+
+def test_a_drone_that_does_not_know_where_it_is_knows_while_it_is_told() -> None:
+    bench = Bench(replace(CF1, knows_where=False))
+    assert bench.drone.variance > 0.1
+    bench.told(Port.LOCALIZATION, 0, bytes(12))
+    assert bench.drone.variance < 0.001
+    bench.passes(3.0)
+    assert bench.drone.variance > 0.1
+
+
+def test_a_drone_that_is_busy_says_so_and_does_nothing() -> None:
+    bench = hovering()
+    let(bench.drone, _air(), "busy", True)
+    assert bench.go_to(3.0, 2.0, 1.0, 5.0) == BUSY
+    bench.passes(5.0)
+    assert bench.x == pytest.approx(1.0, abs=0.03)
+
+
+def test_a_search_for_drones_is_answered() -> None:
+    bench = Bench()
+    bench.drone.receive(NULL, bench.now)
+    assert bench.sent[-1].port == 15 and not bench.sent[-1].data
+
+
+def test_a_fault_that_does_not_exist_is_refused_with_those_that_do() -> None:
+    with pytest.raises(ValueError, match="no such fault: there are silent, loss"):
+        let(Bench().drone, _air(), "meteorite", True)
+
+
+def _air() -> LossyChannel:
+    from random import Random
+
+    return LossyChannel(Random(1))

@@ -1,0 +1,13 @@
+"""Async tests of drones take no time: their loop's clock jumps."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.library.drones.jumping import run
+from tests.loops import run_async
+
+
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
+    """Run an async test on a loop whose clock jumps."""
+    return run_async(pyfuncitem, run)

@@ -1,0 +1,220 @@
+"""What a team of real drones is told, and what comes of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.drones.errors import Rejected
+from pluto_fleet.drones.real_fleet import RequiredAction
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Category, Item
+from tests.library.drones.fakes import FakeDrone
+from tests.library.drones.jumping import the_loop
+from tests.library.drones.teams import flying
+
+PILLS = Item(name="pills", mass=0.004)
+
+
+async def test_a_flight_is_told_step_by_step(tmp_path: Path) -> None:
+    """Each command returns when the drone is there; the telemetry says so."""
+    async with flying(tmp_path) as flown:
+        team, seen = flown.team, flown.team.telemetry["cf1"]
+        assert (seen.location, seen.battery_level, seen.landed) == ((1, 1, 0), 0.0, True)
+        report = await flown.do(team.drone_report("cf1"))
+        assert report.reached
+        assert (report.landed, report.problems, report.done) == (True, (), None)
+        team.begins("cf1", None, 0.0)
+        await flown.do(team.takeoff("cf1", 1.0))
+        assert not seen.landed
+        await flown.do(team.takeoff("cf1", 1.0))  # it flies already
+        await flown.do(team.go_to("cf1", (3.0, 1.0, 1.0)))
+        assert seen.location == pytest.approx((3, 1, 1), abs=0.1)
+        assert await flown.do(team.act("cf1", "measure", {}, None, "j")) == 21.5
+        await flown.do(team.land("cf1"))
+        assert seen.landed
+        await flown.do(team.land("cf1"))
+        told = ["takeoff 1", "go to 3 1 1", "measure", "land"]
+        assert flown.drones["cf1"].told == told
+
+
+async def test_all_drones_are_connected_at_once_and_a_silent_one_delays_no_other(
+    tmp_path: Path,
+) -> None:
+    """It is given up after 15 s; the others have answered long before."""
+    drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, 6)]
+    drones[2].hangs = {"connect"}
+    async with flying(tmp_path, *drones) as flown:
+        began = the_loop().time()
+        for id in ("cf1", "cf2", "cf4", "cf5"):
+            assert (await flown.do(flown.team.drone_report(id))).reached
+        assert the_loop().time() - began < 0.5
+        silent = await flown.do(flown.team.drone_report("cf3"))
+        assert the_loop().time() - began == pytest.approx(15, abs=0.5)
+        assert (silent.reached, silent.problems) == (False, ("cf3 did not answer in 15 s",))
+
+
+async def test_a_drone_that_is_slower_than_its_category_is_waited_for(tmp_path: Path) -> None:
+    """One that is met in the air flies home as slowly as it can follow."""
+    category = Category(name="quick", speed=3.0)
+    async with flying(tmp_path, category=category) as flown:
+        drone = await flown.up()
+        drone.slow = {"go_to": 17.0}  # 20 s for 9 m: at 1 m/s at most, 0.46 on average
+        await flown.do(flown.team.go_to("cf1", (9.5, 1.0, 1.0)))
+        assert drone.place == pytest.approx((9.5, 1, 1), abs=0.1)
+
+
+async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -> None:
+    """Its preflight, and the actions of the plan that its category has and its hardware has not."""
+    category = Category(name="scout", actions=frozenset({"take_photo", "measure"}))
+    drone = FakeDrone()
+    drone.reasons = ("its position is uncertain", "\x1b[2Jlocked")
+    drone.lacks = {"take_photo", "pick_item"}
+    wanted = [RequiredAction(action=name, parameters={}) for name in ("take_photo", "pick_item")]
+    async with flying(tmp_path, drone, category=category, wanted=wanted) as flown:
+        problems = (await flown.do(flown.team.drone_report("cf1"))).problems
+        assert problems == ("its position is uncertain", "\\x1b[2Jlocked", "cf1 cannot take_photo")
+        assert flown.team.why_not("cf1", "take_photo", {}) == "cf1 cannot take_photo"
+        assert flown.team.why_not("cf1", "dance", {}) == "cf1 has no action dance"
+        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+        assert failed.failure is Failure.REFUSED
+        assert "cf1 is not ready: its position is uncertain; " in str(failed)
+        assert drone.told == []
+
+
+async def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
+    """After the report it is waited for until it has been mended."""
+    drone, wanted = FakeDrone(), [RequiredAction(action="take_photo", parameters={})]
+    drone.lacks = {"take_photo"}
+    async with flying(tmp_path, drone, wanted=wanted) as flown:
+        report = await flown.do(flown.team.drone_report("cf1"))
+        assert report.problems == ("cf1 cannot take_photo",)
+        assert await flown.do(flown.team.reach("cf1"))
+        with pytest.raises(FlightFailed, match="cf1 is not ready: cf1 cannot take_photo"):
+            flown.team.begins("cf1", None, 0.0)
+        fetched = flown.begin(flown.team.fetched("cf1"))
+        the_loop().call_later(60, drone.lacks.clear)
+        assert await flown.until(lambda: fetched.is_set) > 59
+        assert fetched.result()
+
+
+async def test_no_drone_takes_off_below_its_reserve(tmp_path: Path) -> None:
+    """What is left in the battery is said."""
+    drone = FakeDrone()
+    drone.level = 0.15
+    async with flying(tmp_path, drone) as flown:
+        await flown.do(flown.team.drone_report("cf1"))
+        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+        assert "15 % in its battery, and 20 % are its reserve" in str(failed)
+        assert drone.told == []
+
+
+async def test_what_is_broken_off_ends_in_a_hover(tmp_path: Path) -> None:
+    """The command under way raises, and the next one waits until the drone hovers."""
+    async with flying(tmp_path) as flown:
+        drone, team = await flown.up(), flown.team
+        flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
+        await flown.until(lambda: drone.place[0] > 2)
+        flown.kernel.post(team.break_off, "cf1")
+        landing = flown.begin(team.land("cf1"))
+        await flown.kernel.offer(landing)
+        assert "told to break it off" in str(flies.error)
+        assert drone.told[-2:] == ["hold", "land"]
+        assert drone.place == pytest.approx((2, 1, 0), abs=0.2)
+
+
+async def test_a_command_that_is_not_wanted_any_more_ends_in_a_hover(tmp_path: Path) -> None:
+    """As when the kernel cancels it."""
+    async with flying(tmp_path) as flown:
+        drone = await flown.up()
+        flies = flown.begin(flown.team.go_to("cf1", (5.0, 1.0, 1.0)))
+        await flown.until(lambda: drone.place[0] > 2)
+        flown.kernel.post(flies.cancel)
+        await flown.until(lambda: drone.told[-1] == "hold", 1)
+        hovers = flown.begin(flown.team.hold("cf1"))
+        await flown.until(lambda: flown.team._vehicles["cf1"].commands.doing == "hover", 1)
+        flown.kernel.post(hovers.cancel)
+
+
+async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_is_no_landing(
+    tmp_path: Path,
+) -> None:
+    """The command may have reached it: until that is known it counts as in the air."""
+    drone = FakeDrone()
+    drone.hangs = {"takeoff"}
+    async with flying(tmp_path, drone) as flown:
+        await flown.do(flown.team.drone_report("cf1"))
+        seen = flown.team.telemetry["cf1"]
+        rises = flown.begin(flown.team.takeoff("cf1", 1.0))
+        await flown.until(lambda: not seen.landed, 1)
+        flown.kernel.post(rises.cancel)
+        assert not seen.landed
+        drone.hangs.clear()
+        await flown.do(flown.team.land("cf1"))
+        assert drone.told == ["hold", "land"]
+        assert seen.landed
+
+
+async def test_who_stands_on_the_ground_is_not_sent_anywhere(tmp_path: Path) -> None:
+    """It must take off first."""
+    async with flying(tmp_path) as flown:
+        team = flown.team
+        await flown.do(team.drone_report("cf1"))
+        for command in (
+            team.go_to("cf1", (3, 1, 1)),
+            team.hold("cf1"),
+            team.act("cf1", "measure", {}, None, None),
+        ):
+            assert "must take off first" in str(await flown.failure(command))
+        assert flown.drones["cf1"].told == []
+
+
+async def test_what_is_aboard_outlives_the_gateway(tmp_path: Path) -> None:
+    """A real drone cannot tell, so it is written down."""
+    async with flying(tmp_path) as flown:
+        await flown.up()
+        await flown.do(flown.team.act("cf1", "pick_item", {}, PILLS, "j"))
+        assert (await flown.do(flown.team.drone_report("cf1"))).carrying == "pills"
+    async with flying(tmp_path) as flown:
+        assert (await flown.do(flown.team.drone_report("cf1"))).carrying == "pills"
+        await flown.up()
+        await flown.do(flown.team.act("cf1", "release_item", {}, PILLS, "k"))
+        assert (await flown.do(flown.team.drone_report("cf1"))).carrying is None
+
+
+async def test_an_action_of_the_apps_own_reads_and_writes(tmp_path: Path) -> None:
+    """A name that the drone does not have is refused in its own words."""
+    async with flying(tmp_path) as flown:
+        await flown.up()
+        assert await flown.do(flown.team.read("cf1", "range.front")) == 0.5
+        await flown.do(flown.team.write("cf1", "gripper.closed", 1.0))
+        assert flown.drones["cf1"].told[-1] == "gripper.closed = 1"
+        failed = await flown.failure(flown.team.read("cf1", "bme.temp"))
+        assert str(failed) == "cf1 has no log variable bme.temp"
+
+
+@pytest.mark.parametrize("hangs", [False, True])
+async def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None:
+    """No matter what the drone does, and however its navigation hangs in that."""
+    async with flying(tmp_path) as flown:
+        drone, team = await flown.up(), flown.team
+        drone.fell = Rejected  # it says no more than that it will not
+        if hangs:
+            drone.hangs = drone.clings = {"go_to", "hold"}
+        flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
+        await flown.until(lambda: "fly" in team._vehicles["cf1"].commands.doing)
+        before = the_loop().time()
+        await flown.do(team.cut("cf1"))
+        assert the_loop().time() - before < 0.2
+        assert not drone.motors
+        await flown.until(lambda: flies.is_set, 1)
+        assert str(flies.error) == "cf1's motors were cut"
+        assert drone.told[-1] == "emergency stop"
+        assert "motors were cut" in str(await flown.failure(team.takeoff("cf1", 1.0)))
+        flown.begin(team.land("cf1"))
+        flown.kernel.post(team.break_off, "cf1")
+        await flown.until(lambda: team.telemetry["cf1"].landed)
+        assert drone.told[-1] == "emergency stop"
+        team.mended("cf1")
+        team.begins("cf1", None, 0.0)

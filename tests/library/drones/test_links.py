@@ -1,0 +1,153 @@
+"""Links that are lost, and drones that come back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.shared.domain.errors import Failure
+from tests.library.drones.fakes import FakeDrone
+from tests.library.drones.jumping import the_loop
+from tests.library.drones.teams import flying
+
+
+@pytest.mark.parametrize("command", ["go_to", "hold"])
+async def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -> None:
+    """After a second, in a flight or while it hovers, though its navigation notices nothing."""
+    async with flying(tmp_path) as flown:
+        drone, team = await flown.up(), flown.team
+        drone.hangs = {"go_to"}
+        flies = flown.begin(
+            team.hold("cf1") if command == "hold" else team.go_to("cf1", (5.0, 1.0, 1.0))
+        )
+        await flown.until(lambda: team._vehicles["cf1"].commands.doing)
+        drone.goes_silent()
+        assert await flown.until(lambda: flies.is_set) == pytest.approx(1.1, abs=0.15)
+        failed = await flown.failure(team.go_to("cf1", (5.0, 1.0, 1.0)))
+        assert failed.failure is Failure.LINK
+        assert not team.telemetry["cf1"].landed
+        assert "hold" not in drone.told
+        drone.answers = True
+
+
+async def test_a_drone_that_comes_back_can_be_flown_home(tmp_path: Path) -> None:
+    """It is connected to again and again, and hovers meanwhile."""
+    async with flying(tmp_path) as flown:
+        drone, team = await flown.up(), flown.team
+        drone.goes_silent()
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
+        reaches = flown.begin(team.reach("cf1"))
+        the_loop().call_later(40, setattr, drone, "answers", True)
+        assert await flown.until(lambda: reaches.is_set) < 47
+        assert reaches.result()
+        team.begins("cf1", None, 0.0)
+        await flown.do(team.go_to("cf1", (1.0, 1.0, 1.0)))
+        await flown.do(team.land("cf1"))
+        assert (await flown.do(team.drone_report("cf1"))).boot == 0
+
+
+async def test_a_drone_that_stays_away_is_lost_and_lands_when_it_appears(tmp_path: Path) -> None:
+    """After two minutes it is not waited for; should it hover after all, it must not for long."""
+    async with flying(tmp_path) as flown:
+        drone, team = await flown.up(), flown.team
+        drone.goes_silent()
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
+        reaches = flown.begin(team.reach("cf1"))
+        assert await flown.until(lambda: reaches.is_set) == pytest.approx(120, abs=1)
+        assert not reaches.result()
+        drone.answers = True
+        await flown.until(lambda: not drone.motors, 30)
+        assert "land" in drone.told
+        team.mended("cf1")
+        assert await flown.do(team.reach("cf1"))
+
+
+async def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -> None:
+    """It is found with its motors off, somewhere else, and it has forgotten what it did."""
+    async with flying(tmp_path) as flown:
+        drone, team = await flown.up(), flown.team
+        drone.goes_silent()
+        drone.falls(tells=False)
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
+        drone.put((2.0, 2.0, 0.0))
+        drone.answers = True
+        await flown.until(lambda: team._vehicles["cf1"].linked)
+        report = await flown.do(team.drone_report("cf1"))
+        assert (report.landed, report.boot, report.location) == (True, 1, (2, 2, 0))
+        assert await flown.do(team.reach("cf1"))
+
+
+async def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_path: Path) -> None:
+    """However its navigation hangs."""
+    async with flying(tmp_path) as flown:
+        drone, team = flown.drones["cf1"], flown.team
+        await flown.do(team.drone_report("cf1"))
+        drone.goes_silent()
+        drone.hangs = drone.clings = {"connect"}
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
+        before = the_loop().time()
+        report = await flown.do(team.drone_report("cf1"))
+        assert the_loop().time() - before <= 17
+        assert not report.reached
+
+
+async def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path) -> None:
+    """Its battery must be empty by then: it is not waited for to come down."""
+    async with flying(tmp_path) as flown:
+        drone, seen = await flown.up(), flown.team.telemetry["cf1"]
+        drone.goes_silent()
+        assert await flown.until(lambda: seen.landed) == pytest.approx(504, abs=2)
+
+
+async def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(
+    tmp_path: Path,
+) -> None:
+    """It has not said that it flies, but it may."""
+    drone = FakeDrone()
+    drone.hangs = {"takeoff"}
+    async with flying(tmp_path, drone) as flown:
+        seen = flown.team.telemetry["cf1"]
+        await flown.do(flown.team.drone_report("cf1"))
+        rises = flown.begin(flown.team.takeoff("cf1", 1.0))
+        await flown.until(lambda: not seen.landed, 1)
+        drone.goes_silent()
+        await flown.until(lambda: rises.is_set, 2)
+        assert await flown.until(lambda: seen.landed) > 400
+
+
+async def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> None:
+    """It was not waited for, and nothing has failed."""
+    async with flying(tmp_path) as flown:
+        drone, team = flown.drones["cf1"], flown.team
+        await flown.do(team.drone_report("cf1"))
+        drone.goes_silent()
+        await flown.until(lambda: not team._vehicles["cf1"].linked)
+        drone.answers = True
+        await flown.until(lambda: team._vehicles["cf1"].linked)
+        await flown.do(team.takeoff("cf1", 1.0))
+
+
+async def test_who_takes_long_to_connect_is_connected_all_the_same(tmp_path: Path) -> None:
+    """The report does not wait for it; a radio that many share is slow."""
+    drone = FakeDrone()
+    drone.slow = {"connect": 25.0}
+    async with flying(tmp_path, drone) as flown:
+        report = await flown.do(flown.team.drone_report("cf1"))
+        assert (report.reached, report.problems) == (False, ("cf1 did not answer in 15 s",))
+        assert await flown.do(flown.team.reach("cf1"))
+        assert the_loop().time() < 1000 + 27
+
+
+async def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path) -> None:
+    """Others need the radio; but as soon as it is asked for, it is tried."""
+    drone = FakeDrone()
+    drone.answers = False
+    async with flying(tmp_path, drone) as flown:
+        await flown.until(lambda: the_loop().time() > 1300)
+        attempts = drone.attempts
+        await flown.until(lambda: the_loop().time() > 1600)
+        assert drone.attempts - attempts < 12
+        drone.answers = True
+        assert (await flown.do(flown.team.drone_report("cf1"))).reached
+        assert flown.log.count("cf1 does not answer") == 1

@@ -1,0 +1,266 @@
+"""An area of a missions file becomes plain trips, from which all of it is covered."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import dist
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pluto_fleet.files import areas, sweep
+from pluto_fleet.files.missions import load_missions, missions_of
+from pluto_fleet.files.missions_text import missions_text
+from pluto_fleet.files.reading import read
+from pluto_fleet.shared.domain.airspace import Airspace, Polygon
+from pluto_fleet.shared.domain.errors import BadInput
+from tests.areas import ENOUGH, drawn, judged
+from tests.library.files.an_app import APP
+
+BLOCK: Polygon = ((4.2, 2.2), (5.8, 2.2), (5.8, 3.8), (4.2, 3.8))
+MAP = Airspace(size=(20.0, 12.0), no_fly=(BLOCK,), ceiling=4.0)
+FIELD = """
+polygon = [[1, 1], [9, 1], [9, 6], [1, 6]]
+action = "take_photo"
+spacing = "1 m"
+"""
+
+
+def mission(*parts: str) -> str:
+    return '[[mission]]\nname = "M"\n' + "".join(parts)
+
+
+def area(text: str = FIELD) -> str:
+    return f"[[mission.area]]\n{text}"
+
+
+def trips(folder: Path, text: str, airspace: Airspace = MAP) -> list[Any]:
+    """Return the trips of the only mission of a file."""
+    file = folder / "m.toml"
+    file.write_text(text, encoding="utf-8")
+    [found] = load_missions(file, APP, airspace)
+    return list(found.trips)
+
+
+def said(folder: Path, text: str, airspace: Airspace = MAP) -> str:
+    """Return what is said of a file."""
+    with pytest.raises(BadInput) as caught:
+        trips(folder, text, airspace)
+    return str(caught.value).replace(f"{folder}/", "")
+
+
+@pytest.mark.parametrize("number", range(40))
+def test_areas_drawn_by_chance_are_covered(number: int) -> None:
+    """Concave and thin ones, at the map's edge, with no-fly areas in them."""
+    found = judged(drawn(number), number)
+    assert found.wrong == []
+    assert found.covered >= ENOUGH
+
+
+def test_a_field_is_swept_back_and_forth_along_its_longer_side(tmp_path: Path) -> None:
+    """One trip a square, each next to the one before."""
+    found = trips(tmp_path, mission(area()), Airspace())
+    assert [trip.name for trip in found] == [f"area 1.{n}" for n in range(1, 41)]
+    assert [trip.index for trip in found] == list(range(40))
+    assert {trip.action for trip in found} == {"take_photo"}
+    places = [trip.target for trip in found]
+    assert places[:2] == [(1.5, 1.5, 1.2), (2.5, 1.5, 1.2)]
+    assert places[7:9] == [(8.5, 1.5, 1.2), (8.5, 2.5, 1.2)]
+    assert places[-1] == (1.5, 5.5, 1.2) or places[-1] == (8.5, 5.5, 1.2)
+    assert {dist(a, b) for a, b in pairwise(places)} == {1.0}
+
+
+def test_a_field_that_is_longer_upwards_is_swept_upwards(tmp_path: Path) -> None:
+    text = FIELD.replace("[9, 1], [9, 6]", "[3, 1], [3, 6]")
+    found = [trip.target for trip in trips(tmp_path, mission(area(text)), Airspace())]
+    assert found[:2] == [(1.5, 1.5, 1.2), (1.5, 2.5, 1.2)]
+    assert len(found) == 10
+
+
+def test_where_the_spacing_does_not_divide_a_side_the_places_are_spread_evenly(
+    tmp_path: Path,
+) -> None:
+    text = FIELD.replace('"1 m"', '"1.6 m"').replace("[9, 1], [9, 6]", "[3, 1], [3, 6]")
+    found = [trip.target for trip in trips(tmp_path, mission(area(text)), Airspace())]
+    assert [x for x, *_ in found] == [1.5] * 4 + [2.5] * 4
+    assert [y for _, y, _ in found[:4]] == [1.625, 2.875, 4.125, 5.375]
+
+
+def test_its_trips_have_what_the_area_says(tmp_path: Path) -> None:
+    """Parameters, fields, height and name are those of each."""
+    text = """
+name = "Field"
+polygon = [[1, 1], ["300 cm", 1], [3, 2], [1, 2]]
+action = "pollinate"
+parameters = { dose = "40 mg" }
+spacing = "1 m"
+height = "150 cm"
+delay = "30 s"
+priority = 2
+"""
+    first, second = trips(tmp_path, mission(area(text)))
+    assert [one.name for one in (first, second)] == ["Field 1", "Field 2"]
+    assert (first.target, second.target) == ((1.5, 1.5, 1.5), (2.5, 1.5, 1.5))
+    assert first.parameters["dose"] == pytest.approx(40e-6)
+    assert first.parameters == second.parameters
+    assert first.parameters is not second.parameters
+    assert (second.delay, second.priority, second.item, second.source) == (30.0, 2, None, None)
+
+
+def test_trips_come_first_and_then_the_areas_in_their_order(tmp_path: Path) -> None:
+    """Wherever they stand in the mission; an area begins near to what was flown before it."""
+    text = mission(
+        area(FIELD + "height = 1\n"),
+        '[[mission.trip]]\naction = "take_photo"\ntarget = [9, 7]\n',
+        area(FIELD.replace("1 m", "5 m")),
+        '[[mission.trip]]\naction = "take_photo"\ntarget = [9, 6.5]\n',
+    )
+    found = trips(tmp_path, text, Airspace())
+    names = [trip.name for trip in found]
+    assert names[:3] == ["1", "2", "area 1.1"]
+    assert names[-2:] == ["area 2.1", "area 2.2"]
+    assert found[2].target == (8.5, 5.5, 1.0)
+    assert [trip.index for trip in found] == list(range(44))
+
+
+def test_a_no_fly_area_in_it_is_flown_around(tmp_path: Path) -> None:
+    """A place that may not be flown to is moved within its square; a square that is all forbidden has none."""
+    found = [trip.target for trip in trips(tmp_path, mission(area()))]
+    assert all(MAP.problem(place) is None for place in found)
+    assert (4.2, 2.5, 1.2) in found
+    away = Airspace(no_fly=(((4.0, 2.0), (6.0, 2.0), (6.0, 4.0), (4.0, 4.0)),))
+    assert len(trips(tmp_path, mission(area()), away)) == 36
+
+
+def test_what_lies_off_the_map_is_left_out(tmp_path: Path) -> None:
+    text = FIELD.replace("[1, 1]", "[-3, 1]").replace("[1, 6]", "[-3, 6]")
+    found = trips(tmp_path, mission(area(text)), Airspace())
+    assert len(found) == 45
+    assert min(trip.target[0] for trip in found) == 0.5
+
+
+def test_what_it_has_become_is_known(tmp_path: Path) -> None:
+    """How many trips, how long the way is, and how much may not be flown over."""
+    file = tmp_path / "m.toml"
+    file.write_text(mission(area(), area('name = "B"' + FIELD.replace("1 m", "9 m"))), "utf-8")
+    document = read(file)
+    [found] = missions_of(document, APP, MAP)
+    first, second = document.areas
+    assert first.trips == len(found.trips) - 1
+    assert first.sentence == (
+        'mission "M", area 1: 44 trips, 41.4 m from the first to the last; 6 % of it may not be flown over'
+    )
+    assert second.sentence.startswith('mission "M", area "B": 1 trip, 0 m from the first')
+    assert document.is_made
+
+
+def test_they_are_written_as_plain_trips(tmp_path: Path) -> None:
+    """And read as the same."""
+    file = tmp_path / "m.toml"
+    file.write_text(mission(area()), encoding="utf-8")
+    missions = load_missions(file, APP, MAP)
+    text = missions_text(APP, missions)
+    assert "area]]" not in text
+    assert [trip.target for trip in trips(tmp_path, text)] == [
+        trip.target for trip in missions[0].trips
+    ]
+
+
+CORNERS = "polygon = [[1, 1], [9, 1], [9, 6], [1, 6]]"
+MISTAKES = [
+    (FIELD.replace(CORNERS, ""), 3, "has no polygon"),
+    (FIELD.replace('spacing = "1 m"', ""), 3, "has no spacing"),
+    (FIELD.replace('action = "take_photo"', ""), 3, "has no action"),
+    (FIELD.replace("take_photo", "take_foto"), 6, 'unknown action "take_foto"; did you mean "take_photo"?'),
+    (FIELD.replace(", [9, 6], [1, 6]", ""), 5, "polygon […] is not a list of at least three corners [x, y]"),
+    (FIELD.replace(CORNERS, "polygon = 3"), 5, "polygon 3 is not a list of at least three corners [x, y]"),
+    (FIELD.replace("[9, 6]", "[9]"), 5, "polygon […] has a corner 3 that is not a list of 2 numbers"),
+    (FIELD.replace("[9, 6]", '[9, "6 s"]'), 5, "polygon […] has a corner 3 that has an element that is a time"),
+    (FIELD.replace("[9, 6], [1, 6]", "[1, 6], [9, 6]"), 5, "polygon crosses or touches itself near (5, 3.5)"),
+    (FIELD.replace("[9, 6], [1, 6]", "[5, 1], [2, 1]"), 5, "polygon covers no ground"),
+    (FIELD.replace("[9, 6], [1, 6]", "[5, 1]"), 5, "polygon covers no ground"),
+    (FIELD.replace("1 m", "1 s"), 7, 'spacing "1 s" is a time, not a length'),
+    (FIELD.replace('"1 m"', "-1"), 7, "spacing -1 is less than 0.05 m"),
+    (FIELD.replace('"1 m"', "0"), 7, "spacing 0 is less than 0.05 m"),
+    (FIELD.replace("1 m", "10 cm"), 7, "spacing 0.1 m makes more than 2,000 trips of this area: widen it"),
+    (FIELD + 'height = "5 m"', 8, "height, 5 m, is above the ceiling, 4 m"),
+    (FIELD + "height = 0", 8, "height 0 is less than 0.1 m"),
+    (FIELD + "target = [1, 1]", 8, 'unknown key "target"; an area of this app has: name, polygon, action, '),
+    (FIELD + "spaceing = 1", 8, 'unknown key "spaceing"; did you mean "spacing"?'),
+    (FIELD + "gap = 1", 8, 'unknown key "gap": this app\'s graph has no block that needs it; an area of this app'),
+    (FIELD + "parameters = { dose = 1 }", 8, 'take_photo has no parameters, and "dose" is given'),
+    (FIELD + 'delay = "3 m"', 8, 'delay "3 m" is a length, not a time'),
+    (FIELD.replace("take_photo", "pick_item"), 6, "pick_item takes an item, and an area has none"),
+    (FIELD.replace("take_photo", "release_item"), 6, "release_item takes an item"),
+    (FIELD.replace("take_photo", "pollinate"), 3, "pollinate needs the parameter dose"),
+    (FIELD.replace(CORNERS, "polygon = [[4.3, 2.3], [5, 2.3], [5, 3]]"), 5, "polygon covers nothing that may be flown over"),
+    (FIELD.replace(CORNERS, "polygon = [[44, 2], [45, 2], [45, 3]]"), 5, "polygon covers nothing that may be flown over"),
+    (FIELD + 'name = " x"', 8, 'name " x" begins or ends with a blank'),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "line", "sentence"), MISTAKES)
+def test_each_mistake_is_told_with_its_line(
+    tmp_path: Path, text: str, line: int, sentence: str
+) -> None:
+    """And once."""
+    [told] = said(tmp_path, mission(area(text))).split("\n")
+    assert told.startswith(f'm.toml:{line}: mission "M", area ')
+    assert told.partition("area ")[2].partition(": ")[2].startswith(sentence)
+
+
+def test_an_area_is_a_list_of_tables(tmp_path: Path) -> None:
+    told = said(tmp_path, mission("[mission.area]\n", FIELD))
+    assert (
+        told
+        == 'm.toml:3: mission "M": area is not a list of tables: write [[mission.area]], with two brackets'
+    )
+
+
+def test_all_mistakes_are_told_at_once(tmp_path: Path) -> None:
+    text = FIELD.replace("1 m", "1 s").replace("take_photo", "take") + "height = 9\nitem = 3\n"
+    assert len(said(tmp_path, mission(area(text))).split("\n")) == 4
+
+
+def test_names_that_meet_are_told(tmp_path: Path) -> None:
+    """A trip's, or those of two areas."""
+    trip = '[[mission.trip]]\nname = "area 1.7"\naction = "take_photo"\ntarget = [9, 7]\n'
+    assert said(tmp_path, mission(trip, area())) == (
+        'm.toml:7: mission "M", area 1: makes a trip "area 1.7", and there is another, in line 4:'
+        " rename that, or the area"
+    )
+    two = area('name = "B"' + FIELD)
+    told = said(tmp_path, mission(two, two)).split("\n")
+    assert 'there is another area "B", in line 4: names must differ' in told[0]
+    assert ['makes a trip "B 1"' in line for line in told[1:]] == [True]  # and not each of them
+
+
+def test_a_mission_without_trips_and_areas_has_none(tmp_path: Path) -> None:
+    assert said(tmp_path, mission()) == 'm.toml:1: mission "M": has no [[mission.trip]]'
+
+
+def test_the_areas_of_a_file_make_only_so_many_trips(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(areas, "MOST_IN_ALL", 50)
+    told = said(tmp_path, mission(area(), area('name = "B"' + FIELD)))
+    assert told.endswith("with this area the file makes more than 50 trips: widen the spacing")
+
+
+def test_without_shapely_it_is_said_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(areas, "has", lambda _: False)
+    told = said(tmp_path, mission(area()))
+    assert told == (
+        'm.toml:3: mission "M", area 1: an area needs shapely, the extra `areas` of pluto-fleet:'
+        ' pip install "pluto-fleet[areas]", or "shapely>=2"'
+    )
+
+
+def test_an_outline_may_be_closed_or_not() -> None:
+    """The first corner may stand at the end once more."""
+    corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0)]
+    assert sweep.problem_of([*corners, corners[0]]) is None
+    assert sweep.problem_of([corners[0], *corners]) is None

@@ -1,0 +1,367 @@
+"""What a fleet file may hold, and what is said of one that cannot be flown."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import replace
+from math import dist
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pluto_fleet.app import App
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import (
+    FleetFile,
+    default_fleet,
+    load_fleet,
+    navigation_of,
+    not_real,
+    options_of,
+)
+from pluto_fleet.files.fleet_text import fleet_text
+from pluto_fleet.files.landmarks import NO_LANDMARKS, Landmarks, Picture
+from pluto_fleet.shared.domain import values
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
+from pluto_fleet.shared.domain.model import AfterTrip, Point
+from pluto_fleet.shared.domain.motion import CRAZYFLIE
+from tests.library.files.an_app import APP, PLAIN
+
+FULL = """
+[map]
+size = [20.0, "1200 cm"]
+image = "ward.svg"
+cruise_height = 1.5
+ceiling = "4 m"
+no_fly = [[[8, 0], [9, 0], [9, 5], [8, 5]]]
+
+[fleet]
+after_trip = "stay"
+apart = "40 cm"
+max_airborne = 5
+localization = "lab.mocap:Mocap"
+
+[localization]
+host = "10.0.0.7"
+
+[navigation.crazyflie]
+measure = { temperature = "bme.temp" }
+limits = [0.5, 2, true]
+
+[[drone]]
+id = "cf1"
+category = "scout"
+home = [0.5, 0.5]
+uri = "radio://0/80/2M/E7E7E7E7E1"
+[drone.options]
+camera = "192.168.4.1:5000"
+
+[[drone]]
+id = "cf2"
+category = "carrier"
+home = [1.5, 0.5, 0.1]
+navigation = "boats"
+
+[world]
+background = { pm10 = 15.0 }
+[[world.feature]]
+kind = "bloom"
+at = [2, 3]
+radius = "20 cm"
+[[world.feature]]
+kind = "pest"
+at = [3, 3]
+[[world.source]]
+quantity = "pm10"
+at = [4, 4]
+peak = 80
+radius = "3 m"
+"""
+
+
+def load(path: Path, text: str, app: App = APP) -> FleetFile:
+    file = path / "fleet.toml"
+    file.write_text(text, encoding="utf-8")
+    return load_fleet(file, app)
+
+
+def problems(path: Path, text: str, app: App = APP) -> list[str]:
+    with pytest.raises(BadInput) as caught:
+        load(path, text, app)
+    return [line.removeprefix(f"{path}/fleet.toml") for line in str(caught.value).split("\n")]
+
+
+def test_a_file_says_where_drones_fly_and_how(tmp_path: Path) -> None:
+    """The map, the fleet's behaviour, each drone with its line, and the simulated world."""
+    assert load(tmp_path, FULL) == FleetFile(
+        airspace=Airspace(
+            size=(20.0, 12.0),
+            cruise_height=1.5,
+            ceiling=4.0,
+            no_fly=(((8.0, 0.0), (9.0, 0.0), (9.0, 5.0), (8.0, 5.0)),),
+        ),
+        landmarks=Landmarks(picture=Picture(file="ward.svg", size=(20.0, 12.0))),
+        after_trip=AfterTrip.STAY,
+        apart=0.4,
+        max_airborne=5,
+        motion=CRAZYFLIE,
+        navigation="crazyflie",
+        options={
+            "crazyflie": {"measure": {"temperature": "bme.temp"}, "limits": [0.5, 2, True]},
+        },
+        localization="lab.mocap:Mocap",
+        localization_options={"host": "10.0.0.7"},
+        drones=(
+            DroneEntry(
+                id="cf1",
+                category="scout",
+                home=(0.5, 0.5, 0.0),
+                uri="radio://0/80/2M/E7E7E7E7E1",
+                options={"camera": "192.168.4.1:5000"},
+                line=22,
+            ),
+            DroneEntry(
+                id="cf2", category="carrier", home=(1.5, 0.5, 0.1), navigation="boats", line=30
+            ),
+        ),
+        world=WorldData(
+            features=(
+                Feature(kind="bloom", at=(2.0, 3.0), radius=0.2),
+                Feature(kind="pest", at=(3.0, 3.0)),
+            ),
+            sources=(Source(quantity="pm10", at=(4.0, 4.0), peak=80.0, radius=3.0),),
+            background={"pm10": 15.0},
+        ),
+    )
+
+
+def test_only_the_drones_must_be_given(tmp_path: Path) -> None:
+    """And not even their category, where the app has but one."""
+    fleet = load(tmp_path, '[[drone]]\nid = "a"\nhome = [1, 1]', PLAIN)
+    drone = DroneEntry(id="a", category="drone", home=(1.0, 1.0, 0.0), line=1)
+    assert fleet == FleetFile(airspace=Airspace(), drones=(drone,), motion=CRAZYFLIE)
+    assert fleet.after_trip is AfterTrip.NEXT
+    assert fleet.world is None
+
+
+def test_without_a_file_five_drones_stand_along_an_edge() -> None:
+    """The app's categories in turn, a metre apart."""
+    fleet = default_fleet(APP)
+    assert [(drone.id, drone.category) for drone in fleet.drones] == [
+        ("cf1", "scout"),
+        ("cf2", "carrier"),
+        ("cf3", "scout"),
+        ("cf4", "carrier"),
+        ("cf5", "scout"),
+    ]
+    assert [drone.home[0] for drone in fleet.drones] == [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert all(fleet.airspace.problem(drone.home) is None for drone in fleet.drones)
+
+
+def test_all_problems_of_a_file_are_told_in_one_go(tmp_path: Path) -> None:
+    """Each with its line, and the drone it is about."""
+    text = FULL.replace('"stay"', '"sit"').replace("max_airborne = 5", "max_airborne = 0")
+    text = text.replace('"scout"', '"scot"').replace("[1.5, 0.5, 0.1]", "[8.5, 0.5]")
+    text = text.replace('id = "cf2"', 'id = "cf1"').replace("peak = 80", "peek = 80")
+    text = text.replace("[map]\n", "[map]\nscale = 3\n")
+    assert problems(tmp_path, text) == [
+        ':3: [map]: unknown key "scale"; [map] has: size, cruise_height, ceiling, no_fly, image, north, places, zones',
+        ':11: [fleet]: after_trip "sit" is none of: home, stay, next',
+        ":13: [fleet]: max_airborne 0 is less than 1",
+        ':25: drone "cf1": unknown category "scot"; did you mean "scout"?',
+        ':32: drone "cf1": there is another drone "cf1", in line 24: names must differ',
+        ':34: drone "cf1": home (8.5, 0.5) is inside no-fly area 1',
+        (
+            ':49: [[world.source]]: unknown key "peek"; did you mean "peak"? '
+            "a source has: quantity, at, peak, radius"
+        ),
+        ":46: [[world.source]]: has no peak",
+    ]
+
+
+OTHER = '[[drone]]\nid = "b"\nhome = [1, 2]\ncategory = "scout"\n'
+DRONE = '[[drone]]\nid = "a"\nhome = [1, 1]\ncategory = "scout"\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", ": has no [[drone]]: nothing to fly"),
+        ('[drone]\nid = "a"',
+         ":1: drone is not a list of tables: write [[drone]], with two brackets"),
+        (f"map = 3\n{DRONE}", ":1: map is not a table: write [map]"),
+        ('[[drone]]\nid = "a"\nhome = [1, 1]',
+         ':1: drone "a": has no category; this app has: scout, carrier'),
+        (f"{DRONE}[map]\nsize = [20, 0]", (":6: [map]: size […] has an element that is less than 0.1 m: "
+         "it may be 0.1 m to 10,000 m")),
+        (f"{DRONE}[map]\nsize = 20", ":6: [map]: size 20 is not a list of 2 numbers"),
+        (f"{DRONE}[map]\ncruise_height = 0",
+         ":6: [map]: cruise_height 0 is less than 0.1 m: it may be 0.1 m to 1000 m"),
+        (f"{DRONE}[map]\nceiling = 1",
+         ":5: [map]: cruise_height, 1.2 m, is above the ceiling, 1 m"),
+        (f"{DRONE}[map]\nno_fly = [\n[[0, 0], [1, 0]]\n]",
+         ":7: [map]: no_fly area 1 is not a list of at least three corners [x, y]"),
+        (f"{DRONE}[map]\nno_fly = [[[0, 0], [1, 0], [2, 0]]]",
+         ":6: [map]: no_fly area 1 covers no ground: its corners lie on one line"),
+        (f"{DRONE}[map]\nno_fly = [[[0, 0], [1, 0], [nan, 0]]]",
+         ":6: [map]: no_fly area 1 has a corner 3 that has an element that is not a finite number"),
+        (f"{DRONE}[map]\nno_fly = 3",
+         ":6: [map]: no_fly 3 is not a list of areas, each a list of corners [x, y]"),
+        (f'{DRONE}[[drone]]\nid = "b"\ncategory = "scout"\nhome = [1, 1.05]',
+         ':8: drone "b": home is where drone "a" has its own: each needs a place to stand'),
+        (f"{DRONE}[fleet]\napart = -1", ":6: [fleet]: apart -1 is less than 0: it may be 0, or 0.05 m to 10 m"),
+        (f"{DRONE}[world]\nbackground = {{ pm10 = true }}",
+         ":6: [world]: pm10 true is not a number"),
+        ((f'{DRONE}uri = "radio://0/80/2M/E7"\n{OTHER}'
+         'uri = "radio://1/80/2M/e7"'),
+         ':10: drone "b": uri is that of drone "a", in line 5: it would be one and the same drone'),
+        (f"{DRONE}[fleet]\nnavigation = 3",
+         ":6: [fleet]: navigation 3 is not a text: put it in quotes"),
+        (f"{DRONE}[navigation.crazyfly]\nx = 1",
+         (':5: [navigation.crazyfly]: nothing is flown by a navigation "crazyfly"; '
+         'did you mean "crazyflie"?')),
+        (f"{DRONE}[navigation]\ncrazyflie = 3",
+         ":6: [navigation.crazyflie]: crazyflie is not a table: write [navigation.crazyflie]"),
+        (f"{DRONE}options = 3",
+         ':5: drone "a": options is not a table: write [drone.options]'),
+        (f"{DRONE}[drone.options]\nsince = 2026-01-01",
+         ':6: drone "a": since 2026-01-01 is a date or a time: put it in quotes'),
+        (f"{DRONE}[drone.options]\nx = [1, [{{ a = inf }}]]",
+         ':6: drone "a": x […] has an element that is not a finite number'),
+        (f"{DRONE}[drone.options]\nx = {'[' * 9}1{']' * 9}",
+         ':6: drone "a": x […] is nested too deep'),
+        (f"{DRONE}[drone.options]\nx = 0x8000000000000000",
+         ':6: drone "a": x 9223372036854775808 is too large'),
+        (f"{DRONE}[localization]\nhost = 'a'",
+         (":5: [localization] is for a source of positions that [fleet] names with "
+         "localization = …; here each drone finds its own")),
+    ],
+)  # fmt: skip
+def test_a_fleet_that_cannot_fly_is_refused(tmp_path: Path, text: str, said: str) -> None:
+    """The message names the key and what is wrong with its value."""
+    assert problems(tmp_path, text) == [said]
+
+
+def test_a_drone_goes_by_its_own_navigation_and_options(tmp_path: Path) -> None:
+    """What [drone.options] holds lies on top of its navigation's, key by key."""
+    fleet = load(tmp_path, FULL)
+    first, second = fleet.drones
+    assert navigation_of(fleet, first) == "crazyflie"
+    assert navigation_of(fleet, second) == "boats"
+    assert {**options_of(fleet, first)} == {
+        "measure": {"temperature": "bme.temp"},
+        "limits": [0.5, 2, True],
+        "camera": "192.168.4.1:5000",
+    }
+    assert options_of(fleet, second) == {}
+
+
+def test_a_crazyflie_without_a_uri_cannot_really_fly(tmp_path: Path) -> None:
+    """Each is named with its line; one that another navigation flies need not have one."""
+    bare = FULL.replace('uri = "radio://0/80/2M/E7E7E7E7E1"\n', "")
+    assert not_real(load(tmp_path, FULL)) is None
+    assert not_real(load(tmp_path, bare)) == (
+        'drone "cf1" (line 22) has no uri, where a real drone is reached: add one, such as'
+        ' uri = "radio://0/80/2M/E7E7E7E7E7"'
+    )
+
+
+def test_all_crazyflies_without_a_uri_are_told_at_once(tmp_path: Path) -> None:
+    """With their lines, as long as that can be read."""
+    text = "".join(
+        DRONE.replace('"a"', f'"a{n}"').replace("[1, 1]", f"[1, {n}]") for n in range(1, 13)
+    )
+    said = not_real(load(tmp_path, text))
+    assert said is not None
+    assert said.startswith('drones "a1" (line 1), "a2" (line 5), ')
+    assert '"a10" (line 37) and 2 more have no uri' in said
+    assert "add one to each" in said
+
+
+def test_without_a_file_nothing_can_really_fly() -> None:
+    """The default fleet is made up: the message says how to get a file."""
+    said = not_real(default_fleet(APP))
+    assert said is not None
+    assert "give it with --fleet" in said
+    assert "drones --save F.toml" in said
+
+
+def test_a_mistake_elsewhere_makes_no_table_of_a_navigation_one_too_many(tmp_path: Path) -> None:
+    """A drone that cannot be read is flown by its navigation all the same."""
+    text = f'{DRONE}[[drone]]\nid = "b"\nnavigation = "boats"\n[navigation.boats]\nx = 1'
+    assert problems(tmp_path, text) == [
+        ':5: drone "b": has no category; this app has: scout, carrier',
+        ':5: drone "b": has no home',
+    ]
+
+
+def test_a_fleet_that_is_written_is_read_the_same(tmp_path: Path) -> None:
+    """All but the lines, and the floor plan's file, which lies beside the first."""
+    fleet = load(tmp_path, FULL)
+    again = load(tmp_path, fleet_text(fleet))
+    drones = [replace(drone, line=None) for drone in fleet.drones]
+    assert [replace(drone, line=None) for drone in again.drones] == drones
+    assert replace(again, drones=()) == replace(fleet, drones=(), landmarks=NO_LANDMARKS)
+
+
+@given(
+    st.dictionaries(
+        st.text(max_size=3),
+        st.recursive(
+            st.text() | st.booleans() | st.integers(-(2**62), 2**62) | st.floats(-1e300, 1e300),
+            lambda inner: st.lists(inner, max_size=2)
+            | st.dictionaries(st.text(max_size=3), inner, max_size=2),
+            max_leaves=4,
+        ),
+        max_size=3,
+    )
+)
+def test_options_are_kept_as_they_are(options: dict[str, object]) -> None:
+    """All that TOML can hold of texts, numbers, booleans, lists and tables, written and read."""
+    drone = DroneEntry(id="a", category="scout", home=(1.0, 1.0, 0.0), options=options)
+    with tempfile.TemporaryDirectory() as folder:
+        text = fleet_text(FleetFile(airspace=Airspace(), drones=(drone,)))
+        (again,) = load(Path(folder), text).drones
+        assert again.options == options
+
+
+LINES = st.sampled_from([*FULL.split("\n"), "x = 1", "home = 3", "[fleet]", "size = [1e9, nan]"])
+
+
+@given(st.lists(LINES, max_size=25))
+def test_any_mixture_of_lines_is_loaded_or_refused(lines: list[str]) -> None:
+    """Nothing that a file may hold ends in anything but a fleet or `BadInput`."""
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            fleet = load(Path(folder), "\n".join(lines))
+        except BadInput as error:
+            assert str(error)
+        else:
+            assert fleet.drones
+
+
+def test_a_great_fleet_is_read_in_proportion(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each home is held against those around it, and not against every other one."""
+    asked = 0
+
+    def counted(a: Point, b: Point) -> float:
+        nonlocal asked
+        asked += 1
+        return dist(a, b)
+
+    monkeypatch.setattr(values, "dist", counted)
+    many = [
+        f'[[drone]]\nid = "d{i}"\ncategory = "scout"\nhome = [{i % 30 / 5}, {i // 30 / 5}]\n'
+        for i in range(900)
+    ]
+    last = '[[drone]]\nid = "last"\ncategory = "scout"\nhome = [1.95, 4.04]\n'
+    assert problems(tmp_path, "".join([*many, last])) == [
+        ':3604: drone "last": home is where drone "d610" has its own: each needs a place to stand'
+    ]
+    assert asked < 10 * 900

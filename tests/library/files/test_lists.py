@@ -1,0 +1,336 @@
+"""A list makes missions: one of each row of a CSV file, with its values in their texts."""
+
+from __future__ import annotations
+
+import csv
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pluto_fleet.files import lists
+from pluto_fleet.files.missions import load_missions
+from pluto_fleet.files.missions_text import missions_text
+from pluto_fleet.files.reading import parsed, read
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Item
+from tests.library.files.an_app import APP
+
+MAP = Airspace()
+BEDS = """
+[[mission]]
+name = "Bed {nr}"
+each = "beds.csv"
+
+  [[mission.trip]]
+  action = "take_photo"
+  target = ["{x}", "{y}"]
+"""
+LIST = "nr,x,y\n1,2.5,3\n7,4,3.25\n"
+
+
+def load(folder: Path, text: str = BEDS, rows: str | bytes = LIST) -> list[Any]:
+    """Return the missions of a file, with a list beside it."""
+    (folder / "beds.csv").write_bytes(rows if isinstance(rows, bytes) else rows.encode())
+    file = folder / "m.toml"
+    file.write_text(text, encoding="utf-8")
+    return load_missions(file, APP, MAP)
+
+
+def said(folder: Path, text: str = BEDS, rows: str | bytes = LIST) -> list[str]:
+    """Return what is said of both."""
+    with pytest.raises(BadInput) as caught:
+        load(folder, text, rows)
+    return str(caught.value).replace(f"{folder}/", "").split("\n")
+
+
+def test_each_row_is_a_mission(tmp_path: Path) -> None:
+    """Numbers may be written as texts with a column."""
+    first, second = load(tmp_path)
+    assert (first.name, first.index, second.name, second.index) == ("Bed 1", 0, "Bed 7", 1)
+    assert first.trips[0].target == (2.5, 3.0, 1.2)
+    assert second.trips[0].target == (4.0, 3.25, 1.2)
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        LIST.encode("utf-8-sig"),
+        LIST.replace(",", ";"),
+        LIST.replace("\n", "\r\n"),
+        LIST.replace(",", " , "),
+        LIST.rstrip("\n"),
+        LIST + "\n,,\n\n",
+        "\n" + LIST,
+        'nr,x,y\n"1","2.5",3\n"7",4,"3.25"\n',
+        "nr,note,x,y\n1,,2.5,3\n7,unused,4,3.25\n",
+    ],
+)
+def test_it_may_be_written_as_spreadsheets_write_it(tmp_path: Path, rows: str | bytes) -> None:
+    """With a byte-order mark, semicolons, quotes, empty rows, and columns that nothing asks for."""
+    found = load(tmp_path, rows=rows)
+    assert [mission.name for mission in found] == ["Bed 1", "Bed 7"]
+    assert [mission.trips[0].target[:2] for mission in found] == [(2.5, 3.0), (4.0, 3.25)]
+
+
+def test_every_text_of_the_mission_may_name_columns(tmp_path: Path) -> None:
+    """Names, fields, parameters, items and quantities, and areas; others are as they are."""
+    text = """
+[[mission]]
+name = "{crop}: {nr}"
+each = "lists/plan.csv"
+safe_time = "{minutes} min"
+repeat = "{rounds}"
+at = "{at}"
+
+  [[mission.trip]]
+  name = "{{{nr}}}"
+  action = "pollinate"
+  target = ["{x} cm", 2, "{z}"]
+  priority = "{p}"
+  delay = 5
+  parameters = { dose = "{dose}", gently = "{gently}", note = "{nr}", strokes = "{p}" }
+
+  [[mission.trip]]
+  action = "pick_item"
+  target = [1, 1]
+  item = { name = "{crop}", mass = "{mass}" }
+
+  [[mission.trip]]
+  action = "release_item"
+  target = [2, 1]
+  item = { name = "{crop}", mass = "{mass}" }
+
+  [[mission.area]]
+  name = "Around {nr}"
+  polygon = [[0, 0], ["{w}", 0], ["{w}", 1], [0, 1]]
+  action = "take_photo"
+  spacing = "{w}"
+
+[[mission]]
+name = "{crop}"
+  [[mission.trip]]
+  action = "take_photo"
+  target = [1, 1]
+"""
+    (tmp_path / "lists").mkdir()
+    (tmp_path / "lists/plan.csv").write_text(
+        "nr;crop;minutes;rounds;at;x;z;p;dose;gently;mass;w\n"
+        '3;"Roses; red";2.5;true;08:30;250;1.5;4;40 mg;FALSE;4 g;2\n',
+        encoding="utf-8",
+    )
+    made, other = load(tmp_path, text)
+    assert (made.name, other.name) == ("Roses; red: 3", "{crop}")
+    assert (made.safe_time, made.repeat, made.at) == (150.0, True, 8.5 * 3600)
+    first, picks, _, swept = made.trips
+    assert (first.name, first.target, first.priority, first.delay) == ("{3}", (2.5, 2, 1.5), 4, 5.0)
+    assert first.parameters["dose"] == pytest.approx(40e-6)
+    assert (first.parameters["gently"], first.parameters["strokes"]) == (False, 4)
+    assert first.parameters["note"] == "3"
+    assert picks.item == Item(name="Roses; red", mass=0.004)
+    assert (swept.name, swept.target) == ("Around 3 1", (1.0, 0.5, 1.2))
+
+
+def test_without_a_name_each_has_its_number(tmp_path: Path) -> None:
+    """Among all missions of the file."""
+    plain = '[[mission]]\n[[mission.trip]]\naction = "take_photo"\ntarget = [1, 1]\n'
+    found = load(tmp_path, plain + BEDS.replace('name = "Bed {nr}"\n', ""))
+    assert [(mission.name, mission.index) for mission in found] == [("1", 0), ("2", 1), ("3", 2)]
+
+
+def test_they_are_written_as_plain_missions(tmp_path: Path) -> None:
+    """And read as the same, with no list beside."""
+    missions = load(tmp_path)
+    text = missions_text(APP, missions)
+    assert "each" not in text
+    again = load_missions_of(text)
+    assert [one.trips[0].target for one in again] == [one.trips[0].target for one in missions]
+
+
+def load_missions_of(text: str) -> list[Any]:
+    from pluto_fleet.files.missions import missions_of
+
+    return missions_of(parsed("m.toml", text), APP, MAP)
+
+
+def test_a_plan_that_is_no_file_has_no_list_beside_it() -> None:
+    with pytest.raises(BadInput) as caught:
+        load_missions_of(BEDS)
+    assert 'each "beds.csv" lies beside a missions file, and this one is in no folder' in str(
+        caught.value
+    )
+
+
+UNUSABLE: list[tuple[str | bytes, str]] = [
+    ("", "is empty: its first line names the columns"),
+    (" \n\n", "is empty: its first line names the columns"),
+    ("nr,x,y\n", "has no row below the one that names its columns"),
+    ("nr,x,y\n,,\n", "has no row below the one that names its columns"),
+    ("nr,x,\n1,2,3\n", "has no name for its column 3: its first line names the columns"),
+    ("nr,x,x\n1,2,3\n", 'has two columns "x": names must differ'),
+    ("1,2.5,3\n7,4,3.25\n", "has no line that names its columns: its first line holds numbers"),
+    ("nr,x,y\n1,2\n7,4,3\n", "has 2 values in row 2, and its first line names 3"),
+    ("nr,x,y\n1,2,3\n7,4,3,5\n", "has 4 values in row 3, and its first line names 3"),
+    ("nr,x,y\n1\n", "has 1 value in row 2, and its first line names 3"),
+    (
+        'nr,x,y\n1,"2,3\n',
+        "cannot be read in row 2: a quoted value begins there, and no quote ends it",
+    ),
+    ('nr,x,y\n1,"2"3,4\n', "cannot be read in row 2: something stands behind a quoted value"),
+    ('nr;x;y\n1;"2"3;4\n', "cannot be read in row 2: something stands behind a quoted value"),
+    ("nr\tx\ty\n1\t2\t3\n", "has tabs between its columns: separate them by commas or semicolons"),
+    ("nr,x,y\n1,ä,3\n".encode("latin-1"), "cannot be used: is not UTF-8 text"),
+    ("nr,x,y\n1,2,3\n".encode("utf-16"), "cannot be used: is not UTF-8 text"),
+    ("nr,{x},y\n1,2,3\n", 'has a column "{x}": a column\'s name has no braces'),
+]
+
+
+@pytest.mark.parametrize(("rows", "sentence"), UNUSABLE)
+def test_of_an_unusable_list_it_is_said_why(
+    tmp_path: Path, rows: str | bytes, sentence: str
+) -> None:
+    [told] = said(tmp_path, rows=rows)
+    assert told.startswith(f'm.toml:4: mission "Bed {{nr}}": each "beds.csv" {sentence}')
+
+
+def test_all_rows_of_another_width_are_told(tmp_path: Path) -> None:
+    assert len(said(tmp_path, rows="nr,x,y\n1,2\n2,3,4\n3\n4,5,6,7\n")) == 3
+
+
+def test_of_each_wrong_value_the_row_and_the_column_are_told(tmp_path: Path) -> None:
+    """As a spreadsheet counts: the first line is row 1, and empty ones count."""
+    text = BEDS + '  priority = "{p}"\n'
+    rows = "nr;x;y;p\n1;2;3;4\n\n2;2,5;3;high\n1;99;3;1\n5;;3;1\n"
+    assert said(tmp_path, text, rows) == [
+        (
+            'm.toml:8: mission "Bed 2" (beds.csv, row 4), trip 1: target […] has an element that is not'
+            " a length: write a number and a unit (mm, cm, m, km)"
+            ' (column "x": "2,5"; a number has a point: 2.5)'
+        ),
+        (
+            'm.toml:9: mission "Bed 2" (beds.csv, row 4), trip 1: priority "high" is not a whole number'
+            ' (column "p")'
+        ),
+        (
+            'm.toml:3: mission "Bed 1" (beds.csv, row 5): there is another mission "Bed 1", of beds.csv,'
+            ' row 2: names must differ (column "nr")'
+        ),
+        (
+            'm.toml:8: mission "Bed 1" (beds.csv, row 5), trip 1: target (99, 3) is outside the map:'
+            ' x goes from 0 to 20 m, y from 0 to 20 m (columns "x" and "y")'
+        ),
+        (
+            'm.toml:8: mission "Bed 5" (beds.csv, row 6), trip 1: target […] has an element that is not'
+            ' a length: write a number and a unit (mm, cm, m, km) (column "x": "")'
+        ),
+    ]
+
+
+def test_what_no_row_can_mend_is_told_once(tmp_path: Path) -> None:
+    """However many rows there are."""
+    [told] = said(tmp_path, BEDS.replace("take_photo", "take_foto"))
+    assert told == (
+        'm.toml:7: mission "Bed 1" (beds.csv, row 2), trip 1: unknown action "take_foto";'
+        ' did you mean "take_photo"?'
+    )
+    [told] = said(tmp_path, BEDS.replace("each =", 'note = "{x}"\neach ='))
+    assert told.startswith(
+        'm.toml:4: mission "Bed 1" (beds.csv, row 2): unknown key "note"; a mission'
+    )
+
+
+TEMPLATES = [
+    ('"{x}"', '"{xx}"', 8, 'target has an unknown column "xx"; did you mean "x"?'),
+    ("{nr}", "{number}", 3, 'name has an unknown column "number"'),
+    ('"{x}"', '"{}"', 8, 'target has an unknown column ""'),
+    ('"{x}"', '"{x"', 8, "target has a brace that is not one of a pair: a brace itself is written {{ or }}"),
+    ("Bed {nr}", "Bed nr}", 3, "name has a brace that is not one of a pair"),
+    ("Bed {nr}", "Bed", 3, 'name is the same for every row, and names must differ: put a column into it, such as "Bed {nr}"'),
+    ("beds.csv", "../beds.csv", 4, 'each "../beds.csv" lies elsewhere: a list is in the folder of its missions file'),
+    ("beds.csv", "/tmp/beds.csv", 4, 'each "/tmp/beds.csv" lies elsewhere'),
+    ("beds.csv", "C:/beds.csv", 4, 'each "C:/beds.csv" lies elsewhere'),
+    ("beds.csv", "a/../../beds.csv", 4, 'each "a/../../beds.csv" lies elsewhere'),
+    ('"beds.csv"', "3", 4, "each 3 is not a text: put it in quotes"),
+    ('"beds.csv"', '""', 4, 'each "" is empty'),
+    ("beds.csv", "bed.csv", 4, 'each "bed.csv" cannot be used: there is no such file'),
+    ("beds.csv", ".", 4, 'each "." cannot be used: is a folder, not a file'),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "line", "sentence"), TEMPLATES)
+def test_what_is_wrong_with_the_mission_is_told_with_its_line(
+    tmp_path: Path, old: str, new: str, line: int, sentence: str
+) -> None:
+    [told] = said(tmp_path, BEDS.replace(old, new))
+    start, _, rest = told.partition(": mission ")
+    assert start == f"m.toml:{line}"
+    assert rest.partition(": ")[2].startswith(sentence)
+
+
+def test_a_list_makes_only_so_many_missions(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lists, "MOST_ROWS", 2)
+    assert len(load(tmp_path)) == 2
+    [told] = said(tmp_path, rows=LIST + "8,1,1\n")
+    assert told.endswith('each "beds.csv" has more than 2 rows')
+
+
+def test_one_row_may_have_a_name_of_its_own(tmp_path: Path) -> None:
+    [only] = load(tmp_path, BEDS.replace("Bed {nr}", "Bed"), "nr,x,y\n1,2,3\n")
+    assert only.name == "Bed"
+
+
+def test_what_comes_after_another_may_be_named_by_a_column(tmp_path: Path) -> None:
+    """One that comes after none that there is is told with its row."""
+    text = BEDS.replace("each =", 'after = ["Bed {before}"]\neach =')
+    plain = (
+        '[[mission]]\nname = "Bed 0"\n[[mission.trip]]\naction = "take_photo"\ntarget = [1, 1]\n'
+    )
+    rows = "nr,x,y,before\n1,2,3,0\n2,3,3,1\n"
+    found = load(tmp_path, plain + text, rows)
+    assert [mission.promises.get("after") for mission in found] == [None, ["Bed 0"], ["Bed 1"]]
+    [told] = said(tmp_path, plain + text, rows.replace("3,1", "3,9"))
+    assert (
+        'mission "Bed 2" (beds.csv, row 3): comes after "Bed 9", and there is no such mission'
+        in told
+    )
+    assert told.endswith('(column "before")')
+
+
+def test_it_is_known_that_missions_were_made(tmp_path: Path) -> None:
+    """A journal then keeps plain missions."""
+    load(tmp_path)
+    document = read(tmp_path / "m.toml")
+    assert not document.is_made
+    assert document.folder == tmp_path
+
+
+CELLS = st.text(st.characters(exclude_categories=["Cs", "Cc"]), min_size=1).map(str.strip)
+
+
+@given(
+    names=st.lists(CELLS.filter(bool), min_size=1, max_size=6, unique=True),
+    mark=st.sampled_from(",;"),
+)
+def test_any_text_of_a_row_comes_into_the_mission(names: list[str], mark: str) -> None:
+    """As it stands in the list, braces, quotes and separators included."""
+    out = StringIO()
+    writer = csv.writer(out, delimiter=mark)
+    writer.writerow(["note", "n"])
+    writer.writerows([name, str(n)] for n, name in enumerate(names))
+    from tempfile import TemporaryDirectory
+
+    with TemporaryDirectory() as folder:
+        (Path(folder) / "l.csv").write_bytes(out.getvalue().encode())
+        text = (
+            '[[mission]]\neach = "l.csv"\n[[mission.trip]]\naction = "pollinate"\n'
+            'target = [1, 1]\nparameters = { dose = "1 g", note = "{note} {{n}}" }\n'
+        )
+        (Path(folder) / "m.toml").write_text(text, encoding="utf-8")
+        found = load_missions(Path(folder) / "m.toml", APP, MAP)
+    assert [one.trips[0].parameters["note"] for one in found] == [f"{name} {{n}}" for name in names]

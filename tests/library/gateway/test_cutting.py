@@ -1,0 +1,279 @@
+"""Motors are cut by a command of its own, past the brain, and do not turn before they may."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.gateway.ledger import FileLedger
+from pluto_fleet.gateway.process import LEDGER
+from pluto_fleet.gateway.starting import cut_directly
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
+from pluto_fleet.shared.time.kernel import FLEET
+from pluto_fleet.simulation.world_store import DRONES
+from tests.library.gateway.flights import THERE, Field, Task
+from tests.library.gateway.processes import Brain, pid, played
+from tests.library.simulation.flights import failure, fly
+
+
+def cut(field: Field, drone: str = "cf1") -> str:
+    """Cut a drone's motors, and return why that could not be done."""
+    return fly(field.virtual, field.gateway.cut_motors(drone))
+
+
+def test_a_drone_whose_motors_are_cut_falls_and_its_flight_fails() -> None:
+    """At once, as a crash; another drone notices nothing."""
+    field, heard, other = Field(), list[object](), list[object]()
+    link = field.gateway.link(1)
+    link.fly(Task(), heard.append)
+    link.fly(Task(id="North field/B/0/1", drone="cf2", action="measure", item=None), other.append)
+    field.advance(10)
+    assert cut(field) == ""
+    field.advance(0)
+    (error,) = heard
+    assert isinstance(error, FlightFailed)
+    assert (error.failure, str(error)) == (Failure.CRASH, "cf1's motors were cut")
+    body = field.navigation.bodies["cf1"]
+    assert body.landed
+    assert body.location[2] == 0.0
+    field.advance(100)
+    assert isinstance(other[0], float)
+
+
+def test_what_hovers_for_an_action_fails_as_well() -> None:
+    """The brain hears it from the command that is under way."""
+    field = Field()
+    link = field.gateway.link(1)
+    link.fly(Task(action=None), lambda _: None)
+    field.advance(100)
+    hover = field.kernel.spawn(link.hold("cf1"), FLEET, "an action")
+    hover.watch(lambda _: None)
+    field.advance(1)
+    cut(field)
+    field.advance(0)
+    assert str(hover.error) == "cf1's motors were cut"
+
+
+def test_nothing_turns_its_motors_on_before_a_person_has_looked_after_it() -> None:
+    """Neither a flight nor a command, nor a Stop that brings all home; then it flies again."""
+    field, heard = Field(), list[object]()
+    link = field.gateway.link(1)
+    cut(field)
+    link.fly(Task(), heard.append)
+    field.advance(1)
+    assert isinstance(heard[0], FlightFailed)
+    assert str(heard[0]) == "cf1's motors were cut"
+    for command in (link.takeoff("cf1", 1.2), link.go_to("cf1", THERE), link.land("cf1")):
+        assert failure(field.virtual, command).failure is Failure.CRASH
+    assert fly(field.virtual, link.recover("cf1")) is False
+    fly(field.virtual, link.bring_down(Down.HOME))
+    assert field.navigation.flown("cf1") == 0.0
+    link = field.gateway.link(2)
+    link.mended("cf1")
+    assert fly(field.virtual, link.recover("cf1")) is True
+    link.fly(Task(id="North field/A/0/2"), heard.append)
+    field.advance(100)
+    assert heard[1] is None
+
+
+def test_one_whose_motors_are_cut_on_its_way_home_is_lost_at_once() -> None:
+    """It is not waited for until it was carried home: it is for a person to say that it is well."""
+    field = Field()
+    link = field.gateway.link(1)
+    link.fly(Task(action=None), lambda _: None)
+    field.advance(100)
+    recovery = field.kernel.spawn(link.recover("cf1"), FLEET, "a recovery")
+    field.advance(1)
+    cut(field)
+    field.advance(1)
+    assert recovery.is_set
+    assert recovery.result() is False
+
+
+def test_a_drone_that_cannot_be_told_is_not_taken_for_cut(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is said why; when it can be reached again, it shall come home."""
+
+    async def unreachable(_: object, drone: str) -> None:
+        raise FlightFailed(Failure.LINK, f"{drone} cannot be reached")
+
+    field = Field()
+    monkeypatch.setattr(type(field.navigation), "cut", unreachable)
+    assert cut(field) == "cf1 cannot be reached"
+    assert fly(field.virtual, field.gateway.link(1).recover("cf1")) is True
+
+
+class Kept(Field):
+    """A field whose gateways keep their ledger on the disk."""
+
+    def __init__(self, folder: Path) -> None:
+        self.file = folder / LEDGER
+        super().__init__(ledger=FileLedger(self.file))
+
+    def is_killed(self) -> None:
+        """Kill the gateway and begin another, while cf1 is switched off and on again."""
+        self.gateway.crash()
+        assert isinstance(self.ledger, FileLedger)
+        self.ledger.close()
+        self.navigation.mended("cf1")
+        self.ledger = FileLedger(self.file)
+        self.another()
+
+    def problems(self, epoch: int) -> tuple[str, ...]:
+        """Query the drones, and return why cf1 may not fly."""
+        return fly(self.virtual, self.gateway.link(epoch).fleet_report()).drones["cf1"].problems
+
+
+def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
+    """The drone itself may have forgotten it: who looks after it says so, once and for all."""
+    field, heard = Kept(tmp_path), list[object]()
+    cut(field)
+    field.is_killed()
+    assert field.problems(1) == ("cf1's motors were cut",)
+    link = field.gateway.link(2)
+    fly(field.virtual, link.fleet_report())
+    for command in (link.takeoff("cf1", 1.2), link.go_to("cf1", THERE)):
+        assert failure(field.virtual, command).failure is Failure.CRASH
+    assert fly(field.virtual, link.recover("cf1")) is False
+    assert fly(field.virtual, link.recover("cf2")) is True
+    link.mended("cf1")
+    field.is_killed()
+    assert field.problems(3) == ()
+    field.gateway.link(4).fly(Task(), heard.append)
+    field.advance(100)
+    assert field.navigation.flown("cf1") > 0
+    field.virtual.close()
+
+
+def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A process may be killed at any time; what then flies on is landed, and stays down."""
+    field = Kept(tmp_path)
+    on_record: list[list[str]] = []
+
+    async def killed(_: object, drone: str) -> None:
+        there = FileLedger(field.file)
+        there.close()
+        on_record.append(list(there.cut))
+
+    link = field.gateway.link(1)
+    fly(field.virtual, link.takeoff("cf1", 1.2))
+    with monkeypatch.context() as patch:
+        patch.setattr(type(field.navigation), "cut", killed)
+        cut(field)
+    assert on_record == [["cf1"]]
+    field.is_killed()
+    assert field.problems(2) == ()
+    link = field.gateway.link(3)
+    fly(field.virtual, link.bring_down(Down.LAND))
+    assert field.navigation.bodies["cf1"].landed
+    assert field.problems(4) == ("cf1's motors were cut",)
+    field.virtual.close()
+
+
+def test_who_could_not_be_told_is_as_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A drone whose motors were cut before is not taken for well because it is out of reach now."""
+
+    async def unreachable(_: object, drone: str) -> None:
+        raise FlightFailed(Failure.LINK, f"{drone} cannot be reached")
+
+    field = Kept(tmp_path)
+    cut(field, "cf1")
+    monkeypatch.setattr(type(field.navigation), "cut", unreachable)
+    assert cut(field, "cf1") == "cf1 cannot be reached"
+    assert cut(field, "cf2") == "cf2 cannot be reached"
+    for epoch in (1, 2):
+        assert field.problems(epoch) == ("cf1's motors were cut",)
+        link = field.gateway.link(epoch)
+        fly(field.virtual, link.fleet_report())
+        assert fly(field.virtual, link.recover("cf2")) is True
+        field.is_killed()
+    field.virtual.close()
+
+
+def test_a_full_disk_keeps_no_motors_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a person wants off is off."""
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    field = Field()
+    monkeypatch.setattr(type(field.ledger), "write_cut", full)
+    monkeypatch.setattr(type(field.ledger), "make_sure", full)
+    assert cut(field) == ""
+    link = field.gateway.link(1)
+    assert str(failure(field.virtual, link.takeoff("cf1", 1.2))) == "cf1's motors were cut"
+    link.mended("cf1")
+    assert fly(field.virtual, link.recover("cf1")) is True
+
+
+def test_a_gateway_that_is_killed_right_after_a_cut_comes_back_knowing_it(tmp_path: Path) -> None:
+    """So does the one after the drone was brought back: that it is well again."""
+
+    async def killed(brain: Brain) -> None:
+        number = pid(tmp_path)
+        assert number is not None
+        os.kill(number, signal.SIGKILL)
+        await brain.kernel.run(brain.lost)
+        (tmp_path / DRONES).unlink()  # as if the drones had been switched off and on again
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        await brain.told(link.fleet_report())
+        await asyncio.to_thread(cut_directly, tmp_path, "cf1", 5)
+        await killed(brain)
+        link = await brain.linked()
+        roll = await brain.told(link.fleet_report())
+        assert roll.drones["cf1"].problems == ("cf1's motors were cut",)
+        assert not await brain.told(link.recover("cf1"))
+        brain.kernel.post(link.mended, "cf1")
+        assert await brain.told(link.recover("cf1"))
+        await killed(brain)
+        link = await brain.linked()
+        assert (await brain.told(link.fleet_report())).drones["cf1"].problems == ()
+
+    played(tmp_path, play)
+
+
+def test_a_simulated_drone_that_has_lost_its_link_cannot_be_told() -> None:
+    """It lands by itself, as it was about to."""
+    field = Field()
+    link = field.gateway.link(1)
+    fly(field.virtual, link.takeoff("cf1", 1.2))
+    field.navigation.strike("cf1", Failure.LINK)
+    assert cut(field) == "cf1 lost its link at (1, 1)"
+    field.advance(60)
+    assert fly(field.virtual, link.recover("cf1")) is True
+    assert cut(field) == ""
+    assert cut(field) == ""
+
+
+def test_motors_are_cut_while_the_brain_hangs(tmp_path: Path) -> None:
+    """Every program that may open the socket may do that; a brain that comes back hears of it."""
+
+    async def play(brain: Brain) -> None:
+        link, heard = await brain.linked(), list[object]()
+        to_and_fro = Task(stops=(THERE, (1.0, 1.0, 1.2)) * 10)  # until long after they are cut
+        brain.kernel.post(link.fly, to_and_fro, heard.append)
+        await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
+        said = await asyncio.to_thread(cut_directly, tmp_path, "cf1", 5)
+        assert said == "the motors of cf1 are cut"
+        await brain.until(lambda: bool(heard))
+        assert str(heard[0]) == "cf1's motors were cut"
+        assert not brain.lost.is_set
+        said = await asyncio.to_thread(cut_directly, tmp_path, None, 5)
+        assert said == "the motors of cf1, cf2 are cut"
+        with pytest.raises(
+            BadInput, match='no drone "cf9" is in the fleet; there are: "cf1", "cf2"'
+        ):
+            await asyncio.to_thread(cut_directly, tmp_path, "cf9", 5)
+        assert not await brain.told(link.recover("cf1"))
+        brain.kernel.post(link.mended, "cf1")
+        assert await brain.told(link.recover("cf1"))
+
+    played(tmp_path, play)

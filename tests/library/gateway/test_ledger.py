@@ -1,0 +1,247 @@
+"""The ledger: with rows torn or lost and processes killed, nothing that was done is flown again."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.gateway.ledger import FileLedger
+from pluto_fleet.jobs.reports import Entry, JobState
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Photo
+from tests.library.gateway.flights import Field, Task
+from tests.library.simulation.flights import fly
+
+PHOTO = Photo(position=(1.0, 2.0, 3.0), width=1.5, height=1.0, sees=("bloom",), sharpness=0.9)
+
+
+def entry(id: str, state: JobState = JobState.DONE, value: object = None) -> Entry:
+    """Return a job as it is written down."""
+    return Entry(id=id, drone="cf1", state=state, boot=3, value=value)
+
+
+def kept(path: Path) -> dict[str, JobState]:
+    """Return what another process finds."""
+    ledger = FileLedger(path)
+    ledger.close()
+    return {entry.id: entry.state for entry in ledger.entries()}
+
+
+def test_what_was_written_is_there_for_the_next_process(tmp_path: Path) -> None:
+    """The last word on each job counts; photos come back whole."""
+    ledger = FileLedger(tmp_path / "ledger")
+    ledger.write(entry("a", JobState.BEGUN))
+    ledger.write(entry("b"))
+    ledger.write(entry("a", value=PHOTO))
+    ledger.forget("b")
+    ledger.close()
+    assert list(FileLedger(tmp_path / "ledger").entries()) == [entry("a", value=PHOTO)]
+
+
+def test_a_line_that_was_never_finished_is_no_line(tmp_path: Path) -> None:
+    """Cut anywhere, it is as if the last change had not been made; and writing goes on."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    ledger.write(entry("a"))
+    whole = path.stat().st_size
+    ledger.write(entry("b", JobState.BEGUN))
+    ledger.close()
+    told = path.read_bytes()
+    for end in range(whole, len(told)):
+        path.write_bytes(told[:end])
+        ledger = FileLedger(path)
+        assert [entry.id for entry in ledger.entries()] == ["a"]
+        assert ledger.is_whole
+        ledger.write(entry("c"))
+        ledger.close()
+        assert list(kept(path)) == ["a", "c"]
+
+
+def test_a_damaged_line_is_not_believed(tmp_path: Path) -> None:
+    """For every byte; the ledger knows that something is missing."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    for id in "abc":
+        ledger.write(entry(id))
+    ledger.close()
+    told = path.read_bytes()
+    for place in range(len(told)):
+        path.write_bytes(told[:place] + bytes([told[place] ^ 4]) + told[place + 1 :])
+        damaged = FileLedger(path)
+        damaged.close()
+        assert all(known == entry(known.id) for known in damaged.entries())
+        assert not damaged.is_whole or len(list(damaged.entries())) == 2  # its last end of line
+
+
+def flown_and_forgotten() -> tuple[Field, list[object]]:
+    """Fly a job and lose its line, and then the gateway."""
+    field, heard = Field(), list[object]()
+    field.gateway.link(1).fly(Task(), heard.append)
+    field.advance(50)
+    field.gateway.crash()
+    field.ledger.forget(Task().id)
+    return field, heard
+
+
+def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
+    """They remember what they did since they were switched on."""
+    field, heard = flown_and_forgotten()
+    field.ledger.is_whole = False
+    link = field.another().link(2)
+    assert fly(field.virtual, link.fleet_report()).jobs[Task().id].state is JobState.DONE
+    link.fly(job := Task(), heard.append)
+    field.advance(50)
+    assert (heard, job.begun) == ([None, None], 0)
+
+
+def test_what_a_drone_remembers_is_not_done_again_though_the_ledger_does_not_have_it() -> None:
+    """The ledger may be lost, or have forgotten what a damaged journal does not say any more."""
+    field, heard = flown_and_forgotten()
+    link = field.another().link(2)
+    assert not fly(field.virtual, link.fleet_report()).jobs
+    link.fly(job := Task(), heard.append)
+    field.advance(50)
+    assert (heard, job.begun) == ([None, None], 0)
+
+
+def test_in_a_first_life_no_drone_is_taken_at_its_word() -> None:
+    """It may remember another flight, whose jobs had the same names."""
+    field, heard = flown_and_forgotten()
+    link = field.another().link(1)
+    fly(field.virtual, link.fleet_report())
+    link.fly(job := Task(), heard.append)
+    field.advance(50)
+    assert job.begun == 1
+
+
+def test_the_file_does_not_grow_for_ever(tmp_path: Path) -> None:
+    """What was forgotten is left out when the next process begins."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    ledger.write(entry("stays"))
+    for number in range(1002):
+        ledger.forget(str(number))
+    ledger.close()
+    before = path.stat().st_size
+    assert kept(path) == {"stays": JobState.DONE}
+    assert path.stat().st_size < before / 100
+    assert kept(path) == {"stays": JobState.DONE}
+
+
+def test_the_file_does_not_grow_while_its_gateway_runs(tmp_path: Path) -> None:
+    """However many trips are flown; what is still to be known is there all the time."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    ledger.write(entry("stays", JobState.BEGUN))
+    ledger.write_cut("cf9", True)
+    for number in range(3000):
+        ledger.write_cut("cf1", number % 2 == 0)
+        ledger.forget(str(number))
+    ledger.write(entry("last"))
+    assert path.stat().st_size < 150_000
+    ledger.close()
+    again = FileLedger(path)
+    assert list(again.entries()) == [entry("stays", JobState.BEGUN), entry("last")]
+    assert list(again.cut) == ["cf9"]
+    again.close()
+
+
+class PowerCut(BaseException):
+    """The process is gone in the middle of something."""
+
+
+@pytest.mark.parametrize("at", range(8))
+def test_a_death_at_any_write_of_the_new_file_loses_nothing(
+    at: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Cut off at each of its calls to the system, before it and after it."""
+    path, calls = tmp_path / "ledger", iter(range(100))
+    ledger = FileLedger(path)
+    ledger.write(entry("stays", value=PHOTO))
+    ledger.write_cut("cf2", True)
+    for number in range(2000):
+        ledger.forget(str(number))
+
+    def dying(real: Callable[..., object]) -> Callable[..., object]:
+        def call(*given: object, **named: object) -> object:
+            if next(calls) == at:
+                raise PowerCut
+            result = real(*given, **named)
+            if next(calls) == at:
+                raise PowerCut
+            return result
+
+        return call
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "write_bytes", dying(Path.write_bytes))
+        patch.setattr(Path, "replace", dying(Path.replace))
+        patch.setattr(os, "fsync", dying(os.fsync))
+        with pytest.raises(PowerCut):
+            for number in range(20):
+                ledger.forget(str(number))
+    again = FileLedger(path)
+    assert (list(again.entries()), list(again.cut)) == ([entry("stays", value=PHOTO)], ["cf2"])
+    assert again.is_whole
+    again.close()
+
+
+def test_whose_motors_are_cut_is_there_for_the_next_process(tmp_path: Path) -> None:
+    """The last word on each drone counts, also when the file was written anew."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    for drone, is_cut in (("cf1", True), ("cf2", True), ("cf3", True), ("cf1", False)):
+        ledger.write_cut(drone, is_cut)
+    ledger.make_sure()
+    ledger.write(entry("a"))
+    assert list(ledger.cut) == ["cf2", "cf3"]
+    ledger.close()
+    ledger = FileLedger(path)
+    for number in range(1010):
+        ledger.forget(str(number))
+    ledger.close()
+    for _ in range(2):
+        ledger = FileLedger(path)
+        assert (list(ledger.cut), [one.id for one in ledger.entries()]) == (["cf2", "cf3"], ["a"])
+        ledger.close()
+    assert path.stat().st_size < 1000
+
+
+def test_an_action_that_cannot_be_written_down_is_not_begun(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """On a full disk, the job fails and says why; the drone is well."""
+    field, heard = Field(), list[object]()
+
+    def full(_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(field.ledger, "write", full)
+    field.gateway.link(1).fly(job := Task(), heard.append)
+    field.advance(50)
+    (error,) = heard
+    assert isinstance(error, FlightFailed)
+    assert error.failure is Failure.REFUSED
+    assert "pick_item was not begun: it cannot be written down before" in str(error)
+    assert (job.begun, field.navigation.carrying("cf1")) == (0, None)
+
+
+def test_a_full_disk_leaves_the_ledger_as_it_was(tmp_path: Path) -> None:
+    """Half a line is taken out again, and when there is room, writing goes on."""
+    path = tmp_path / "ledger"
+    ledger = FileLedger(path)
+    ledger.write(entry("a"))
+    before = path.read_bytes()
+    real = os.write
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "write", lambda file, text: real(file, text[:10]))
+        with pytest.raises(OSError, match="no space"):
+            ledger.write(entry("b"))
+        ledger.forget("a")
+    assert path.read_bytes() == before
+    ledger.write(entry("c"))
+    ledger.close()
+    assert list(kept(path)) == ["a", "c"]

@@ -1,0 +1,207 @@
+"""What the gateway's process is told of real drones, and what becomes of those that are not ready."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, replace
+from itertools import combinations
+from math import dist
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.drones.real_fleet import RealDrone, RequiredAction, real_fleet, real_of
+from pluto_fleet.files.crtp_fleet import as_crtp_fleet, missing_categories
+from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.flight.lives import FlightSetup, aloft, may_hover
+from pluto_fleet.jobs.reports import DroneReport
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Drone, Point
+from pluto_fleet.shared.domain.status import DroneStatus, Status
+from pluto_fleet.shared.hooks.plain_data import trip_data
+from pluto_fleet.simulation.drones import SimulatedNavigation
+from tests.brain import apps
+from tests.brain.living import Living, enterable
+
+FLEET = FleetFile(
+    airspace=Airspace(),
+    drones=(
+        DroneEntry(
+            id="a", category="scout", home=(1.0, 1.0, 0.0), uri="radio://0/80/2M/E7E7E7E701"
+        ),
+        DroneEntry(
+            id="b",
+            category="scout",
+            home=(2.0, 1.0, 0.0),
+            navigation="tello:Tello",
+            options={"ports": [1, 2]},
+        ),
+    ),
+    options={"crazyflie": {"measure": {"pm10": "sps.pm10"}}},
+)
+MISSIONS = [
+    apps.mission(
+        "North",
+        apps.trip("A", 1.0, action="measure", parameters={"quantity": "pm10"}),
+        apps.trip("B", 2.0, action="measure", parameters={"quantity": "pm10"}),
+        apps.trip("C", 3.0),
+        apps.trip("D", 3.0, action="of my own"),
+    )
+]
+
+
+def test_each_drone_is_flown_as_the_fleet_file_says() -> None:
+    """By its own navigation or the fleet's, with its options."""
+    a, b = real_fleet(FLEET, MISSIONS).drones
+    assert a == RealDrone(
+        id="a",
+        navigation="crazyflie",
+        uri="radio://0/80/2M/E7E7E7E701",
+        options={"measure": {"pm10": "sps.pm10"}},
+    )
+    assert b == RealDrone(id="b", navigation="tello:Tello", uri=None, options={"ports": [1, 2]})
+
+
+def test_what_the_plan_asks_for_is_told_once() -> None:
+    """Only what hardware must do: an action of the app's own is the app's affair."""
+    assert real_fleet(FLEET, MISSIONS).wanted == (
+        RequiredAction(action="measure", parameters={"quantity": "pm10"}),
+        RequiredAction(action="take_photo", parameters={}),
+    )
+
+
+def test_what_goes_on_asks_for_the_same_as_when_it_began() -> None:
+    """After a Stop a plan is in the journal; in another round all trips are flown once more."""
+    app = apps.app(apps.flow())
+    first, *rest = [trip_data(app, trip) for trip in MISSIONS[0].trips]
+    goes_on = {"ended": False, "done": [first], "todo": rest}
+    over = {"ended": True, "done": [{"action": "pick_item"}], "todo": []}
+    going_on = real_fleet(FLEET, (), records=[over, goes_on])
+    assert going_on == real_fleet(FLEET, MISSIONS)
+
+
+def test_a_real_fleet_is_read_as_it_was_written() -> None:
+    """All of it goes through a file."""
+    whole = real_fleet(FLEET, MISSIONS)
+    assert real_of(json.loads(json.dumps(asdict(whole)))) == whole
+
+
+def test_stand_ins_are_crazyflies_under_any_class_in_the_file() -> None:
+    """So many as were asked for, reached where they are."""
+    one = as_crtp_fleet(FLEET, 1)
+    assert [drone.id for drone in one.drones] == ["a"]
+    both = real_fleet(as_crtp_fleet(FLEET, 2), (), {"a": "udp://x:1", "b": "udp://x:2"})
+    assert [(drone.navigation, drone.uri) for drone in both.drones] == [
+        ("crazyflie", "udp://x:1"),
+        ("crazyflie", "udp://x:2"),
+    ]
+    assert both.drones[1].options == both.drones[0].options  # nothing that was for a Tello
+    assert [drone.id for drone in as_crtp_fleet(FLEET, 3).drones] == ["a", "b", "cf1"]
+
+
+def test_no_two_stand_ins_stand_at_one_place() -> None:
+    """Where the map has no more room, none flies."""
+    small = replace(FLEET, airspace=Airspace(size=(3.0, 3.0)))
+    homes = [one.home for one in as_crtp_fleet(small, 12).drones]
+    assert min(dist(*pair) for pair in combinations(homes, 2)) >= 0.7
+    with pytest.raises(BadInput, match="--crtp-sim 50: this map has room for"):
+        as_crtp_fleet(small, 50)
+
+
+def test_leaving_out_a_whole_category_is_told() -> None:
+    """Hooks may ask for its drones when all others are in the air."""
+    carrier = replace(FLEET.drones[1], id="c", category="carrier")
+    fleet = replace(FLEET, drones=(*FLEET.drones, carrier))
+    assert missing_categories(fleet, 3) is None
+    assert missing_categories(fleet, 5) is None
+    assert missing_categories(fleet, 2) == (
+        "no carrier flies: --crtp-sim 2 takes only 2 of the fleet file's 3 drones, from its top"
+    )
+
+
+class Unready:
+    """Drones that answer, and may not fly until they have been mended."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, *drones: str) -> None:
+        self.unready = {*drones}
+        monkeypatch.setattr(SimulatedNavigation, "drone_report", self.answer)
+
+    async def answer(self, drone: str) -> DroneReport:
+        """Answer the roll call."""
+        problems = ("its battery is too low: 3.5 V",) if drone in self.unready else ()
+        return DroneReport(
+            drone=drone,
+            reached=True,
+            location=(0.5, 0.5, 0.0),
+            landed=True,
+            battery_level=1.0,
+            boot=0,
+            carrying=None,
+            done={},
+            problems=problems,
+        )
+
+
+def test_a_fleet_of_which_no_drone_is_ready_does_not_set_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The reasons of all are told, and the journal stays as it was."""
+    Unready(monkeypatch, "cf1")
+    living = Living(enterable(), apps.mission("North", apps.trip("A", 1.0)))
+    whole = living.life.control.whole
+    assert whole is not None
+    living.kernel.run(whole)
+    with pytest.raises(BadInput, match=r"no drone is ready to fly\ncf1: its battery is too low"):
+        whole.result()
+    assert living.events == []
+
+
+def test_the_others_fly_without_a_drone_that_is_not_ready(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is looked after meanwhile, and handed out when it is well."""
+    Unready(monkeypatch, "cf1")
+    on = apps.fleet((0.5, 0.5, 0.0), (3.0, 0.5, 0.0))
+    living = Living(enterable(), apps.mission("North", apps.trip("A", 1.0)), on=on)
+    living.kernel.run(living.done)
+    first, second = [event for event in living.events if "drone" in event][:2]
+    assert (first["event"], first["drone"]) == ("drone.not_ready", "cf1")
+    assert (second["event"], second["drone"]) == ("drone.recovering", "cf1")
+    assert living.life.missions[0].status is Status.COMPLETED
+    assert {drone.status for drone in living.life.drones} == {DroneStatus.FREE}
+
+
+@dataclass(frozen=True)
+class Heard:
+    """The last word of a drone."""
+
+    location: Point
+    battery_level: float
+    landed: bool
+    silence: float = 0.0
+
+
+def test_of_a_drone_that_is_silent_in_the_air_people_are_warned(tmp_path: Path) -> None:
+    """A simulated one does no harm."""
+    scout = apps.app(apps.flow()).categories[0]
+    one, two = (
+        Drone(
+            id=id, category=scout, home=(1.0, 1.0, 0.0), telemetry=Heard((2.0, 3.0, z), 1.0, z == 0)
+        )
+        for id, z in (("a", 0.0), ("b", 1.2))
+    )
+    real = FlightSetup(
+        app=apps.app(apps.flow()),
+        journal=tmp_path / "j",
+        missions=(),
+        fleet=FLEET,
+        speed=1.0,
+        seed=0,
+        faults=Faults(),
+        sim=False,
+    )
+    assert aloft(real, (one, two)) == [two]
+    assert aloft(replace(real, sim=True), (one, two)) == []
+    said = "no word of a landing from b (last heard of at (2, 3)): do not stand where"
+    assert may_hover([two]).startswith(said)

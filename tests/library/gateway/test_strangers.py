@@ -1,0 +1,174 @@
+"""A program that may open the gateway's socket can say what it likes: nothing breaks."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pluto_fleet.gateway.process import LOG, NOTE
+from pluto_fleet.gateway.starting import start, stop_directly
+from pluto_fleet.gateway.wire import MAX_COMMAND
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.process.ipc import NotRunning, address_in
+from tests.library.gateway.processes import COMMAND, pid
+from tests.library.gateway.processes import settings as gateway_settings
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A gateway that runs as long as the tests do."""
+    folder = tmp_path_factory.mktemp("gateway")
+    process = start(folder, gateway_settings(idle=3600.0), COMMAND)
+    while address_in(folder / NOTE) is None:
+        assert process.poll() is None
+    yield folder
+    process.kill()
+    process.wait()
+
+
+def said(folder: Path, *lines: bytes) -> list[dict[str, Any]]:
+    """Say something, hang up, and return all that was answered, but for how the drones look."""
+    address = address_in(folder / NOTE)
+    assert address is not None
+    with socket.socket(socket.AF_UNIX) as wire:
+        wire.settimeout(10)
+        wire.connect(str(address))
+        wire.sendall(b"".join(lines))
+        wire.shutdown(socket.SHUT_WR)
+        told = b""
+        while piece := wire.recv(65536):
+            told += piece
+    answers = [json.loads(answer) for answer in told.splitlines()]
+    return [answer for answer in answers if set(answer) != {"seen"}]
+
+
+def message(**facts: object) -> bytes:
+    """Return a message."""
+    return json.dumps(facts).encode() + b"\n"
+
+
+LINK = message(do="link", epoch=1)
+
+
+def test_its_socket_is_where_only_its_owner_goes(folder: Path) -> None:
+    """The folder around it is closed to all others."""
+    address = address_in(folder / NOTE)
+    assert address is not None
+    assert stat.S_IMODE(address.parent.stat().st_mode) == 0o700
+
+
+@pytest.mark.parametrize(
+    ("lines", "why"),
+    [
+        ((b"hello\n",), "that is not a line of JSON with an object"),
+        ((b"\xff\xfe\n",), "that is not a line of JSON with an object"),
+        ((message(do="dance"),), "this gateway does not know that message"),
+        ((message(do="fly"),), "this gateway does not know that message"),
+        ((message(do="link", epoch="1"),), "this gateway does not know that message"),
+        ((message(do="stop", how="crash"),), "this gateway does not know that message"),
+        ((LINK, LINK), "this connection commands already"),
+        ((LINK, message(do="land", drone="x", n=1)), "there is no drone 'x'"),
+        ((LINK, message(do="land", drone=["x"], n=1)), "that message is not complete"),
+        ((LINK, message(do="land", drone="cf1")), "that message is not complete: KeyError: 'n'"),
+        ((LINK, message(do="fly", job="no")), "that message is not complete"),
+        ((LINK, message(do="fly", job={"id": 1})), "that message is not complete"),
+        ((LINK, message(do="go_to", drone="cf1", target=[1], n=1)), "that message is not complete"),
+        ((LINK, message(do="takeoff", drone="cf1", height=10**400, n=1)), "is not complete"),
+        ((LINK, message(do="down", how="up", n=1)), "that message is not complete"),
+        ((LINK, message(do="somersault", drone="cf1", n=1)), "this gateway cannot 'somersault'"),
+        ((b'{"do": "' + b"x" * MAX_COMMAND + b'"}\n',), "a line was longer than"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_and_logged(
+    folder: Path, lines: tuple[bytes, ...], why: str
+) -> None:
+    """In words; the client may go on, but for lines without an end."""
+    refusal = said(folder, *lines)[-1]
+    assert refusal["ok"] is False
+    assert why in refusal["said"]
+    assert f"refused: {refusal['said']}" in (folder / LOG).read_text()
+
+
+def test_numbers_that_are_none_move_no_drone(folder: Path) -> None:
+    """Not a number, or endless: outside the map."""
+    answers = said(
+        folder,
+        LINK,
+        b'{"do": "takeoff", "drone": "cf1", "height": NaN, "n": 1}\n',
+        b'{"do": "go_to", "drone": "cf1", "target": [NaN, 1, 1], "n": 2}\n',
+        b'{"do": "go_to", "drone": "cf1", "target": [1, 1, Infinity], "n": 3}\n',
+    )
+    failed = {answer["n"]: answer["reason"] for answer in answers if "n" in answer}
+    assert failed[1] == "nan m is not between the ground and 10 m"
+    assert "is outside the map" in failed[2]
+    assert "above the ceiling" in failed[3]
+
+
+anything = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=3)
+    | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+    max_leaves=6,
+)
+words = st.sampled_from(
+    [
+        "heartbeat",
+        "fly",
+        "break_off",
+        "attach",
+        "forget",
+        "cancel",
+        "hold",
+        "takeoff",
+        "go_to",
+        "land",
+        "recover",
+        "roll_call",
+        "call",
+    ]
+)
+facts = st.fixed_dictionaries(
+    {"do": words},
+    optional={
+        name: st.sampled_from(["cf1", "cf2"]) | anything
+        for name in ("drone", "n", "job", "id", "height", "target", "how", "epoch")
+    },
+)
+
+
+@settings(max_examples=100)
+@given(st.lists(facts | st.dictionaries(st.text(max_size=5), anything), max_size=6))
+def test_after_any_message_the_gateway_goes_on(
+    folder: Path, messages: list[dict[str, object]]
+) -> None:
+    """Any messages, from a client that has linked."""
+    said(folder, LINK, *(json.dumps(one).encode() + b"\n" for one in messages))
+    assert pid(folder) is not None
+    assert said(folder, LINK)[0].keys() == {"linked"}
+
+
+def test_it_is_said_when_there_is_no_gateway(tmp_path: Path) -> None:
+    """A person who wants the drones down is told so."""
+    with pytest.raises(NotRunning):
+        stop_directly(tmp_path, Down.LAND, 1)
+
+
+def test_it_ends_when_it_is_told_to(tmp_path: Path) -> None:
+    """As a system that shuts down tells it."""
+    process = start(tmp_path, gateway_settings(patience=0.1), COMMAND)
+    while address_in(tmp_path / NOTE) is None:
+        assert process.poll() is None
+    os.kill(process.pid, signal.SIGHUP)
+    process.terminate()
+    assert process.wait(10) == 0
+    assert address_in(tmp_path / NOTE) is None

@@ -1,0 +1,179 @@
+"""Drones come down together as soon as the slowest would alone, and never too near to each other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import dist
+from random import Random
+
+import pytest
+
+from pluto_fleet.gateway.traffic.choosing import DescendingDrone
+from pluto_fleet.gateway.traffic.courses import course
+from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
+from pluto_fleet.gateway.traffic.ways import ways_home
+from pluto_fleet.jobs.reports import Down
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.domain.motion import STRAIGHT, Motion
+from pluto_fleet.shared.fleet.reach import flight_seconds
+from pluto_fleet.simulation.body import SimulatedDrone
+from tests.library.gateway.traffic.real_skies import PRECISE, late, quick
+from tests.library.gateway.traffic.skies import ENDURING, Sky, is_home
+
+CASES = 10
+APART = 0.5
+ROWS = [(0.5 + column, 0.5 + 2.5 * row, 0.0) for row in range(2) for column in range(5)]
+"""Ten docks, a metre apart in each row."""
+NEXT = [(0.5 + (column + 1) % 5, 1.7 + 2.5 * row, 0.5) for row in range(2) for column in range(5)]
+"""Before the dock of each one's neighbour: all ways home cross."""
+
+
+def later(speed: float) -> float:
+    """Return how much later than the slowest alone the last may be down, in seconds.
+
+    Two, or what a detour takes that is as long as drones keep apart, and four more ends of legs.
+    """
+    return max(2.0, quick(speed).motion.leg(APART, speed)) + 4 * PRECISE.settles
+
+
+def scattered(chance: Random, side: float, z: float | None, count: int = 10) -> list[Point]:
+    """Return places far enough from each other."""
+    found: list[Point] = []
+    while len(found) < count:
+        height = chance.uniform(0.6, 2.0) if z is None else z
+        place = chance.uniform(0, side), chance.uniform(0, side), height
+        if all(dist(place, other) >= 0.7 for other in found):
+            found.append(place)
+    return found
+
+
+def comes_down(homes: list[Point], places: list[Point], side: float, how: Down) -> Sky:
+    """Bring down drones that hover at these places."""
+    sky = Sky([home[:2] for home in homes], airspace=Airspace(size=(side, side)))
+    sky.puts(*places)
+    sky.look()
+    assert sky.until(sky.gateway.bring_down(how), 300)
+    return sky
+
+
+@pytest.mark.parametrize("how", [Down.HOME, Down.LAND])
+@pytest.mark.parametrize("side", [20.0, 6.0])
+@pytest.mark.parametrize("seed", range(CASES))
+def test_all_are_down_when_the_slowest_is(seed: int, side: float, how: Down) -> None:
+    """Within two seconds of what it takes alone; half of the cases at one and the same height."""
+    chance = Random(seed)
+    homes = scattered(chance, side, 0.0)
+    places = scattered(chance, side, 1.2 if seed % 2 else None)
+    alone = [
+        comes_down([home], [place], side, how).kernel.now
+        for home, place in zip(homes, places, strict=True)
+    ]
+    sky = comes_down(homes, places, side, how)
+    assert sky.kernel.now <= max(alone) + 2
+    assert sky.nearest >= sky.apart - 1e-6
+    if how is Down.HOME:
+        assert all(is_home(sky, drone) for drone in sky.drones)
+
+
+@pytest.mark.parametrize("speed", [0.3, 0.5, 1.0, 2.0, 3.0])
+def test_ten_whose_ways_cross_are_home_when_the_slowest_is(speed: float) -> None:
+    """Slow ones rest often on the way, fast ones seldom."""
+    airspace = Airspace(size=(6.0, 6.0), ceiling=2.5, cruise_height=0.5)
+    seconds, sky = late(ROWS, NEXT, airspace, speed, Down.HOME)
+    assert seconds <= later(speed)
+    assert all(sky.navigation.flown(drone.id) > 0 for drone in sky.drones)
+    assert sky.nearest >= APART
+    assert all(is_home(sky, drone) for drone in sky.drones)
+
+
+@pytest.mark.parametrize("how", Down)
+@pytest.mark.parametrize("seed", range(4))
+def test_ten_anywhere_are_down_when_the_slowest_is(seed: int, how: Down) -> None:
+    """At one height or at many, with docks anywhere."""
+    chance = Random(seed)
+    homes = scattered(chance, 12.0, 0.0)
+    places = scattered(chance, 12.0, 1.2 if seed % 2 else None)
+    airspace = Airspace(size=(12.0, 12.0), ceiling=3.0)
+    speed = chance.choice([0.5, 1.0, 2.0])
+    seconds, sky = late(homes, places, airspace, speed, how)
+    assert seconds <= later(speed)
+    assert all(sky.navigation.flown(drone.id) > 0 for drone in sky.drones)
+    assert sky.nearest >= APART
+
+
+def test_no_drone_waits_until_its_neighbour_says_that_it_stands() -> None:
+    """A real drone says so seconds after it has landed: who lands beside it would be later still."""
+    airspace = Airspace(size=(6.0, 6.0), cruise_height=0.5)
+    homes, places = [(1.0, 1.0, 0.0), (1.6, 1.0, 0.0)], [(1.0, 4.0, 0.5), (4.6, 1.0, 0.5)]
+    seconds, sky = late(homes, places, airspace, 1.0, Down.HOME)
+    assert seconds < PRECISE.landing + 1.0
+    assert sky.nearest >= APART
+
+
+def test_where_only_one_may_be_in_the_air_who_stands_goes_when_it_is_down() -> None:
+    """No drone in the air waits for one that must not take off."""
+    sky = Sky([(1.0, 1.0), (4.0, 1.0)], airspace=Airspace(size=(5.0, 5.0)), max_airborne=1)
+    sky.put("cf1", (4.0, 3.0, 0.0))
+    sky.put("cf2", (1.0, 1.2, 1.2))
+    sky.navigation.bodies["cf1"].touch_down(0.0)
+    assert sky.until(sky.another().bring_down(Down.HOME), 300)
+    assert sky.airborne <= 1
+    assert all(is_home(sky, drone) for drone in sky.drones)
+
+
+@pytest.mark.parametrize(("drain", "goes"), [(0.5, True), (1.0, True), (2.0, False)])
+def test_a_drone_whose_battery_drains_too_fast_for_its_way_home_lands_where_it_is(
+    drain: float, goes: bool
+) -> None:
+    """What it has left lasts for one and a half times of that way, with an ordinary drain."""
+    here, home, airspace = (15.0, 1.0, 1.2), (1.0, 1.0, 0.0), Airspace()
+    motion = replace(PRECISE, drain=drain)
+    category = replace(ENDURING, motion=motion)
+    enough = 1.5 * flight_seconds(category, airspace, here, [home], 0.0)
+    sky = Sky([home[:2]], airspace=airspace, category=replace(category, flight_time=enough))
+    sky.put("cf1", here)
+    assert sky.until(sky.another().bring_down(Down.HOME), 300)
+    body = sky.navigation.bodies["cf1"]
+    assert (body.down, body.location) == (None, home if goes else (*here[:2], 0.0))
+
+
+def plan_of(seed: int, motion: Motion) -> Timetable:
+    """Plan for some drones in a small place, with docks side by side."""
+    chance = Random(seed)
+    side = chance.choice([3.0, 5.0])
+    airspace = Airspace(size=(side, side), ceiling=chance.choice([1.4, 2.0, 5.0]))
+    places = scattered(chance, side, 1.2, 6)
+    spots = [(0.3 + 0.6 * (i % 3), 0.3 + 0.6 * (i // 3), 0.0) for i in range(6)]
+    goers = []
+    for index, (home, place) in enumerate(zip(spots, places, strict=True)):
+        drone = SimulatedDrone(id=f"cf{index}", category=ENDURING, home=home, index=index)
+        ways = ways_home(airspace, drone, place, False, 0.65)
+        speed = chance.choice([0.2, 1.0])
+        courses = sorted((course(way, speed, motion) for way in ways), key=lambda one: one.cost)
+        goers.append(DescendingDrone(drone.id, courses))
+    return timetable(goers, 0.65)
+
+
+@pytest.mark.parametrize("motion", [PRECISE, STRAIGHT], ids=["smooth", "straight"])
+@pytest.mark.parametrize("seed", range(4))
+def test_no_drone_waits_for_one_that_waits_for_it(seed: int, motion: Motion) -> None:
+    """At all times a drone that may go goes to its next rest, and so all come to their ends."""
+    plan, chance = plan_of(seed, motion), Random(seed)
+    at = dict.fromkeys(plan.courses, 0)
+    ends = {drone: len(one.pieces) - 1 for drone, one in plan.courses.items()}
+    assert ends
+    while at:
+        goes = []
+        for drone, here in at.items():
+            waits = [
+                mine - 1 for mine, other, its in plan.after[drone] if at.get(other, its + 1) <= its
+            ]
+            free = min((piece for piece in waits if piece >= here), default=ends[drone])
+            to = plan.rest_after(drone, here, free)
+            if to > here:
+                goes.append((drone, to))
+        assert goes
+        drone, at[drone] = chance.choice(goes)
+        if at[drone] == ends[drone]:
+            del at[drone]

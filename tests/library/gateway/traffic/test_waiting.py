@@ -1,0 +1,280 @@
+"""Who flies first, who goes round, who waits, and where."""
+
+from __future__ import annotations
+
+from math import dist, hypot
+
+import pytest
+
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Item, Point
+from pluto_fleet.shared.domain.motion import CRAZYFLIE
+from pluto_fleet.shared.time.kernel import FLEET, Task
+from tests.library.gateway.flights import PILLS
+from tests.library.gateway.traffic.skies import Sky
+
+APART = 0.5
+LOW = Airspace(ceiling=1.3)
+"""So low that no drone can go over another."""
+
+
+def gives(sky: Sky, drone: str, *stops: Point, item: Item | None = None) -> Task[object]:
+    """Give a drone a job; an item is picked just there, and nowhere beside."""
+    job = sky.fly(drone, *stops, item=item)
+    return sky.kernel.spawn(job, FLEET + 50, f"{drone} is given a job")
+
+
+def at(sky: Sky, drone: str) -> Point:
+    """Return where a drone is."""
+    return sky.navigation.telemetry[drone].location
+
+
+def test_one_of_two_that_cross_goes_over_the_other() -> None:
+    """Both leave at once, and neither waits."""
+    sky = Sky([(1, 5), (5, 1)])
+    jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    assert all(sky.until(job, 24) for job in jobs)
+    assert sky.nearest >= APART - 1e-6
+    assert sky.navigation.flown("cf1") == pytest.approx(9.2)
+    assert 9.2 < sky.navigation.flown("cf2") <= 9.2 + 2 * APART
+
+
+def test_below_a_low_ceiling_one_waits_on_the_ground_until_the_other_has_passed() -> None:
+    """What lies behind a drone is free: it need not have arrived."""
+    sky = Sky([(1, 5), (5, 1)], airspace=LOW)
+    first, second = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    sky.advance(10)
+    assert at(sky, "cf2") == (5, 1, 0)
+    assert not first.is_set
+    sky.advance(4)
+    assert at(sky, "cf2")[2] > 0
+    assert not first.is_set
+    assert sky.until(second, 30)
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_of_two_jobs_of_one_instant_the_first_that_was_given_goes_first() -> None:
+    """As those of a brain in another process do, which come one by one."""
+    sky = Sky([(1, 5), (5, 1)], airspace=LOW)
+    second, first = gives(sky, "cf2", (5, 9, 1.2)), gives(sky, "cf1", (9, 5, 1.2))
+    sky.advance(10)
+    assert (at(sky, "cf1"), at(sky, "cf2")[2] > 0) == ((1, 5, 0), True)
+    assert all(sky.until(job, 40) for job in (second, first))
+
+
+def test_one_that_hovers_a_little_too_high_is_passed_over() -> None:
+    """No real drone hovers exactly where it was told to; there is room for one way over it."""
+    sky = Sky([(5, 5), (1, 5)], airspace=Airspace(ceiling=2.0), slack=CRAZYFLIE.slack)
+    sky.put("cf1", (5, 5, 1.24))
+    sky.link = sky.another().link(sky.epoch)
+    assert sky.until(gives(sky, "cf2", (9, 5, 1.2)), 40)
+    assert sky.nearest >= APART + CRAZYFLIE.slack - 1e-6
+
+
+def test_of_two_with_the_same_target_the_second_comes_when_the_first_has_gone() -> None:
+    """Nothing else helps where an item is to be picked."""
+    sky = Sky([(1, 1), (9, 1)])
+    first, second = gives(sky, "cf1", (5, 5, 1.2)), gives(sky, "cf2", (5, 5, 1.2), item=PILLS)
+    assert sky.until(first, 60)
+    assert not sky.until(second, 60)
+    home = sky.kernel.spawn(sky.goes_home("cf1"), FLEET, "cf1 goes home")
+    assert sky.until(second, 60)
+    assert sky.until(home, 60)
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_two_that_hover_in_each_others_way_do_not_wait_for_ever() -> None:
+    """They change places below a low ceiling: one lands, and goes on when the other is home."""
+    sky = Sky([(1, 5), (9, 5)], airspace=Airspace(size=(10, 5.2), ceiling=1.3))
+    sky.puts((2, 5, 1.2), (8, 5, 1.2))
+
+    async def there_and_home(drone: str, target: Point) -> Point:
+        assert await sky.fly(drone, target, item=PILLS) is None
+        reached = at(sky, drone)
+        await sky.goes_home(drone)
+        return reached
+
+    first = sky.kernel.spawn(there_and_home("cf1", (8, 5, 1.2)), FLEET + 1, "cf1 is given a job")
+    second = sky.kernel.spawn(there_and_home("cf2", (2, 5, 1.2)), FLEET + 2, "cf2 is given a job")
+    assert sky.until(first, 200)
+    assert sky.until(second, 200)
+    assert sky.nearest >= APART - 1e-6
+    assert (first.result(), second.result()) == ((8, 5, 1.2), (2, 5, 1.2))
+
+
+def test_no_drone_lands_on_another() -> None:
+    """Nor in another's dock; in its own it may, beside one that stands there."""
+    sky = Sky([(1, 1), (1.3, 1), (5, 5)])
+    jobs = [gives(sky, "cf2", (5, 5, 1.2)), gives(sky, "cf1", (8, 8, 1.2))]
+    assert all(sky.until(job, 60) for job in jobs)
+    land = sky.kernel.spawn(sky.link.land("cf2"), FLEET, "cf2 lands")
+    assert sky.until(land, 30)
+    x, y, z = at(sky, "cf2")
+    assert z == 0
+    assert APART <= hypot(x - 5, y - 5) <= APART + 0.3
+    for drone in ("cf1", "cf2"):
+        assert sky.until(sky.kernel.spawn(sky.goes_home(drone), FLEET, f"{drone} returns"), 80)
+    assert at(sky, "cf1") == pytest.approx((1, 1, 0))
+    assert at(sky, "cf2") == pytest.approx((1.3, 1, 0))
+
+
+def waits_for_one_that_hovers() -> tuple[Sky, Task[object]]:
+    """Return three drones: cf1 stands and waits for cf2, which hovers half-way; cf3 stands beside."""
+    sky = Sky([(5, 0.5), (1, 5), (9, 7)], airspace=LOW)
+    sky.puts((5, 1, 1.2), (5, 5, 1.2), (9, 7, 1.2))
+    for drone in ("cf1", "cf3"):
+        assert sky.until(sky.kernel.spawn(sky.link.land(drone), FLEET, "down"), 20)
+    return sky, gives(sky, "cf1", (5, 9, 1.2))
+
+
+def test_none_ends_where_one_that_came_before_wants_to_fly() -> None:
+    """Else those who come and go could keep it for ever; where they stay for long, two are enough."""
+    sky, elder = waits_for_one_that_hovers()
+    sky.advance(1)
+    younger = gives(sky, "cf3", (5, 7, 1.2))
+    sky.advance(5)
+    assert at(sky, "cf3") == (9, 7, 0)
+    home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
+    assert sky.until(elder, 60)
+    assert not younger.is_set
+    assert sky.until(younger, 60)
+    assert home.is_set
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_who_only_crosses_flies_while_the_other_has_to_wait_anyway() -> None:
+    """However long that has waited: for one that hovers in its way."""
+    sky, elder = waits_for_one_that_hovers()
+    sky.advance(25)
+    younger = gives(sky, "cf3", (1, 7, 1.2))
+    assert sky.until(younger, 21)
+    assert not elder.is_set
+    home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
+    assert sky.until(elder, 60)
+    assert home.is_set
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_who_has_waited_long_flies_before_younger_ones_once_its_way_becomes_free() -> None:
+    """Else those that cross could keep it for ever."""
+    sky, elder = waits_for_one_that_hovers()
+    sky.advance(25)
+    sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
+    sky.advance(0.2)
+    younger = gives(sky, "cf3", (1, 7, 1.2))
+    assert sky.until(elder, 60)
+    assert not younger.is_set
+    assert sky.until(younger, 60)
+    assert sky.nearest >= APART - 1e-6
+
+
+def test_where_the_ground_is_full_of_docks_a_drone_lands_in_its_own() -> None:
+    """Real drones land further apart than docks may be."""
+    sky = Sky([(0.1, 0.1), (0.6, 0.1)], airspace=Airspace(size=(0.7, 0.2)), slack=0.15)
+    assert sky.until(gives(sky, "cf1", (0.35, 0.1, 1.2)), 20)
+    assert sky.until(sky.kernel.spawn(sky.link.land("cf1"), FLEET, "down"), 20)
+    assert at(sky, "cf1") == (0.1, 0.1, 0)
+
+
+def test_no_more_are_in_the_air_than_may_be() -> None:
+    """Also if the brain asks for more: the others wait on the ground."""
+    sky = Sky([(1, 1), (4, 1), (7, 1)], max_airborne=2)
+    jobs = [gives(sky, f"cf{n}", (3 * n - 2, 5, 1.2)) for n in (1, 2, 3)]
+    assert not sky.until(jobs[2], 60)
+    assert sky.until(sky.kernel.spawn(sky.goes_home("cf1"), FLEET, "home"), 60)
+    assert sky.until(jobs[2], 60)
+    assert sky.airborne == 2
+
+
+def test_who_waits_can_be_told_not_to() -> None:
+    """Its flight is over, and it stays where it is."""
+    sky = Sky([(1, 5), (5, 1)], airspace=LOW)
+    gives(sky, "cf1", (5, 5, 1.2))
+    waits = gives(sky, "cf2", (5, 5, 1.2), item=PILLS)
+    sky.advance(5)
+    sky.link.break_off("cf2")
+    sky.advance(40)
+    assert not waits.is_set
+    assert sky.navigation.flown("cf2") == 0
+    home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 is told something else")
+    assert sky.until(home, 60)
+
+
+@pytest.mark.parametrize("slack", [0.0, 0.15])
+def test_real_drones_keep_further_apart(slack: float) -> None:
+    """By what their positions may be wrong."""
+    sky = Sky([(1, 5), (5, 1)], slack=slack)
+    jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    assert all(sky.until(job, 30) for job in jobs)
+    assert APART + slack - 1e-6 <= sky.nearest
+
+
+def test_what_a_stopped_drone_may_still_fly_into_stays_its_own_for_a_moment() -> None:
+    """A real one shoots past where it was told to stop."""
+    sky = Sky([(1, 5), (3.9, 4.5)], airspace=LOW, slack=0.1)
+    gives(sky, "cf1", (9, 5, 1.2))
+    sky.advance(4 + 4.2)
+    sky.link.break_off("cf1")
+    assert at(sky, "cf1") == pytest.approx((3.1, 5, 1.2))
+    up = gives(sky, "cf2", (3.9, 1, 1.2))
+    sky.advance(1)
+    assert at(sky, "cf2")[2] == 0
+    assert sky.until(up, 20)
+
+
+def test_a_drone_that_is_found_in_the_air_has_its_place() -> None:
+    """Another gateway begins from where all are."""
+    sky = Sky([(1, 1), (5, 1)], airspace=LOW)
+    sky.puts((5, 4, 1.2), (9, 1, 1.2))
+    sky.advance(0)
+    down = sky.kernel.spawn(sky.link.land("cf2"), FLEET, "down")
+    assert sky.until(down, 20)
+    blocked = gives(sky, "cf2", (5, 4, 1.2), item=PILLS)
+    assert not sky.until(blocked, 40)
+    assert sky.nearest >= APART
+
+
+def test_a_drone_that_sinks_has_the_air_below_it() -> None:
+    """Until it is down; then it lies there, and others fly over it."""
+    sky = Sky([(1, 1), (5, 1)], airspace=LOW)
+    flown = gives(sky, "cf1", (5, 5, 1.2))
+    assert sky.until(flown, 60)
+    hovers = sky.kernel.spawn(sky.link.hold("cf1"), FLEET, "hold")
+    hovers.watch(lambda _: None)
+    sky.advance(1)
+    sky.navigation.strike("cf1", Failure.LINK)
+    other = gives(sky, "cf2", (5, 9, 1.2))
+    sky.advance(1)
+    assert at(sky, "cf2") == (5, 1, 0)
+    assert sky.until(other, 40)
+    with pytest.raises(FlightFailed):
+        hovers.result()
+
+
+def test_without_a_distance_nothing_is_done() -> None:
+    """Each flies as if it were alone."""
+    sky = Sky([(1, 5), (5, 1)], apart=0.0)
+    assert sky.gateway.traffic is None
+    jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    assert all(sky.until(job, 21) for job in jobs)
+    assert sky.nearest < 0.1
+
+
+def test_no_drone_flies_below_one_that_sinks() -> None:
+    """Who is on its way there stops, and goes on by another, or when the air is free again."""
+    sky = Sky([(5, 4), (1, 5)])
+    assert sky.until(gives(sky, "cf1", (5, 5, 2.2)), 60)
+    hovers = sky.kernel.spawn(sky.link.hold("cf1"), FLEET, "hold")
+    hovers.watch(lambda _: None)
+    below = gives(sky, "cf2", (9, 5, 1.2))
+    sky.advance(4 + 4)
+    assert at(sky, "cf2") == pytest.approx((3, 5, 1.2))
+    sky.navigation.strike("cf1", Failure.LINK)
+    nearest = APART
+    while not below.is_set and sky.kernel.now < 100:
+        if not sky.navigation.telemetry["cf1"].landed:
+            nearest = min(nearest, dist(at(sky, "cf1"), at(sky, "cf2")))
+        sky.advance(0.1)
+    assert below.result() is None
+    assert nearest == APART

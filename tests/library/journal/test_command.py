@@ -1,0 +1,221 @@
+"""`journal` prints what happened: for people, for programs, while it happens, and of what is left."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.cli import main
+from pluto_fleet.journal import place
+from pluto_fleet.journal.store import Store
+from pluto_fleet.report import sentences
+from pluto_fleet.shared.domain.status import DroneStatus
+from tests.library.files.an_app import APP
+from tests.paths import ROOT
+
+KIND = r'"((?:trip|mission|drone|action|brain)\.[a-z]+|stopped|log)"'
+"""How the kinds of events are written where they are noted."""
+
+HEADER = {"t": 0.0, "event": "journal.begun", "app": "alfalfa", "sim": True, "seed": 3}
+EVENTS: list[dict[str, object]] = [
+    {"t": 0.0, "event": "mission.created", "mission": "North", "trips": ["A", "B"]},
+    {
+        "t": 0.5,
+        "event": "trip.allocated",
+        "mission": "North",
+        "trip": "A",
+        "drone": "cf1",
+        "why": "nearest of 2",
+    },
+    {
+        "t": 0.5,
+        "event": "trip.launched",
+        "mission": "North",
+        "trip": "A",
+        "drone": "cf1",
+        "round": 0,
+        "attempt": 1,
+    },
+    {
+        "t": 9.25,
+        "event": "mission.uncertain",
+        "mission": "North",
+        "trip": "A",
+        "drone": "cf1",
+        "reason": "was it released?",
+    },
+    {"t": 10.0, "event": "a.word.of.later", "mission": "North", "what": "\x1b[2J"},
+    {"t": 11.0, "event": "trip.failed", "mission": "North"},
+]
+
+Printed = Callable[..., tuple[int, list[str], str]]
+
+
+@pytest.fixture(autouse=True)
+def clock(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    with monkeypatch.context() as patch:
+        patch.setenv("TZ", "UTC")
+        time.tzset()
+        yield
+    time.tzset()
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    path = tmp_path / "J"
+    store = Store.create(path, HEADER, clock=lambda: 45_296.5)
+    for event in EVENTS:
+        store.append([json.dumps([event])])
+    store.close()
+    return path
+
+
+@pytest.fixture
+def printed(capsys: pytest.CaptureFixture[str]) -> Printed:
+    def run(*argv: object) -> tuple[int, list[str], str]:
+        code = main(APP, ["journal", *[str(word) for word in argv]])
+        out, err = capsys.readouterr()
+        return code, out.splitlines(), err
+
+    return run
+
+
+def test_people_read_a_sentence_for_each_event(path: Path, printed: Printed) -> None:
+    assert printed(path) == (
+        0,
+        [
+            "12:34:56  journal of alfalfa, begun on 1970-01-01 (simulated drones, seed 3)",
+            "12:34:56       0.0 s  North: has trips A, B",
+            "12:34:56       0.5 s  North: trip A gets cf1: nearest of 2",
+            "12:34:56       0.5 s  North: trip A launched (cf1)",
+            "12:34:56       9.2 s  North: waits for a person: was it released?",
+            "12:34:56      10.0 s  a.word.of.later: mission North, what \\x1b[2J",
+            "12:34:56      11.0 s  trip.failed: mission North",
+        ],
+        "",
+    )
+
+
+def test_programs_read_an_object_for_each_event(path: Path, printed: Printed) -> None:
+    code, lines, _ = printed(path, "--json")
+    assert code == 0
+    assert [json.loads(line) for line in lines] == [
+        {**event, "wall": 45_296.5} for event in [HEADER, *EVENTS]
+    ]
+
+
+def test_only_programs_read_measurements(path: Path, printed: Printed) -> None:
+    measured = {"t": 12.0, "event": "drone.flew", "drone": "cf1", "what": "land", "seconds": 4.0}
+    store = Store.open(path)
+    store.append([json.dumps([measured])])
+    store.close()
+    assert len(printed(path)[1]) == 1 + len(EVENTS)
+    assert measured.items() <= json.loads(printed(path, "--json")[1][-1]).items()
+
+
+def test_without_a_name_it_is_the_newest(
+    path: Path, printed: Printed, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    code, _, err = printed()
+    assert (code, "there is no journal in" in err) == (2, True)
+    path.rename(place.new("alfalfa", 0.0))
+    assert len(printed()[1]) == 1 + len(EVENTS)
+
+
+def test_nothing_is_left_beside_a_journal_that_was_read(path: Path, printed: Printed) -> None:
+    printed(path)
+    assert os.listdir(path.parent) == ["J"]
+
+
+def test_it_is_read_beside_the_app_that_writes_it(path: Path, printed: Printed) -> None:
+    store = Store.open(path)
+    store.append(['[{"t": 12.0, "event": "log", "text": "the newest"}]'])
+    code, lines, err = printed(path)
+    assert (code, lines[-1][-10:], err) == (0, "the newest", "")
+    store.append(['[{"t": 13.0, "event": "log", "text": "goes on"}]'])
+    store.close()
+
+
+def test_of_a_damaged_journal_the_rest_is_printed_and_it_ends_with_1(
+    path: Path, printed: Printed
+) -> None:
+    content = path.read_bytes()
+    path.write_bytes(content.replace(b"nearest of 2", b"nearest of 3"))
+    code, lines, err = printed(path)
+    assert code == 1
+    assert len(lines) == len(EVENTS)
+    gap, what = err.splitlines()
+    assert gap == "… row 2 cannot be read …"
+    assert what.startswith(
+        f"{path}: the journal is damaged: row 2 of 6 is not what was written; 1 row before it can"
+        " be read"
+    )
+
+
+def noted() -> Iterator[str]:
+    """Yield every kind of event that anything in the runtime or in a block can note."""
+    for folder in ("runtime", "stdlib_blocks/plutoc_blocks"):
+        for file in sorted((ROOT / folder).rglob("*.py")):
+            if file.parent.name != "files" and file.name != "files.py":
+                yield from re.findall(KIND, file.read_text())
+    yield from (f"drone.{status.value.lower()}" for status in DroneStatus)
+
+
+def test_every_event_has_a_sentence_of_its_own() -> None:
+    kinds = set(noted())
+    assert {"trip.launched", "drone.busy", "mission.held", "stopped"} <= kinds
+    known = {"journal.begun", *sentences._SENTENCES, *sentences._JOURNAL_SENTENCES}
+    assert sorted(kinds - known) == []
+
+
+FOLLOW = (
+    "import sys\n"
+    "from pluto_fleet.cli import main\n"
+    "from tests.library.files.an_app import APP\n"
+    "sys.exit(main(APP, ['journal', sys.argv[1], '--follow']))\n"
+)
+
+
+def follow(path: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-c", FOLLOW, str(path)],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(part for part in sys.path if part)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def test_what_comes_is_printed_as_it_comes_until_it_is_interrupted(path: Path) -> None:
+    following = follow(path)
+    assert following.stdout is not None
+    for _ in range(1 + len(EVENTS)):
+        following.stdout.readline()
+    store = Store.open(path)
+    for number in range(3):
+        store.append([json.dumps([{"t": 1.0, "event": "log", "text": f"line {number}"}])])
+        assert following.stdout.readline().endswith(f"line {number}\n")
+    store.close()
+    following.send_signal(signal.SIGINT)
+    out, err = following.communicate(timeout=30)
+    assert (following.returncode, out, err) == (0, "", "")
+
+
+def test_it_ends_when_it_is_not_read_any_more_though_nothing_happens(path: Path) -> None:
+    following = follow(path)
+    assert following.stdout is not None
+    following.stdout.readline()
+    following.stdout.close()
+    following.stdout = None
+    _, err = following.communicate(timeout=30)
+    assert (following.returncode, err) == (141, "")

@@ -1,0 +1,340 @@
+"""Simulated flights on which nothing goes wrong: places, batteries, items, and cancelling."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pluto_fleet.jobs.controls import Controls
+from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure
+from pluto_fleet.shared.domain.model import Category, Item, Photo, Point
+from pluto_fleet.shared.fleet.reach import needed
+from pluto_fleet.shared.fleet.telemetry import resting
+from pluto_fleet.shared.time.kernel import FLEET, Kernel
+from pluto_fleet.shared.time.virtual import VirtualTime
+from tests.library.simulation.flights import (
+    CLIMB,
+    HOME,
+    Team,
+    at_home,
+    failure,
+    fly,
+    hovering,
+    order,
+    team,
+)
+
+PILLS = Item(name="pills", mass=0.004)
+
+
+def advance(kernel: VirtualTime, seconds: float) -> None:
+    """Let time pass."""
+    fly(kernel, kernel.sleep(seconds))
+
+
+def test_it_can_be_made_to_do_all_that_a_gateway_wants() -> None:
+    """The simulation does what the gateway expects of all that flies its drones."""
+    navigation: Controls = team(VirtualTime())
+    assert navigation.telemetry["cf1"].location == HOME
+
+
+def test_a_drone_begins_full_in_its_dock() -> None:
+    """Landed, at home, charged."""
+    telemetry = team(VirtualTime()).telemetry["cf2"]
+    assert (telemetry.location, telemetry.battery_level, telemetry.landed) == ((2, 1, 0), 1, True)
+
+
+def test_commands_return_when_they_are_done() -> None:
+    """A climb at 0.3 m/s, five metres at the category's speed, and down again."""
+    kernel, navigation = at_home()
+    telemetry = navigation.telemetry["cf1"]
+    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    assert (kernel.now, telemetry.location, telemetry.landed) == (4, (1, 1, 1.2), False)
+    fly(kernel, navigation.go_to("cf1", (4, 5, 1.2)))
+    assert (kernel.now, telemetry.location) == (14, (4, 5, 1.2))
+    fly(kernel, navigation.land("cf1"))
+    assert (kernel.now, telemetry.location, telemetry.landed) == (18, (4, 5, 0), True)
+    assert navigation.flown("cf1") == pytest.approx(1.2 + 5 + 1.2)
+    assert navigation.flown("cf2") == 0
+
+
+def test_a_drone_is_seen_between_two_places() -> None:
+    """A look in the middle of a leg finds it there."""
+    kernel, navigation = at_home()
+    fly(kernel, navigation.takeoff("cf1", 1.2, None))
+    leg = kernel.spawn(navigation.go_to("cf1", (4, 5, 1.2)), FLEET, "leg")
+    advance(kernel, 2.5)
+    assert navigation.telemetry["cf1"].location == pytest.approx((1.75, 2, 1.2))
+    assert navigation.flown("cf1") == pytest.approx(1.2 + 1.25)
+    kernel.run(leg)
+
+
+def test_a_battery_drains_in_the_air_and_charges_in_the_dock() -> None:
+    """1/420 a second while it flies, 1/1200 at home, nothing elsewhere on the ground."""
+    kernel, navigation = at_home()
+    telemetry = navigation.telemetry["cf1"]
+
+    async def there() -> None:
+        await navigation.takeoff("cf1", 1.2, None)
+        await navigation.go_to("cf1", (4, 5, 1.2))
+        await navigation.land("cf1")
+
+    async def back() -> None:
+        await navigation.takeoff("cf1", 1.2, None)
+        await navigation.go_to("cf1", (1.1, 1.1, 1.2))
+        await navigation.land("cf1")
+
+    fly(kernel, there())
+    assert telemetry.battery_level == pytest.approx(1 - 18 / 420)
+    advance(kernel, 1000)
+    assert telemetry.battery_level == pytest.approx(1 - 18 / 420)
+    begin = kernel.now
+    fly(kernel, back())
+    level = 1 - (18 + kernel.now - begin) / 420
+    assert telemetry.battery_level == pytest.approx(level)
+    advance(kernel, 60)
+    assert telemetry.battery_level == pytest.approx(level + 60 / 1200)
+    advance(kernel, 9999)
+    assert telemetry.battery_level == 1
+
+
+coordinate = st.floats(0, 20).map(lambda value: round(value, 2))
+stops = st.lists(
+    st.tuples(
+        st.tuples(coordinate, coordinate, st.floats(0.2, 3)),
+        st.sampled_from(["measure", "take_photo"]),
+    ),
+    min_size=1,
+    max_size=4,
+)
+
+
+@given(stops)
+def test_a_flight_takes_what_was_reckoned(stops: list[tuple[Point, str]]) -> None:
+    """The share that plan and allocation reckon with is the share that the flight takes."""
+    airspace = Airspace(no_fly=(((8, 2), (9, 2), (9, 18), (8, 18)),))
+    if any(airspace.problem(point) for point, _ in stops):
+        return
+    kernel = VirtualTime()
+    tireless = Category(name="tireless", speed=0.5, flight_time=3600)
+    navigation = team(kernel, airspace=airspace, category=tireless)
+    telemetry = navigation.telemetry["cf1"]
+
+    async def go(point: Point) -> None:
+        for place in airspace.route(telemetry.location, point) or ():
+            await navigation.go_to("cf1", place)
+
+    async def flight() -> None:
+        await navigation.takeoff("cf1", airspace.cruise_height, order())
+        for point, action in stops:
+            await go(point)
+            await navigation.act("cf1", action, {}, None)
+        await go((HOME[0], HOME[1], telemetry.location[2]))
+        await navigation.land("cf1")
+
+    fly(kernel, flight())
+    share = needed(tireless, airspace, HOME, [(point, 1.0) for point, _ in stops], HOME)
+    assert telemetry.battery_level == pytest.approx(1 - (share or 0))
+    assert telemetry.landed
+
+
+def test_a_leg_is_one_event() -> None:
+    """A day in the air costs as little as a second."""
+    kernel, navigation = at_home(category=Category(name="slow", speed=0.001, flight_time=1e6))
+
+    async def flight() -> int:
+        await navigation.takeoff("cf1", 1.2, order())
+        before = kernel.count
+        await navigation.go_to("cf1", (20, 20, 1.2))
+        return kernel.count - before
+
+    assert fly(kernel, flight()) == 2  # it arrives; its coroutine goes on
+    assert kernel.now > 20_000
+
+
+def test_a_cancelled_drone_hovers_where_it_is() -> None:
+    """Half-way is where it stays, draining, until it is told otherwise."""
+    kernel, navigation = at_home()
+    telemetry = navigation.telemetry["cf1"]
+    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    leg = kernel.spawn(navigation.go_to("cf1", (4, 5, 1.2)), FLEET, "leg")
+    advance(kernel, 5)
+    leg.cancel()
+    advance(kernel, 30)
+    assert telemetry.location == pytest.approx((2.5, 3, 1.2))
+    assert telemetry.battery_level == pytest.approx(1 - 39 / 420)
+    fly(kernel, navigation.go_to("cf1", (2.5, 4, 1.2)))
+    assert kernel.now == pytest.approx(41)
+    assert navigation.flown("cf1") == pytest.approx(1.2 + 2.5 + 1)
+
+
+@pytest.mark.parametrize(("seconds", "height"), [(1.0, 0.3), (6.0, 0.6)])
+def test_climbs_and_landings_can_be_cancelled(seconds: float, height: float) -> None:
+    """A drone that was on its way up or down hovers in between, and can still land."""
+    kernel, navigation = at_home()
+
+    async def up_and_down() -> None:
+        await navigation.takeoff("cf1", 1.2, order())
+        await navigation.land("cf1")
+
+    flight = kernel.spawn(up_and_down(), FLEET, "flight")
+    advance(kernel, seconds)
+    flight.cancel()
+    telemetry = navigation.telemetry["cf1"]
+    assert telemetry.location == pytest.approx((1, 1, height))
+    assert not telemetry.landed
+    fly(kernel, navigation.takeoff("cf1", 1.2, None))  # it flies already: it does not rise
+    assert kernel.now == seconds
+    fly(kernel, navigation.land("cf1"))
+    assert kernel.now == pytest.approx(seconds + height / 0.3)
+    assert telemetry.landed
+
+
+def test_a_cancelled_action_has_not_happened() -> None:
+    """Nothing is picked by half."""
+    kernel, navigation = hovering()
+    picking = kernel.spawn(navigation.act("cf1", "pick_item", {}, PILLS), FLEET, "pick")
+    advance(kernel, 1.9)
+    picking.cancel()
+    assert navigation.carrying("cf1") is None
+
+
+def test_hovering_goes_on_until_it_is_cancelled() -> None:
+    """Holding never returns by itself."""
+    kernel, navigation = hovering()
+    hover = kernel.spawn(navigation.hold("cf1"), FLEET, "hover")
+    advance(kernel, 300)
+    assert not hover.is_set
+    hover.cancel()
+    assert navigation.telemetry["cf1"].location == (1, 1, 1.2)
+
+
+def test_sensors_show_the_world_where_the_drone_is() -> None:
+    """Actions take their time, and give what is to be seen there."""
+    kernel, navigation = hovering()
+    photo = fly(kernel, navigation.act("cf1", "take_photo", {}, None))
+    assert isinstance(photo, Photo)
+    assert photo.position == pytest.approx((1, 1, 1.2), abs=0.3)
+    warmth = fly(kernel, navigation.act("cf1", "measure", {}, None))
+    dust = fly(kernel, navigation.act("cf1", "measure", {"quantity": "pm10"}, None))
+    assert isinstance(warmth, float)
+    assert isinstance(dust, float)
+    assert 20 < warmth < 30
+    assert kernel.now == CLIMB + 3
+
+
+def test_an_item_is_carried_from_pick_to_release() -> None:
+    """Who carries what is known at any time."""
+    kernel, navigation = hovering()
+    fly(kernel, navigation.act("cf1", "pick_item", {}, PILLS))
+    assert navigation.carrying("cf1") is PILLS
+    assert navigation.carrying("cf2") is None
+    fly(kernel, navigation.land("cf1"))
+    assert navigation.carrying("cf1") is PILLS
+    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    fly(kernel, navigation.act("cf1", "release_item", {}, Item(name="pills", mass=0.004)))
+    assert navigation.carrying("cf1") is None
+
+
+@pytest.mark.parametrize(
+    ("before", "action", "item", "reason"),
+    [
+        (None, "release_item", PILLS, "cf1 carries nothing, not pills"),
+        (None, "pick_item", None, "there is nothing to pick"),
+        (PILLS, "pick_item", PILLS, "cf1 already carries pills"),
+        (PILLS, "release_item", Item(name="bait", mass=0.001), "cf1 carries pills, not bait"),
+        (
+            None,
+            "pick_item",
+            Item(name="brick", mass=2.0),
+            "brick weighs 2 kg, cf1 carries at most 10 g",
+        ),
+    ],
+)
+def test_what_a_gripper_cannot_do_fails(
+    before: Item | None, action: str, item: Item | None, reason: str
+) -> None:
+    """Picking twice, and releasing what is not there, fail the flight and say so."""
+    kernel, navigation = hovering()
+    if before:
+        fly(kernel, navigation.act("cf1", "pick_item", {}, before))
+    error = failure(kernel, navigation.act("cf1", action, {}, item))
+    assert error.failure is Failure.ACTION
+    assert str(error) == f"{action} failed: {reason} at (1, 1)"
+    assert navigation.carrying("cf1") is before
+
+
+def test_a_drone_on_the_ground_refuses_to_fly_on() -> None:
+    """It must take off first; landing again does nothing."""
+    kernel, navigation = at_home()
+    for command in (
+        navigation.go_to("cf1", (2, 2, 1)),
+        navigation.act("cf1", "measure", {}, None),
+        navigation.hold("cf1"),
+    ):
+        error = failure(kernel, command)
+        assert error.failure is Failure.REFUSED
+        assert str(error) == "cf1 is on the ground at (1, 1): it must take off first"
+    fly(kernel, navigation.land("cf1"))
+    assert kernel.now == 0
+
+
+def test_an_action_that_no_drone_has_is_refused() -> None:
+    """The app's own actions are not navigation's."""
+    kernel, navigation = hovering()
+    assert failure(kernel, navigation.act("cf1", "dance", {}, None)).failure is Failure.REFUSED
+
+
+def test_no_drone_is_commanded_twice_at_once() -> None:
+    """Two commands at a time are a mistake of the caller, not a failed flight."""
+    kernel, navigation = hovering()
+    kernel.spawn(navigation.hold("cf1"), FLEET, "hover")
+    with pytest.raises(RuntimeError, match=r"cf1 was told to fly to \(2, 2\) while told to hover"):
+        fly(kernel, navigation.go_to("cf1", (2, 2, 1)))
+
+
+def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
+    """In any order of being told, the drone declared first comes first."""
+    kernel, navigation = at_home()
+    arrived: list[str] = []
+
+    async def rise(drone: str) -> None:
+        await navigation.takeoff(drone, 1.2, order())
+        arrived.append(drone)
+
+    for drone, key in (("cf2", 2), ("cf1", 1)):
+        kernel.spawn(rise(drone), FLEET + key, drone)
+    advance(kernel, 5)
+    assert arrived == ["cf1", "cf2"]
+
+
+async def test_the_same_drones_fly_in_real_time() -> None:
+    """On asyncio's clock nothing else changes: a millimetre, and a leg that is cancelled."""
+
+    async def flight(kernel: Kernel, navigation: Team) -> None:
+        telemetry = navigation.telemetry["cf1"]
+        await navigation.takeoff("cf1", 0.0003, order())
+        await navigation.go_to("cf1", (1.001, 1, 0.0003))
+        assert telemetry.location == (1.001, 1, 0.0003)
+        far = kernel.spawn(navigation.go_to("cf1", (9, 1, 0.0003)), FLEET, "far")
+        far.watch(lambda _: None)
+        await kernel.sleep(0.002)
+        far.cancel()
+        hovers_at = telemetry.location
+        await kernel.sleep(0.002)
+        assert telemetry.location == hovers_at
+        assert 1.001 < hovers_at[0] < 9
+        await navigation.land("cf1")
+        assert telemetry.landed
+        assert telemetry.battery_level < 1
+
+    kernel = RealTime()
+    await kernel.run(kernel.spawn(flight(kernel, team(kernel)), FLEET, "flight"))
+
+
+def test_who_stands_somewhere_from_a_moment_to_come_is_there_already() -> None:
+    """A mishap may be due the last digit of a float after the event that brings it."""
+    assert resting((1.0, 2.0, 0.0), 5.0).at(4.9999999) == (1.0, 2.0, 0.0)

@@ -1,0 +1,412 @@
+"""Simulated flights on which something goes wrong, at its very moment, and what comes after."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.alone.faults import Faults, draw
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Item, Point
+from pluto_fleet.shared.fleet.reach import docked
+from pluto_fleet.shared.time.kernel import FLEET
+from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.simulation.drones import SimulatedNavigation
+from tests.library.simulation.flights import (
+    CLIMB,
+    HOME,
+    SCOUT,
+    Team,
+    at_home,
+    failure,
+    fly,
+    hovering,
+    order,
+    team,
+)
+
+FAR = (4.0, 5.0, 1.2)
+PILLS = Item(name="pills", mass=0.004)
+
+
+async def flight(navigation: Team, target: Point = FAR) -> object:
+    """A trip with nothing left out, as the engine flies it."""
+    await navigation.takeoff("cf1", 1.2, order())
+    await navigation.go_to("cf1", target)
+    return await navigation.act("cf1", "take_photo", {}, None)
+
+
+def place_at(seconds: float) -> Point:
+    """Where the flight to FAR is after so many seconds."""
+    if seconds <= CLIMB:
+        return 1, 1, seconds * 0.3
+    part = min(1.0, (seconds - CLIMB) / 10)
+    return 1 + 3 * part, 1 + 4 * part, 1.2
+
+
+@given(st.integers(0, 500))
+def test_a_crash_comes_at_its_moment(seed: int) -> None:
+    """The drone lies below where it was then, keeps its charge, and is lost."""
+    kernel, navigation = at_home(Faults(crash=1), seed=seed)
+    moment = draw(Faults(crash=1), seed, *order()).crash
+    assert moment is not None
+    error = failure(kernel, flight(navigation))
+    x, y, _ = place_at(moment)
+    telemetry = navigation.telemetry["cf1"]
+    assert error.failure is Failure.CRASH
+    assert kernel.now == pytest.approx(moment)
+    assert telemetry.location == pytest.approx((x, y, 0))
+    assert telemetry.landed
+    assert telemetry.battery_level == pytest.approx(1 - moment / 420)
+    assert not fly(kernel, navigation.recover("cf1"))
+    assert kernel.now == pytest.approx(moment)
+    assert failure(kernel, navigation.takeoff("cf1", 1.2, None)).failure is Failure.CRASH
+
+
+@pytest.mark.parametrize("late", [0.0, 0.5, 20.0])
+@given(seed=st.integers(0, 200))
+def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
+    late: float, seed: int
+) -> None:
+    """A command is on its way for a while: what is drawn comes so long after the drone has left."""
+    kernel, navigation = at_home(Faults(link=1), seed=seed)
+    drawn = draw(Faults(link=1), seed, *order()).link
+    assert drawn is not None
+    navigation.bodies["cf1"].begin(draw(Faults(link=1), seed, *order()), kernel.now)
+    fly(kernel, kernel.sleep(late))
+
+    async def flight() -> None:
+        await SimulatedNavigation.takeoff(navigation, "cf1", 1.2)
+        await navigation.go_to("cf1", FAR)
+        await navigation.act("cf1", "take_photo", {}, None)
+
+    assert failure(kernel, flight()).failure is Failure.LINK
+    assert kernel.now == pytest.approx(late + drawn)
+    assert fly(kernel, navigation.reach("cf1"))
+    telemetry = navigation.telemetry["cf1"]
+    assert telemetry.landed
+    assert telemetry.location == pytest.approx((*place_at(drawn)[:2], 0.0))
+
+
+def test_a_drone_that_fails_as_it_leaves_the_ground_stays_there() -> None:
+    """With nothing in its battery it does not rise, and it is not taken to be up there."""
+    kernel, navigation = at_home(battery_level=0.0)
+    error = failure(kernel, navigation.takeoff("cf1", 1.2, order()))
+    telemetry = navigation.telemetry["cf1"]
+    assert error.failure is Failure.BATTERY
+    assert (kernel.now, telemetry.location, telemetry.landed) == (0.0, HOME, True)
+
+
+@pytest.mark.parametrize(
+    ("faults", "sentence"),
+    [
+        (Faults(crash=1), r"cf1 crashed at \([\d.]+, [\d.]+\)"),
+        (Faults(link=1), r"cf1 lost its link at \([\d.]+, [\d.]+\)"),
+        (Faults(battery=1), r"cf1 ran out of battery at \([\d.]+, [\d.]+\)"),
+        (Faults(action=1), r"take_photo failed: cf1 could not do it at \(4, 5\)"),
+    ],
+)
+def test_a_failure_says_what_who_and_where(faults: Faults, sentence: str) -> None:
+    """The sentence names the drone and the place."""
+    kernel = VirtualTime()
+    reason = str(failure(kernel, flight(team(kernel, faults))))
+    assert re.fullmatch(sentence, reason), reason
+
+
+def test_a_crash_loses_the_item() -> None:
+    """What was aboard is gone."""
+    kernel, navigation = at_home(Faults(crash=1))
+
+    async def carry() -> None:
+        await navigation.takeoff("cf1", 1.2, None)
+        await navigation.act("cf1", "pick_item", {}, PILLS)
+        await navigation.takeoff("cf1", 1.2, order())
+        await navigation.hold("cf1")
+
+    assert failure(kernel, carry()).failure is Failure.CRASH
+    assert navigation.carrying("cf1") is None
+
+
+def test_a_lost_link_brings_the_drone_down_by_itself() -> None:
+    """It lands below where it was, takes no commands, and flies home when the link is back."""
+    kernel, navigation = at_home(Faults(link=1), seed=2)
+    telemetry = navigation.telemetry["cf1"]
+    error = failure(kernel, flight(navigation))
+    moment, (x, y, z) = kernel.now, telemetry.location
+    assert error.failure is Failure.LINK
+    assert (x, y, z) == pytest.approx(place_at(moment))
+    assert not telemetry.landed
+    fly(kernel, kernel.sleep(z / 0.3 / 2))
+    assert telemetry.location == pytest.approx((x, y, z / 2))
+    fly(kernel, kernel.sleep(z / 0.3 / 2 + 0.001))
+    assert telemetry.landed
+    assert telemetry.battery_level == pytest.approx(1 - (moment + z / 0.3) / 420)
+    assert failure(kernel, navigation.go_to("cf1", FAR)).failure is Failure.LINK
+    assert fly(kernel, navigation.recover("cf1"))
+    home = (x - 1) ** 2 + (y - 1) ** 2
+    assert kernel.now == pytest.approx(moment + 20 + 2 * CLIMB + home**0.5 / 0.5)
+    assert telemetry.location == pytest.approx(HOME)
+    assert telemetry.landed
+
+
+def test_the_outage_counts_from_the_loss_and_ends_on_the_ground() -> None:
+    """From high up the landing takes longer than the outage: recovery waits for it."""
+    kernel = VirtualTime()
+    high = Airspace(ceiling=30)
+    navigation = team(kernel, Faults(link=1), airspace=high, seed=5)
+
+    async def climb() -> None:
+        await navigation.takeoff("cf1", 24, order(seconds=80))
+        await navigation.hold("cf1")
+
+    failure(kernel, climb())
+    lost, height = kernel.now, navigation.telemetry["cf1"].location[2]
+    assert height > 6
+    assert fly(kernel, navigation.recover("cf1"))
+    assert kernel.now == pytest.approx(lost + max(20, height / 0.3))
+
+
+def test_an_empty_battery_is_noticed_at_that_moment() -> None:
+    """With a hundredth left it flies for 4.2 s and no longer; a person carries it home."""
+    kernel, navigation = at_home(battery_level=0.01)
+    telemetry = navigation.telemetry["cf1"]
+    error = failure(kernel, flight(navigation))
+    assert error.failure is Failure.BATTERY
+    assert str(error) == "cf1 ran out of battery at (1.06, 1.08)"
+    assert kernel.now == pytest.approx(4.2)
+    assert (telemetry.battery_level, telemetry.landed) == (0, True)
+    fly(kernel, kernel.sleep(100))
+    assert telemetry.battery_level == 0
+    assert fly(kernel, navigation.recover("cf1"))
+    assert kernel.now == pytest.approx(404.2)
+    assert telemetry.location == HOME
+    fly(kernel, kernel.sleep(120))
+    assert telemetry.battery_level == pytest.approx(0.1)
+
+
+def test_a_drawn_empty_battery_is_empty() -> None:
+    """A battery that fails has nothing left."""
+    kernel, navigation = at_home(Faults(battery=1))
+    assert failure(kernel, flight(navigation)).failure is Failure.BATTERY
+    assert navigation.telemetry["cf1"].battery_level == 0
+
+
+def test_a_battery_may_run_out_during_the_failsafe_landing() -> None:
+    """Then waiting for the link is not enough: a person must fetch the drone."""
+    kernel = VirtualTime()
+    drawn = draw(Faults(link=1), 2, *order()).link
+    assert drawn is not None
+    navigation = team(kernel, Faults(link=1), seed=2, battery_level=(drawn + 0.5) / 420)
+    assert failure(kernel, flight(navigation)).failure is Failure.LINK
+    assert fly(kernel, navigation.recover("cf1"))
+    assert kernel.now == pytest.approx(drawn + 20 + 300)
+    assert navigation.telemetry["cf1"].location == HOME
+
+
+def test_a_mishap_comes_even_without_commands() -> None:
+    """A drone that was left hovering falls when its battery is empty, and says so later."""
+    kernel, navigation = hovering(battery_level=0.02)
+    fly(kernel, kernel.sleep(1000))
+    telemetry = navigation.telemetry["cf1"]
+    assert telemetry.location == HOME
+    assert telemetry.landed
+    assert failure(kernel, navigation.land("cf1")).failure is Failure.BATTERY
+
+
+def test_a_failed_action_took_its_time() -> None:
+    """The drone is well, hovers, and flies home when it is recovered."""
+    kernel, navigation = at_home(Faults(action=1))
+    assert failure(kernel, flight(navigation)).failure is Failure.ACTION
+    assert kernel.now == pytest.approx(CLIMB + 10 + 1)
+    assert not navigation.telemetry["cf1"].landed
+    assert fly(kernel, navigation.recover("cf1"))
+    assert kernel.now == pytest.approx(CLIMB + 10 + 1 + 10 + CLIMB)
+    assert navigation.telemetry["cf1"].location == HOME
+
+
+def test_a_failed_action_of_the_apps_own_fails_at_once() -> None:
+    """Hovering for it is refused; nothing was picked by an action that failed."""
+    kernel, navigation = hovering(Faults(action=1))
+    error = failure(kernel, navigation.hold("cf1"))
+    assert str(error) == "the action failed: cf1 could not do it at (1, 1)"
+    assert kernel.now == CLIMB
+    assert failure(kernel, navigation.act("cf1", "pick_item", {}, PILLS)).failure is Failure.ACTION
+    assert navigation.carrying("cf1") is None
+
+
+def test_what_goes_wrong_ends_with_the_landing() -> None:
+    """The next flight, without an order, goes well; so does the rest of one that is on its way."""
+    kernel, navigation = at_home(Faults(crash=1, action=1))
+    drawn = draw(Faults(crash=1, action=1), 1, *order(seconds=9999))
+    assert drawn.crash is not None
+    assert drawn.crash > 100
+
+    async def short() -> None:
+        await navigation.takeoff("cf1", 1.2, order(seconds=9999))
+        await navigation.land("cf1")
+        await navigation.takeoff("cf1", 1.2, None)
+        await navigation.act("cf1", "measure", {}, None)
+        await navigation.takeoff("cf1", 1.2, order(seconds=9999))
+        await navigation.takeoff("cf1", 1.2, None)
+        await navigation.act("cf1", "measure", {}, None)
+        await navigation.land("cf1")
+
+    fly(kernel, short())
+
+
+def test_a_new_order_in_the_air_draws_anew() -> None:
+    """A drone that flies on to another trip does not rise, but can crash on that trip."""
+    kernel, navigation = at_home(Faults(crash=1))
+    fly(kernel, navigation.takeoff("cf1", 1.2, None))
+    fly(kernel, kernel.sleep(50))
+    fly(kernel, navigation.takeoff("cf1", 1.2, order("x/y/0/2", seconds=8)))
+    begun = kernel.now
+    assert begun == CLIMB + 50
+    failure(kernel, navigation.hold("cf1"))
+    assert kernel.now == pytest.approx(
+        begun + (draw(Faults(crash=1), 1, *order("x/y/0/2", seconds=8)).crash or 0)
+    )
+
+
+def test_recovery_flies_around_what_may_not_be_entered() -> None:
+    """The way home after a failed action is the map's."""
+    airspace = Airspace(no_fly=(((2, 0), (2.5, 0), (2.5, 5), (2, 5)),))
+    kernel, navigation = at_home(Faults(action=1), airspace=airspace)
+
+    async def around() -> None:
+        await navigation.takeoff("cf1", 1.2, order())
+        for point in airspace.route((1, 1, 1.2), (4, 1, 1.2)) or ():
+            await navigation.go_to("cf1", point)
+        await navigation.act("cf1", "measure", {}, None)
+
+    failure(kernel, around())
+    flown, begun = navigation.flown("cf1"), kernel.now
+    assert fly(kernel, navigation.recover("cf1"))
+    assert navigation.flown("cf1") == pytest.approx(2 * flown)
+    assert kernel.now - begun == pytest.approx(begun - 1)
+
+
+def test_a_drone_without_a_way_home_is_fetched() -> None:
+    """It stays where it is, and a person carries it."""
+    airspace = Airspace(no_fly=(((2, 0), (2.5, 0), (2.5, 20), (2, 20)),))
+    kernel, navigation = at_home(Faults(action=1), airspace=airspace)
+    failure(kernel, flight(navigation))  # a test may fly where no drone may
+    begun = kernel.now
+    assert fly(kernel, navigation.recover("cf1"))
+    assert kernel.now == pytest.approx(begun + 300)
+    assert navigation.telemetry["cf1"].location == HOME
+
+
+def test_a_battery_that_ends_on_the_way_home_is_carried_there() -> None:
+    """Recovery always ends at home, unless the drone crashed."""
+    kernel, navigation = at_home(Faults(action=1), battery_level=18 / 420)
+    assert failure(kernel, flight(navigation)).failure is Failure.ACTION
+    assert fly(kernel, navigation.recover("cf1"))
+    assert kernel.now == pytest.approx(18 + 300)
+    assert navigation.telemetry["cf1"].location == HOME
+
+
+def test_recovery_takes_off_what_is_still_aboard() -> None:
+    """The person at home has the item; the next mission finds it empty."""
+    kernel, navigation = at_home()
+
+    async def aborted() -> None:
+        await navigation.takeoff("cf1", 1.2, None)
+        await navigation.act("cf1", "pick_item", {}, PILLS)
+
+    fly(kernel, aborted())
+    assert fly(kernel, navigation.recover("cf1"))
+    assert navigation.carrying("cf1") is None
+
+
+def test_a_drone_that_is_well_and_at_home_is_recovered_at_once() -> None:
+    """There is nothing to do."""
+    kernel = VirtualTime()
+    assert fly(kernel, team(kernel).recover("cf1"))
+    assert kernel.now == 0
+
+
+def test_a_cancelled_recovery_can_be_asked_for_again() -> None:
+    """Half-way home the drone hovers; asked again, it comes."""
+    kernel, navigation = at_home(Faults(action=1))
+    failure(kernel, flight(navigation))
+    recovery = kernel.spawn(navigation.recover("cf1"), FLEET, "recovery")
+    fly(kernel, kernel.sleep(5))
+    recovery.cancel()
+    assert navigation.telemetry["cf1"].location == pytest.approx((2.5, 3, 1.2))
+    assert fly(kernel, navigation.recover("cf1"))
+    assert navigation.telemetry["cf1"].location == HOME
+
+
+def test_the_same_seed_flies_the_same() -> None:
+    """Times, places, batteries and reasons are equal to the last digit."""
+
+    def history() -> list[object]:
+        kernel = VirtualTime()
+        navigation = team(kernel, Faults(crash=0.1, link=0.3, action=0.3, battery=0.2), seed=11)
+        seen: list[object] = []
+
+        async def life(drone: str) -> None:
+            for attempt in range(12):
+                try:
+                    await navigation.takeoff(drone, 1.2, order(f"{drone}/a/0/{attempt}"))
+                    await navigation.go_to(drone, FAR)
+                    seen.append(await navigation.act(drone, "take_photo", {}, None))
+                except FlightFailed as error:
+                    seen.append(str(error))
+                if not await navigation.recover(drone):
+                    return
+                telemetry = navigation.telemetry[drone]
+                seen.append((kernel.now, telemetry.location, telemetry.battery_level))
+
+        for drone in ("cf1", "cf2"):
+            kernel.spawn(life(drone), FLEET, drone)
+        fly(kernel, kernel.sleep(50_000))
+        return seen
+
+    once = history()
+    assert len(once) > 10
+    assert once == history()
+
+
+@given(st.integers(0, 300), st.floats(0, 80), st.floats(0.005, 1))
+def test_under_all_mishaps_the_drone_comes_home_or_is_lost(
+    seed: int, abort: float, level: float
+) -> None:
+    """Faults, empty batteries and an abort at any moment: it ends docked, or crashed for good."""
+    kernel = VirtualTime()
+    faults = Faults(crash=0.2, link=0.4, action=0.3, battery=0.2)
+    navigation = team(kernel, faults, seed=seed, battery_level=level)
+    telemetry = navigation.telemetry["cf1"]
+    trip = kernel.spawn(flight(navigation), FLEET, "trip")
+    trip.watch(lambda _: None)
+    fly(kernel, kernel.sleep(abort))
+    trip.cancel()
+    home = fly(kernel, navigation.recover("cf1"))
+    assert telemetry.landed
+    assert 0 <= telemetry.battery_level <= 1
+    if home:
+        assert docked(telemetry.location, HOME)
+        before = telemetry.battery_level
+        fly(kernel, kernel.sleep(12))
+        assert telemetry.battery_level == pytest.approx(min(1, before + 0.01))
+        fly(kernel, navigation.takeoff("cf1", 1.2, None))
+    else:
+        assert failure(kernel, navigation.land("cf1")).failure is Failure.CRASH
+    assert navigation.carrying("cf1") is None
+
+
+async def test_faults_come_in_real_time_too() -> None:
+    """A battery with two milliseconds left says so on asyncio's clock."""
+    kernel = RealTime()
+    navigation = team(kernel, battery_level=0.002 / SCOUT.flight_time)
+    trip = kernel.spawn(flight(navigation), FLEET, "trip")
+    trip.watch(lambda _: None)
+    with pytest.raises(FlightFailed, match="cf1 ran out of battery at"):
+        await kernel.run(trip)
+    assert navigation.telemetry["cf1"].landed

@@ -1,0 +1,106 @@
+"""A new user's way, from an empty station to missions that are completed (the thesis's 6.2.1)."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.exercise import COMPLETED, DONE, PLAN, put_in
+from tests.library.station.browser.serving import Station, until
+from tests.library.station.browser.steps import (
+    card_of,
+    drag,
+    new_mission,
+    open_page,
+    row_of,
+    sees_all,
+    start,
+)
+
+NEAR = 0.15
+"""Metres between where an action is dropped and where the plan has it."""
+
+
+MOST_ACTIONS = 16
+"""Presses of the mouse for the whole exercise, with the one on Start."""
+
+COUNTED = """
+addEventListener("pointerdown", () => {
+  sessionStorage.presses = Number(sessionStorage.presses ?? 0) + 1;
+}, true);
+"""
+
+
+def draw(page: Page) -> None:
+    """Make the three missions with the mouse and their names."""
+    for number, (mission, trips) in enumerate(PLAN.items()):
+        if number:
+            new_mission(page, mission)
+        else:
+            page.get_by_role("button", name="Add the first mission").click()
+            expect(page.get_by_role("textbox", name="Name")).to_be_focused()
+            page.keyboard.type(mission)
+            page.keyboard.press("Enter")
+            page.keyboard.press("Enter")  # sets its trips
+        for count, trip in enumerate(trips, start=1):
+            drag(page, trip.action, trip.at)
+            if trip.action == "pick_item":  # its fields come by themselves
+                expect(card_of(page, count).get_by_label("Item")).to_be_focused()
+                page.keyboard.type(trip.item)
+                page.keyboard.press("Tab")
+                page.keyboard.type("8 g")
+
+
+def is_drawn(station: Station) -> None:
+    """Hold the plan that the station keeps against the exercise."""
+    until(lambda: sizes(station) == [3, 2, 4], "the plan is kept")
+    until(lambda: station.get("/api/plan")["problems"] == [], "it is sound")
+    plan = station.get("/api/plan")["missions"]
+    assert [mission["name"] for mission in plan] == list(PLAN)
+    for mission in plan:
+        for kept, drawn in zip(mission["trips"], PLAN[mission["name"]], strict=True):
+            assert kept["action"] == drawn.action
+            assert kept["target"][:2] == pytest.approx(drawn.at, abs=NEAR)
+
+
+def sizes(station: Station) -> list[int]:
+    """Return the number of trips of each mission in the plan."""
+    return [len(mission["trips"]) for mission in station.get("/api/plan")["missions"]]
+
+
+def test_three_missions_are_drawn_by_drag_and_drop_and_flown_to_their_end(
+    serve: Serve, visit: Visit
+) -> None:
+    station = serve("drugs_distribution", "--speed", "60")
+    page = visit(station, prepare=lambda page: page.add_init_script(COUNTED))
+    draw(page)
+    is_drawn(station)
+    start(page)
+    presses = page.evaluate("() => Number(sessionStorage.presses)")
+    assert presses <= MOST_ACTIONS
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE
+    expect(row_of(page, "Mission 3")).to_contain_text("4 of 4")
+
+
+def test_drones_that_are_called_home_in_mid_flight_go_on_where_they_were(
+    serve: Serve, visit: Visit
+) -> None:
+    station = put_in(serve("drugs_distribution"))
+    page = visit(station)
+    start(page)
+    until(lambda: ("pick_item", "Mission 3/1/0") in station.done(), "the pills are picked")
+    page.get_by_role("button", name="Stop: fly home").click()
+    until(lambda: station.phase == "stopped", "all are down")
+    drones = station.now()["drones"]
+    assert {drone["z"] for drone in drones} == {0.0}
+    homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
+    for drone in drones:
+        assert [drone["x"], drone["y"]] == pytest.approx(homes[drone["id"]][:2], abs=NEAR)
+    page.get_by_role("button", name="Resume").click()
+    open_page(page, "Monitor")
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE

@@ -1,0 +1,93 @@
+"""A station shows what its own app's graph needs, and an empty one says what to do."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.serving import until
+from tests.library.station.browser.steps import (
+    add_mission,
+    card_of,
+    drag,
+    labels,
+    missions_listed,
+    open_page,
+    sees_all,
+    start,
+)
+
+
+@pytest.mark.parametrize("app", ["night_ward", "pm10"])
+def test_the_example_plan_of_an_app_is_sound_and_flies_to_its_end(
+    serve: Serve, visit: Visit, app: str
+) -> None:
+    station = serve(app, "--speed", "80")
+    page = visit(station)
+    page.get_by_role("button", name="Use the example plan").click()
+    expect(missions_listed(page).first).to_be_visible()
+    plan = station.get("/api/plan")
+    assert plan["problems"] == []
+    names = tuple(mission["name"] for mission in plan["missions"])
+    assert len(names) >= 2
+    start(page)
+    sees_all(page, "Completed", names)
+    until(lambda: station.phase == "over", "all have ended")
+
+
+def test_going_to_the_trips_first_is_answered_by_select_a_mission(
+    serve: Serve, visit: Visit
+) -> None:
+    """The thesis's testers got lost just here."""
+    page = visit(serve("drugs_distribution"))
+    open_page(page, "Trips")
+    trips = page.get_by_role("tabpanel", name="Trips")
+    first = trips.get_by_role("region", name="What to do first")
+    expect(first).to_contain_text("mission")
+    first.get_by_role("button", name="New mission").click()
+    expect(first).to_be_hidden()
+    open_page(page, "Monitor")
+    expect(page.get_by_role("tabpanel", name="Monitor")).to_contain_text("mission")
+
+
+def fields(page: Page) -> tuple[set[str], set[str]]:
+    """Draw a mission with one trip; return what can be filled in of both."""
+    add_mission(page, "Look")
+    drag(page, "measure", (3.0, 5.0))
+    expect(card_of(page, 1).get_by_label("Name")).to_be_visible()
+    trip = labels(page)
+    open_page(page, "Missions")
+    expect(page.get_by_role("button", name="Set trips")).to_be_visible()
+    mission = labels(page)
+    return mission, trip
+
+
+def test_an_app_without_clock_repeater_timer_or_priorities_shows_none_of_their_fields(
+    serve: Serve, visit: Visit
+) -> None:
+    mission, trip = fields(visit(serve("drugs_distribution")))
+    assert mission == {"Name"}
+    names = {"Mission", "Name of the mission"}
+    assert trip == {*names, "Name", "x (m)", "y (m)", "Height (m)", "Quantity"}
+
+
+def test_an_app_with_all_of_them_shows_all_of_their_fields(serve: Serve, visit: Visit) -> None:
+    mission, trip = fields(visit(serve("alfalfa")))
+    assert mission >= {"Name", "Safe time", "Repeat", "Evaluator", "Start at", "Repeat every"}
+    assert trip >= {"Delay", "Priority"}
+
+
+def test_what_is_not_needed_is_not_in_what_the_station_says_of_its_app(serve: Serve) -> None:
+    """Nor is there any evaluator to choose, nor an action that no drone can do."""
+    app = serve("drugs_distribution").get("/api/app")
+    assert app["fields"] == {"mission": [], "trip": []}
+    assert app["evaluators"] == []
+    assert {action["name"] for action in app["actions"]} == {
+        "pick_item",
+        "release_item",
+        "take_photo",
+        "measure",
+    }
+    assert not app["retries"]
+    assert not app["rounds"]

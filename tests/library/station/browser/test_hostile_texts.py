@@ -1,0 +1,127 @@
+"""Script, marks and endless names in every text: they are shown as they are, and nothing runs."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import Page, expect
+
+from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.serving import Station
+from tests.library.station.browser.steps import missions_listed, open_page, sees_all, start
+
+SCRIPT = "<img src=x onerror=window.ran=1>"
+HOSTILE = (
+    SCRIPT,
+    "</script><script>window.ran=1</script>",
+    "\"'><svg onload=window.ran=1>",
+    "javascript:window.ran=1",
+    "{{7*7}} ${7*7} %s %n",
+    "&lt;b&gt; &amp;",
+)
+
+
+def mission(number: int, text: str) -> dict[str, object]:
+    """Return a mission with a text in each place that holds one."""
+    trip = {"name": text, "item": None}
+    return {
+        "key": f"mission-{number}",
+        "name": text,
+        "trips": [
+            {
+                **trip,
+                "key": f"measure-{number}",
+                "action": "measure",
+                "target": [3.0, 5.0],
+                "parameters": {"quantity": text},
+            },
+            {
+                **trip,
+                "key": f"pick-item-{number}",
+                "name": f"{text} pick",
+                "action": "pick_item",
+                "target": [2.5, 3.0],
+                "parameters": {},
+                "item": {"name": text, "mass": "1 g"},
+            },
+            {
+                **trip,
+                "key": f"release-item-{number}",
+                "name": f"{text} release",
+                "action": "release_item",
+                "target": [3.0, 5.0],
+                "parameters": {},
+                "item": {"name": text, "mass": "1 g"},
+            },
+        ],
+    }
+
+
+def put(station: Station, texts: tuple[str, ...]) -> None:
+    """Give the station a plan with these texts."""
+    missions = [mission(number, text) for number, text in enumerate(texts)]
+    revision = station.get("/api/plan")["revision"]
+    status, answer = station.put("/api/plan", {"revision": revision, "missions": missions})
+    assert status == 200, answer
+
+
+def nothing_ran(page: Page) -> None:
+    """No script of theirs ran, and no element is theirs."""
+    assert page.evaluate("() => window.ran === undefined")
+    assert page.evaluate("() => document.querySelectorAll('img[onerror], svg[onload]').length") == 0
+    assert page.evaluate("() => [...document.scripts].map((one) => one.type)") == [
+        "importmap",
+        "module",
+    ]
+
+
+def test_script_in_every_text_is_shown_as_text_and_never_runs(serve: Serve, visit: Visit) -> None:
+    """In the plan, in the flight, in the console, and in what is said of commands."""
+    station = serve("drugs_distribution", "--speed", "60")
+    put(station, HOSTILE)
+    page = visit(station)
+    for text in HOSTILE:
+        expect(page.get_by_text(text, exact=True).first).to_be_visible()
+    page.get_by_text(HOSTILE[1], exact=True).first.dblclick()  # opens its trips
+    expect(page.get_by_role("tab", name="Trips")).to_have_attribute("aria-selected", "true")
+    nothing_ran(page)
+    start(page)
+    open_page(page, "Monitor")
+    sees_all(page, "Completed", HOSTILE)
+    page.get_by_role("button", name=SCRIPT).first.click()
+    nothing_ran(page)
+    page.get_by_role("tab", name="Console").click()
+    expect(page.get_by_role("log")).to_contain_text(SCRIPT)
+    for name in ("Missions", "Trips", "Monitor", "Help"):
+        open_page(page, name)
+        nothing_ran(page)
+
+
+def test_a_text_that_turns_the_writing_around_is_refused_or_kept_where_it_is(
+    serve: Serve, visit: Visit
+) -> None:
+    """No mission can make the words beside it read otherwise."""
+    station = serve("drugs_distribution")
+    put(station, ("safe \u202egpj.exe", "zero\u200bwidth", "line\u2028end"))
+    page = visit(station)
+    expect(missions_listed(page)).to_have_count(3)
+    problems = [one["text"] for one in station.get("/api/plan")["problems"]]
+    isolated = page.evaluate(
+        "() => [...document.querySelectorAll('[role=option] strong')]"
+        ".every((one) => getComputedStyle(one).unicodeBidi.match(/isolate|plaintext/))"
+    )
+    assert isolated or len(problems) >= 3
+
+
+def test_a_name_without_end_breaks_no_page(serve: Serve, visit: Visit) -> None:
+    """Sixty letters without a space: nothing is pushed out of sight."""
+    station = serve("drugs_distribution")
+    put(station, ("W" * 60, "iii"))
+    page = visit(station)
+    for name in ("Missions", "Trips", "Monitor"):
+        open_page(page, name)
+        wide = page.evaluate("() => document.documentElement.scrollWidth - innerWidth")
+        assert wide <= 0, name
+    start(page)
+    expect(page.get_by_role("list", name="Missions")).to_contain_text(re.compile("W{20}"))
+    assert page.evaluate("() => document.documentElement.scrollWidth - innerWidth") <= 0

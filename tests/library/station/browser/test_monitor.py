@@ -1,0 +1,230 @@
+"""The page Monitor: what one sees of the missions, and what one can tell them while they fly."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.serving import Station, until
+from tests.library.station.browser.steps import open_page, row_of, start
+from tests.paths import ROOT
+
+FIELD = ROOT / "examples" / "alfalfa" / "missions.toml"
+MISSIONS = ("North arc", "South-west arc", "South-east arc")
+
+
+@pytest.fixture
+def flying(serve: Serve, visit: Visit) -> Iterator[tuple[Station, Page]]:
+    """The field of alfalfa, with all three missions under way."""
+    station = serve("alfalfa", "--missions", str(FIELD), "--speed", "3")
+    page = visit(station)
+    start(page)
+    open_page(page, "Monitor")
+    for mission in MISSIONS:
+        expect(row_of(page, mission)).to_be_visible()
+    yield station, page
+
+
+def row(station: Station, kind: str, key: str, name: str) -> dict[str, Any]:
+    """Return what the station shows of a mission or a drone."""
+    return next(each for each in station.now()[kind] if each[key] == name)
+
+
+def mission(station: Station, name: str) -> dict[str, Any]:
+    return row(station, "missions", "name", name)
+
+
+def lists(page: Page, name: str) -> Locator:
+    """Open one of the lists beside the map."""
+    page.get_by_role("tablist", name="Lists beside the map").get_by_role("tab", name=name).click()
+    return page.get_by_role("tabpanel", name=name, exact=True)
+
+
+def card(page: Page, drone: str) -> Locator:
+    """Open the card of a drone by its line in the list."""
+    lists(page, "Drones").get_by_role("button", name=drone).click()
+    return page.get_by_role("region", name=f"Drone {drone}")
+
+
+def opened(page: Page, name: str) -> None:
+    """Open a mission's line."""
+    opener = row_of(page, name).locator(".opener")
+    opener.click()
+    expect(opener).to_have_attribute("aria-expanded", "true")
+
+
+def holds(station: Station, name: str, what: Callable[[dict[str, Any]], bool]) -> None:
+    until(lambda: what(mission(station, name)), f"{name} is so")
+
+
+def test_a_mission_is_paused_goes_on_and_is_cancelled_at_the_second_press(
+    flying: tuple[Station, Page],
+) -> None:
+    station, page = flying
+    opened(page, "North arc")
+    page.get_by_role("button", name="Pause", exact=True).click()
+    expect(row_of(page, "North arc")).to_contain_text("Paused")
+    page.get_by_role("button", name="Go on", exact=True).click()
+    expect(row_of(page, "North arc")).not_to_contain_text("Paused")
+    page.get_by_role("button", name="Cancel mission").click()
+    assert mission(station, "North arc")["status"] != "CANCELLED"
+    page.get_by_role("button", name="Really cancel mission?").click()
+    expect(row_of(page, "North arc")).to_contain_text("Cancelled")
+    expect(row_of(page, "South-east arc")).not_to_contain_text("Cancelled")
+
+
+def test_a_trip_is_weighed_anew_and_another_left_out_while_the_mission_flies(
+    flying: tuple[Station, Page],
+) -> None:
+    station, page = flying
+    opened(page, "South-west arc")
+    page.get_by_role("button", name="Raise the priority of trip C").click()
+    holds(
+        station,
+        "South-west arc",
+        lambda one: ["C", 1] in [[t["name"], t["priority"]] for t in one["trips"]],
+    )
+    page.get_by_role("button", name="Skip trip D").click()
+    holds(station, "South-west arc", lambda one: one["total"] == 3)
+    expect(page.get_by_role("button", name="Skip trip D")).to_have_count(0)
+
+
+def test_a_drone_is_retired_and_brought_back(flying: tuple[Station, Page]) -> None:
+    station, page = flying
+    its = card(page, "carrier2")
+    its.get_by_role("button", name="Retire").click()
+    expect(its).to_contain_text("Retired")
+    assert row(station, "drones", "id", "carrier2")["retired"]
+    its.get_by_role("button", name="Bring back").click()
+    until(lambda: not row(station, "drones", "id", "carrier2")["retired"], "it is back")
+    expect(its.get_by_role("button", name="Retire")).to_be_visible()
+
+
+def test_a_drone_pressed_on_the_map_opens_its_card_and_leads_to_its_mission(
+    flying: tuple[Station, Page],
+) -> None:
+    _, page = flying
+    page.locator(".drone[data-status=BUSY] .drone-mark").first.focus()
+    page.keyboard.press("Enter")
+    its = page.locator(".drone-card").get_by_role("button", name="arc")
+    name = its.inner_text()
+    its.click()
+    lists(page, "Missions")
+    expect(row_of(page, name).locator(".opener")).to_have_attribute("aria-expanded", "true")
+
+
+def test_the_graph_is_for_those_who_want_it_and_says_what_each_block_does(
+    flying: tuple[Station, Page],
+) -> None:
+    station, page = flying
+    expect(page.get_by_role("tab", name="What the app does")).to_have_count(0)
+    open_page(page, "Help")
+    page.get_by_label("Show the graph of the app on the Monitor").check()
+    open_page(page, "Monitor")
+    opened(page, "South-east arc")
+    graph = lists(page, "What the app does")
+    blocks = {block["name"]: block for block in station.get("/api/app")["graph"]["blocks"]}
+    assert graph.get_by_role("button").count() == len(blocks)
+    graph.get_by_role("button", name="allocate:").focus()
+    expect(graph.locator(".caption")).to_contain_text(blocks["allocate"]["doc"])
+    expect(graph.locator(".token.picked").first).to_have_text("3")
+
+
+WAYS = """
+async ([graph, ways]) => {
+  const { wayFinder } = await import("/pages/monitor/graph_way.js");
+  const way = wayFinder(graph);
+  return ways.map((given) => way(...given).map((edge) => edge.target).join(" "));
+}
+"""
+
+
+def test_only_arrows_are_lit_that_the_mission_can_have_taken(serve: Serve, visit: Visit) -> None:
+    """A mission is seen ten times a second only, and may pass several blocks in between."""
+    station = serve("alfalfa")
+    flight = ["watch", "timer"]
+    expected = {
+        ("COMPLETED", "end", "COMPLETED"): "first judge again end",
+        ("COMPLETED", "allocate", "STANDBY"): "first judge allocate",
+        ("COMPLETED", "wait", "STANDBY"): "first judge again wait",
+        ("STANDBY", "allocate", "STANDBY"): "first allocate",
+        ("FAILED", "allocate", "STANDBY"): "first retry allocate",
+        ("FAILED", "end", "FAILED"): "first retry end",
+        ("STANDBY", "end", "CANCELLED"): "",
+    }
+    ways = [[flight, *given] for given in expected]
+    found = visit(station).evaluate(WAYS, [station.get("/api/app")["graph"], ways])
+    assert found == list(expected.values())
+
+
+def test_lines_are_found_in_the_console_and_all_are_downloaded(
+    flying: tuple[Station, Page], tmp_path: Path
+) -> None:
+    _, page = flying
+    console = lists(page, "Console")
+    expect(console.get_by_role("log")).to_contain_text("South-east arc")
+    console.get_by_label("Find text").fill("launched")
+    expect(console.get_by_role("log")).to_contain_text("trip A launched")
+    expect(console.get_by_role("log")).not_to_contain_text("completed")
+    with page.expect_download() as download:
+        console.get_by_role("button", name="Download the console").click()
+    assert download.value.suggested_filename == "console.txt"
+    download.value.save_as(tmp_path / "console.txt")
+    assert "South-east arc" in (tmp_path / "console.txt").read_text()
+
+
+def test_missions_are_sifted_and_walked_through_by_keys(flying: tuple[Station, Page]) -> None:
+    _, page = flying
+    names = page.get_by_role("list", name="Missions").locator(".opener .called")
+    which = page.get_by_role("group", name="Which missions")
+    which.get_by_role("button", name="Ended 0").click()
+    expect(names).to_have_count(0)
+    which.get_by_role("button", name="All 3").click()
+    expect(names).to_have_text(list(MISSIONS))
+    row_of(page, MISSIONS[0]).locator(".opener").focus()
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    expect(row_of(page, MISSIONS[1]).locator(".opener")).to_be_focused()
+    expect(page.get_by_role("button", name="Pause", exact=True)).to_be_visible()
+
+
+def test_lists_that_were_folded_stay_so_and_the_map_takes_their_room(
+    flying: tuple[Station, Page],
+) -> None:
+    _, page = flying
+    picture = page.locator(".floor-picture")
+    before = picture.bounding_box()
+    page.get_by_role("button", name="Hide the lists").click()
+    after = picture.bounding_box()
+    assert before and after and after["width"] > before["width"] + 300
+    page.reload()
+    expect(page.get_by_role("button", name="Show the lists")).to_be_visible()
+    expect(page.get_by_role("list", name="Missions")).to_be_hidden()
+
+
+def test_a_drone_joins_by_a_form(flying: tuple[Station, Page]) -> None:
+    station, page = flying
+    drones = lists(page, "Drones")
+    drones.get_by_text("Add a drone to this flight").click()
+    drones.get_by_label("Its name").fill("late")
+    drones.get_by_label("Home, x in metres").fill("1")
+    drones.get_by_label("Home, y in metres").fill("1")
+    drones.get_by_role("button", name="Let it join").click()
+    expect(card(page, "late")).to_be_visible()
+    assert station.get("/api/app")["drones"][-1]["home"] == [1.0, 1.0, 0.0]
+
+
+def test_the_fall_of_a_drone_is_rehearsed_on_its_card(flying: tuple[Station, Page]) -> None:
+    station, page = flying
+    until(lambda: bool(mission(station, "North arc")["drone"]), "North arc has a drone")
+    drone = mission(station, "North arc")["drone"]
+    until(lambda: (row(station, "drones", "id", drone)["z"] or 0.0) > 0.3, "it is in the air")
+    its = card(page, drone)
+    its.get_by_text("Rehearse a mishap").click()
+    its.get_by_role("button", name="It falls").click()
+    until(lambda: row(station, "drones", "id", drone)["status"] == "LOST", "it is lost")

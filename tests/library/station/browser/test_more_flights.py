@@ -1,0 +1,99 @@
+"""One flight after another, and what one can do about those that fly or were stopped."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Route, expect
+
+from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.exercise import COMPLETED, put_in
+from tests.library.station.browser.serving import until
+from tests.library.station.browser.steps import (
+    add_mission,
+    drag,
+    missions_listed,
+    open_page,
+    row_of,
+    sees_all,
+    settled,
+    start,
+)
+
+
+def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
+    serve: Serve, visit: Visit
+) -> None:
+    station = put_in(serve("drugs_distribution"))
+    page = visit(station)
+    start(page)
+    expect(row_of(page, "Mission 1")).to_be_visible()  # it leads to the Monitor
+    add_mission(page, "Late")
+    drag(page, "take_photo", (3.0, 5.0))
+    expect(page.get_by_role("button", name="Start 1 new mission")).to_be_visible()
+    start(page)
+    sees_all(page, "Completed", (*COMPLETED, "Late"))
+    assert station.statuses() == {**COMPLETED, "Late": "COMPLETED"}
+    assert len(station.journals()) == 1
+
+
+def test_a_start_that_is_answered_late_does_not_take_one_away_from_where_one_has_gone(
+    serve: Serve, visit: Visit
+) -> None:
+    station = put_in(serve("drugs_distribution"))
+    page = visit(station)
+    held: list[Route] = []
+    page.route("**/api/start", lambda route: held.append(route))
+    with page.expect_request("**/api/start"):
+        start(page)
+    open_page(page, "Trips")
+    held[0].continue_()
+    expect(page.get_by_role("status").get_by_text("missions started")).to_be_visible()
+    settled(page)
+    expect(page.get_by_role("tab", name="Trips")).to_have_attribute("aria-selected", "true")
+
+
+@pytest.mark.long  # whole flights, as in tests/library/station/flights/test_again.py
+def test_the_whole_plan_flies_again_when_all_has_ended_and_nothing_old_is_shown(
+    serve: Serve, visit: Visit
+) -> None:
+    station = put_in(serve("drugs_distribution"))
+    page = visit(station)
+    start(page)
+    until(lambda: station.phase == "over", "the first flight is over")
+    sees_all(page, "Completed")
+    start(page)
+    expect(row_of(page, "Mission 1")).not_to_contain_text("Completed")
+    until(lambda: len(station.journals()) == 2, "another flight has begun")
+    sees_all(page, "Completed")
+    assert set(station.done().values()) == {2}
+
+
+@pytest.mark.long  # whole flights, as in tests/library/station/flights/test_again.py
+def test_what_was_stopped_is_put_away_and_the_plan_begins_anew(serve: Serve, visit: Visit) -> None:
+    """Its missions can be changed again."""
+    station = put_in(serve("drugs_distribution"))
+    page = visit(station)
+    start(page)
+    until(lambda: station.phase == "flying", "it flies")
+    page.get_by_role("button", name="Stop: land now").click()
+    page.get_by_role("button", name="Put away").click()
+    until(lambda: station.phase == "idle", "it is put away")
+    open_page(page, "Missions")
+    missions_listed(page).first.click()
+    page.get_by_role("button", name="Delete").click()
+    expect(missions_listed(page)).to_have_count(2)
+    start(page)
+    sees_all(page, "Completed", ("Mission 2", "Mission 3"))
+
+
+@pytest.mark.long  # a slow flight; test_first_flight.py calls drones home
+def test_landing_now_is_heard_while_all_fly_home(serve: Serve, visit: Visit) -> None:
+    station = put_in(serve("drugs_distribution", "--speed", "5"))
+    page = visit(station)
+    start(page)
+    until(lambda: any(one["x"] > 6 for one in station.now()["drones"]), "one is far away")
+    page.get_by_role("button", name="Stop: fly home").click()
+    page.get_by_role("button", name="Stop: land now").click()
+    until(lambda: station.phase == "stopped", "all are down")
+    assert any(one["x"] > 2 for one in station.now()["drones"])
+    expect(page.get_by_role("button", name="Resume")).to_be_visible()

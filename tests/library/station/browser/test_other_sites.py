@@ -1,0 +1,174 @@
+"""A page of another site, in the same browser, can neither command nor read the station."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from threading import Thread
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, BrowserType, Page
+
+from tests.library.station.browser.chrome import ARGUMENTS, chromium
+from tests.library.station.browser.conftest import Serve
+from tests.library.station.browser.exercise import put_in
+from tests.library.station.browser.serving import Station, until
+
+TRIES = """async (station) => {
+  const stop = JSON.stringify({ id: "evil", how: "land" });
+  const outcome = (attempt) => attempt.then(
+    async (answer) => `${answer.type} ${answer.status} ${await answer.text()}`,
+    () => "nothing",
+  );
+  const post = (more) => outcome(fetch(`${station}/api/stop`, { method: "POST", body: stop, ...more }));
+  const loaded = (made) => new Promise((done) => {
+    made.onload = () => done("loaded");
+    made.onerror = () => done("nothing");
+    document.body.append(made);
+  });
+  const element = (name, given) => Object.assign(document.createElement(name), given);
+  const form = element("form", { method: "POST", action: `${station}/api/stop`, target: "inside",
+    enctype: "text/plain" });
+  form.append(element("input", { name: stop.slice(0, -1) + ', "x": "', value: '"}' }));
+  const inside = element("iframe", { name: "inside" });
+  document.body.append(form, inside);
+  const sent = new Promise((done) => { inside.onload = done; });
+  form.submit();
+  await sent;
+  const socket = await new Promise((done) => {
+    const line = new WebSocket(`${station.replace("http", "ws")}/api/live`);
+    line.onopen = () => line.send(JSON.stringify({ flight: "", seen: 0, log: 0, results: 0 }));
+    line.onmessage = (event) => done(event.data);
+    line.onerror = () => done("nothing");
+  });
+  const frame = element("iframe", { src: `${station}/` });
+  await loaded(frame);
+  let seen = "nothing";
+  try { seen = frame.contentDocument.body.textContent || "nothing"; } catch { /* as it should be */ }
+  return {
+    plain: await post({ mode: "no-cors" }),
+    typed: await post({ headers: { "Content-Type": "application/json", "X-Pluto": "1" } }),
+    beacon: navigator.sendBeacon(`${station}/api/stop`, stop),
+    socket,
+    frame: seen,
+    app: await outcome(fetch(`${station}/api/app`)),
+    plan: await outcome(fetch(`${station}/api/plan`, { mode: "no-cors" })),
+    script: await loaded(element("script", { src: `${station}/api/plan` })),
+    map: await loaded(element("img", { src: `${station}/map` })),
+  };
+}"""
+
+
+@pytest.fixture(scope="module")
+def elsewhere() -> Iterator[int]:
+    """Another web server of this machine, with an empty page; its port."""
+
+    class Empty(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            self.send_response(200)
+            self.send_header("Content-Type", "text/html")
+            self.end_headers()
+            self.wfile.write(b"<!doctype html><body>")
+
+        def log_message(self, format: str, *args: object) -> None:
+            """Say nothing."""
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Empty) as server:
+        thread = Thread(target=server.serve_forever)
+        thread.start()
+        yield server.server_address[1]
+        server.shutdown()
+        thread.join()
+
+
+@pytest.fixture
+def station(serve: Serve) -> Station:
+    """A station whose missions fly, slowly."""
+    station = put_in(serve("drugs_distribution", "--speed", "1"))
+    assert station.post("/api/start", {"id": "start"})[0] == 200
+    until(lambda: station.phase == "flying", "the missions fly")
+    return station
+
+
+@pytest.fixture
+def page(browser: Browser) -> Iterator[Page]:
+    """A page that is not watched: it is meant to fail."""
+    context = browser.new_context()
+    yield context.new_page()
+    context.close()
+
+
+@pytest.mark.parametrize("host", ["localhost", "127.0.0.1"])  # another site; another port of ours
+def test_a_page_elsewhere_can_neither_stop_nor_see_what_flies(
+    station: Station, page: Page, elsewhere: int, host: str
+) -> None:
+    page.goto(f"http://{host}:{elsewhere}/")
+    came: dict[str, Any] = page.evaluate(TRIES, station.url.rstrip("/"))
+    assert came == {
+        "plain": came["plain"],
+        "typed": "nothing",
+        "beacon": True,  # it says no more than that it was sent
+        "socket": "nothing",
+        "frame": "nothing",
+        "app": "nothing",
+        "plan": came["plan"],
+        "script": "nothing",
+        "map": "nothing",
+    }
+    assert {came["plain"], came["plan"]} <= {"nothing", "opaque 0 "}
+    assert station.phase == "flying"
+    refused = [line for line in station.audit() if "refused" in line]
+    assert {"POST /api/stop", "OPTIONS /api/stop", "GET /api/live", "GET /api/plan"} <= {
+        line["refused"] for line in refused
+    }
+    assert {line["status"] for line in refused} == {403}
+    assert not any("evil" in json.dumps(line.get("given")) for line in station.audit())
+
+
+def test_a_name_that_was_bent_to_this_machine_shows_nothing(
+    station: Station, browser_type: BrowserType
+) -> None:
+    bent = [
+        "--host-resolver-rules=MAP rebound.example 127.0.0.1",
+        "--disable-features=LocalNetworkAccessChecks",  # not every browser asks first
+    ]
+    with browser_type.launch(executable_path=chromium(), args=[*ARGUMENTS, *bent]) as browser:
+        page = browser.new_page()
+        site = f"http://rebound.example:{station.port}"
+        page.route(f"{site}/before", lambda route: route.fulfill(body="<p>Before it was bent</p>"))
+        page.goto(f"{site}/before")
+        came = page.evaluate(
+            """async () => Promise.all(["/api/app", "/api/stop"].map(async (path) => (
+              await fetch(path, path === "/api/app" ? {} : {
+                method: "POST", body: '{"id": "evil", "how": "land"}',
+                headers: { "Content-Type": "application/json", "X-Pluto": "1" },
+              })).status))"""
+        )
+        assert came == [403, 403]
+        answer = page.goto(f"{site}/")
+        assert answer is not None and answer.status == 403
+    assert station.phase == "flying"
+
+
+HOLDS = """async (token) => {
+  const line = () => new WebSocket(`ws://${location.host}/api/live`);
+  const open = (one) => new Promise((done) => { one.onopen = done; });
+  await Promise.all(Array.from({ length: 40 }, () => open(line())));
+  const polls = Array.from({ length: 40 }, () => fetch("/api/live").then((answer) => answer.status));
+  const asked = { flight: "", seen: 0, log: 0, results: 0, token };
+  const mine = line();
+  await open(mine);
+  const told = new Promise((done) => { mine.onmessage = () => done(1); mine.onclose = () => done(0); });
+  mine.send(JSON.stringify(asked));
+  return { told: await told, polls: [...new Set(await Promise.all(polls))] };
+}"""
+
+
+def test_a_tab_without_the_token_takes_no_place_of_one_with_it(serve: Serve, page: Page) -> None:
+    """It holds forty connections that say nothing, and asks for forty answers."""
+    station = serve("drugs_distribution", "--name", "ward.example")
+    page.goto(f"http://127.0.0.1:{station.port}/")
+    _, _, token = station.url.partition("#token=")
+    assert page.evaluate(HOLDS, token) == {"told": 1, "polls": [401]}

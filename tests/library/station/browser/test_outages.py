@@ -1,0 +1,249 @@
+"""A browser, the network or the server that dies in mid-flight costs no mission, and does nothing twice."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, Route, expect
+
+from tests.library.station.browser.cable import Cable
+from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.exercise import COMPLETED, DONE, put_in
+from tests.library.station.browser.serving import Station, until
+from tests.library.station.browser.steps import (
+    add_mission,
+    drag,
+    open_page,
+    row_of,
+    sees_all,
+    start,
+)
+from tests.library.station.browser.watched import Watch
+
+
+@pytest.fixture
+def station(serve: Serve) -> Station:
+    """A station with the exercise's plan."""
+    return put_in(serve("drugs_distribution"))
+
+
+@pytest.fixture
+def cable(station: Station) -> Iterator[Cable]:
+    """The network to that station."""
+    cable = Cable(station.port)
+    yield cable
+    cable.close()
+
+
+def lost(page: Page) -> Locator:
+    """Return what says that the connection is lost."""
+    return page.get_by_role("alert").filter(has_text="Connection lost")
+
+
+def flies_until_the_pills_are_picked(page: Page, station: Station) -> None:
+    """Start, and wait until the flight is in its middle."""
+    start(page)
+    until(lambda: ("pick_item", "Mission 3/1/0") in station.done(), "the pills are picked")
+
+
+def completes_all_once(page: Page, station: Station) -> None:
+    """Watch all missions to their end; nothing was done twice."""
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE
+
+
+@pytest.mark.long  # a whole flight once more
+def test_a_browser_that_is_closed_changes_nothing_and_another_one_sees_the_flight(
+    station: Station, visit: Visit
+) -> None:
+    page = visit(station)
+    flies_until_the_pills_are_picked(page, station)
+    page.context.close()
+    again = visit(station)
+    open_page(again, "Monitor")
+    completes_all_once(again, station)
+
+
+def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_itself(
+    station: Station, visit: Visit, watch: Watch, cable: Cable
+) -> None:
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    page = visit(station, port=cable.port)
+    flies_until_the_pills_are_picked(page, station)
+    cable.cut()
+    expect(lost(page)).to_be_visible()
+    cable.mend()
+    expect(lost(page)).to_have_count(0)
+    cable.hush()
+    expect(lost(page)).to_be_visible()
+    cable.mend()
+    completes_all_once(page, station)
+
+
+def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    page = visit(station)
+    flies_until_the_pills_are_picked(page, station)
+    station.kill()
+    expect(lost(page)).to_be_visible()
+    station.start()
+    resume = page.get_by_role("button", name="Resume")
+    expect(resume).to_be_visible()
+    assert station.phase == "interrupted"  # it launches nothing by itself
+    resume.click()
+    completes_all_once(page, station)
+
+
+@pytest.mark.long  # a whole flight once more
+def test_a_server_that_is_supervised_goes_on_by_itself(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    station = put_in(serve("drugs_distribution", "--supervise"))
+    page = visit(station)
+    flies_until_the_pills_are_picked(page, station)
+    os.kill(brain_of(station.pid), signal.SIGKILL)
+    completes_all_once(page, station)
+
+
+def brain_of(supervisor: int) -> int:
+    """Return the process that a supervisor has started to serve."""
+    children = Path(f"/proc/{supervisor}/task/{supervisor}/children").read_text().split()
+    (brain,) = (int(child) for child in children if _serves(int(child)))
+    return brain
+
+
+def _serves(process: int) -> bool:
+    return b"serve" in Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
+
+
+@pytest.mark.long  # a whole flight once more
+def test_an_answer_that_is_lost_starts_nothing_twice(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    """The page asks again, and names the same command."""
+    watch.expected += ["ERR_", "Failed to load resource"]
+    page = visit(station)
+    asked: list[str] = []
+    page.route("**/api/start", lambda route: _lose_first(route, asked))
+    start(page)
+    open_page(page, "Monitor")
+    sees_all(page, "Completed")
+    assert len(asked) == 2
+    assert asked[0] == asked[1]
+    assert len(station.journals()) == 1
+    assert station.done() == DONE
+
+
+@pytest.mark.long  # a whole flight once more
+def test_an_answer_that_is_lost_skips_one_trip_and_not_two(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["ERR_", "Failed to load resource"]
+    page = visit(station)
+    asked: list[str] = []
+    page.route("**/api/skip", lambda route: _lose_first(route, asked))
+    start(page)
+    row_of(page, "Mission 1").get_by_role("button", name="Mission 1").click()
+    page.get_by_role("button", name="Skip").last.click()
+    sees_all(page, "Completed")
+    assert len(asked) == 2
+    assert asked[0] == asked[1]
+    (mission,) = (row for row in station.now()["missions"] if row["name"] == "Mission 1")
+    assert [trip["status"] for trip in mission["trips"]] == ["COMPLETED", "COMPLETED"]
+
+
+def test_an_answer_that_is_lost_draws_nothing_twice(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["ERR_", "Failed to load resource"]
+    station = serve("drugs_distribution")
+    page = visit(station)
+    asked: list[str] = []
+    page.route("**/api/plan", lambda route: _lose_first(route, asked))
+    with page.expect_response(lambda answer: answer.url.endswith("/api/plan") and answer.ok):
+        add_mission(page, "Once")
+    page.unroute_all()
+    drag(page, "measure", (3.0, 5.0))
+    assert len(asked) > 1
+    until(lambda: trips_of(station) == {"Once": 1}, "it is kept, and its trip")
+
+
+def test_what_is_drawn_without_a_network_is_kept_and_saved_when_it_is_back(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    station = serve("drugs_distribution")
+    cable = Cable(station.port)
+    page = visit(station, port=cable.port)
+    add_mission(page, "Before")
+    until(lambda: named(station) == ["Before"], "it is kept")
+    page.locator("html[data-loaded=all]").wait_for()
+    cable.cut()
+    add_mission(page, "Meanwhile")
+    drag(page, "measure", (3.0, 5.0))
+    expect(page.get_by_text("Not saved yet")).to_be_visible()
+    assert named(station) == ["Before"]
+    cable.mend()
+    until(lambda: named(station) == ["Before", "Meanwhile"], "it is saved by itself")
+    expect(page.get_by_text("Not saved yet")).to_be_hidden()
+    cable.close()
+
+
+def trips_of(station: Station) -> dict[str, int]:
+    """Return how many trips each mission of the plan has."""
+    return {one["name"]: len(one["trips"]) for one in station.get("/api/plan")["missions"]}
+
+
+def named(station: Station) -> list[str]:
+    """Return what the missions of the plan are called."""
+    return [mission["name"] for mission in station.get("/api/plan")["missions"]]
+
+
+def _lose_first(route: Route, asked: list[str]) -> None:
+    """Let the station hear it, and the page no answer; the next one goes as it should."""
+    asked.append(route.request.post_data or "")
+    if len(asked) == 1:
+        route.fetch()
+        route.abort()
+    else:
+        route.continue_()
+
+
+@pytest.mark.long  # a whole flight once more
+def test_a_page_without_websockets_asks_and_asks(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    """A proxy may let none through: all is seen just the same."""
+    watch.expected += ["WebSocket"]
+    page = visit(station, prepare=without_websockets)
+    start(page)
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+
+
+def without_websockets(page: Page) -> None:
+    """Let every WebSocket of a page break off at once."""
+    page.route_web_socket("**/api/live", lambda line: line.close())
+
+
+def test_stop_is_heard_though_nothing_is_seen_any_more(
+    station: Station, visit: Visit, watch: Watch
+) -> None:
+    """Neither WebSocket nor polling answers; the button is there, and what it sends arrives."""
+    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    page = visit(station)
+    start(page)
+    until(lambda: station.phase == "flying", "it flies")
+    page.context.route("**/api/live*", lambda route: route.abort())
+    page.route_web_socket("**/api/live", lambda line: line.close())
+    page.reload()
+    page.get_by_role("button", name="Stop: land now").click()
+    until(lambda: station.phase == "stopped", "all have landed")

@@ -1,0 +1,170 @@
+"""Fields of an app's own: asked for, judged beside where they are typed, kept, handed out and flown with."""
+
+from __future__ import annotations
+
+import tomllib
+from typing import Any
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.library.station.browser.axe import violations
+from tests.library.station.browser.conftest import Scheme, Serve, Visit
+from tests.library.station.browser.layout import covered, cut_off
+from tests.library.station.browser.serving import Station, until
+from tests.library.station.browser.steps import (
+    A_FLIGHT,
+    card_of,
+    labels,
+    open_page,
+    pin_of,
+    row_of,
+    select_mission,
+    settled,
+    start,
+)
+
+SCHEMES: tuple[Scheme, ...] = ("light", "dark")
+BED, OTHER = "Bed 1", "Bed 2"
+BEDS = {BED: (5.5, 8.5), OTHER: (9.5, 8.5)}
+
+
+def beds(**given: object) -> list[dict[str, Any]]:
+    """Return two missions, of one trip each, that lack what must be filled in."""
+    return [
+        {
+            "key": f"mission-{n}",
+            "name": name,
+            "trips": [
+                {
+                    "key": f"trip-{n}-1",
+                    "action": "listen",
+                    "target": list(at),
+                    "parameters": {},
+                    "item": None,
+                    **given,
+                }
+            ],
+        }
+        for n, (name, at) in enumerate(BEDS.items(), 1)
+    ]
+
+
+def ward(serve: Serve, missions: list[dict[str, Any]]) -> Station:
+    station = serve("night_ward")
+    revision = station.get("/api/plan")["revision"]
+    status, answer = station.put("/api/plan", {"revision": revision, "missions": missions})
+    assert status == 200, answer
+    return station
+
+
+def field(page: Page, name: str) -> Locator:
+    """Return a field of the selected mission, with its label and what is said of it."""
+    return page.locator(f'.mission-panel .field[data-field="{name}"]')
+
+
+def listed(page: Page, mission: str) -> Locator:
+    """Return a mission's place in the list."""
+    return page.get_by_role("option").filter(has=page.get_by_text(mission, exact=True))
+
+
+def test_what_is_not_filled_in_is_said_before_start(serve: Serve, visit: Visit) -> None:
+    """At the field, in the list, and beside Start, from where a press leads to the field."""
+    page = visit(ward(serve, beds()))
+    expect(page.get_by_role("button", name="Start 2 missions")).to_be_disabled()
+    expect(listed(page, BED)).to_contain_text("To mend")  # of its trip
+    page.get_by_text("Bed 1: Patient is not filled in yet").click()
+    patient = page.get_by_label("Patient")
+    expect(patient).to_be_focused()
+    expect(patient).to_have_attribute("aria-required", "true")
+    expect(patient).to_have_attribute("placeholder", "to be filled in")
+    expect(field(page, "patient").locator(".problem")).to_have_text("Patient is not filled in yet")
+    patient.fill("Amato")
+    expect(field(page, "patient").locator(".problem")).to_be_hidden()
+    expect(listed(page, BED)).to_contain_text("1 trip · Amato")
+    page.get_by_text("Bed 1, trip 1: Softly is not filled in yet").click()
+    softly = card_of(page, 1).get_by_label("Softly")
+    expect(softly).to_be_focused()
+    softly.select_option("yes")
+    expect(card_of(page, 1).locator(".problem:visible")).to_have_count(0)
+    open_page(page, "Missions")
+    expect(listed(page, BED).locator(".chip")).to_be_hidden()
+    select_mission(page, OTHER)
+    expect(page.get_by_text("Bed 2: Patient is not filled in yet")).to_be_visible()
+
+
+def test_a_mission_that_only_lacks_a_value_is_to_do(serve: Serve, visit: Visit) -> None:
+    page = visit(ward(serve, beds(softly=True)))
+    expect(listed(page, BED).locator(".chip")).to_have_text("To do")
+    select_mission(page, BED)
+    page.get_by_label("Margin").fill("soon")
+    expect(listed(page, BED).locator(".chip")).to_have_text("To mend")
+
+
+def test_each_field_takes_its_type_and_its_units(serve: Serve, visit: Visit) -> None:
+    """The app's own come first; what is wrong stays as it was typed, with what would be right."""
+    page = visit(ward(serve, beds(softly=True)))
+    select_mission(page, BED)
+    assert {"Patient", "Most", "Margin"} <= labels(page)
+    shown = page.locator(".mission-panel > .fields .field > label").all_inner_texts()
+    assert shown[:3] == ["Patient", "Most", "Margin"]
+    margin, most = page.get_by_label("Margin"), page.get_by_label("Most")
+    expect(margin).to_have_attribute("placeholder", "10 min")
+    expect(most).to_have_attribute("placeholder", "20")
+    margin.fill("3 m")
+    said = field(page, "margin").locator(".problem")
+    expect(said).to_have_text('Margin "3 m" is a length, not a time: it takes ms, s, min, h')
+    expect(margin).to_have_attribute("aria-invalid", "true")
+    expect(margin).to_have_accessible_description(
+        'Margin "3 m" is a length, not a time: it takes ms, s, min, h'
+    )
+    margin.fill("240")
+    margin.press("Tab")
+    expect(margin).to_have_value("240 min")  # in the unit of its default
+    expect(said).to_be_hidden()
+    most.fill("many")
+    expect(field(page, "most").locator(".problem")).to_have_text('Most "many" is not a number')
+    open_page(page, "Trips")
+    pin_of(page, 1).click()
+    warmth = card_of(page, 1).get_by_label("Warmth")
+    expect(warmth).to_have_attribute("placeholder", "20 C")
+    warmth.fill("20 kg")
+    wrong = card_of(page, 1).locator('.field[data-field="warmth"] .problem')
+    expect(wrong).to_contain_text("is a mass, not a temperature")
+    for name in ("Trips", "Missions"):
+        open_page(page, name)
+        for scheme in SCHEMES:
+            page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+            settled(page)
+            assert [*violations(page), *covered(page), *cut_off(page)] == [], (name, scheme)
+
+
+def test_what_was_filled_in_is_kept_handed_out_and_flown_with(serve: Serve, visit: Visit) -> None:
+    station = ward(serve, beds(softly=False))
+    page = visit(station)
+    for bed, patient in ((BED, "Amato"), (OTHER, "Bianchi")):
+        select_mission(page, bed)
+        page.get_by_label("Patient").fill(patient)
+    page.get_by_label("Most").fill("12,5")
+    page.get_by_label("Margin").fill("3 min")
+    until(
+        lambda: station.get("/api/plan")["missions"][1].get("margin") == "3 min",
+        "what was typed last is kept",
+    )
+    page.reload()
+    select_mission(page, OTHER)
+    expect(page.get_by_label("Patient")).to_have_value("Bianchi")
+    with page.expect_download() as asked:
+        page.get_by_role("button", name="Export file").click()
+    one, two = tomllib.loads(asked.value.path().read_text(encoding="utf-8"))["mission"]
+    assert (one["patient"], two["patient"], two["most"]) == ("Amato", "Bianchi", 12.5)
+    assert two["margin"] == "3 min" and "margin" not in one
+    assert [trip["softly"] for trip in one["trip"]] == [False]
+    start(page)
+    expect(row_of(page, BED)).to_contain_text("Amato")
+    expect(page.get_by_text("Patient: Bianchi · Most: 12.5 · Margin: 3 min")).to_be_visible()
+    for bed in BEDS:
+        expect(row_of(page, bed)).to_contain_text("Completed", timeout=A_FLIGHT)
+    page.get_by_role("tab", name="Console").click()
+    console = page.get_by_role("log")
+    expect(console).to_contain_text("Amato sleeps: 14 breaths a minute")
+    expect(console).to_contain_text("LOOK IN: Bianchi breathes 14 times a minute")

@@ -1,0 +1,138 @@
+"""Where others than this machine's users may come, one must know the token that was printed."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import expect
+
+from pluto_fleet.station.web.static import FOLDER
+from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.exercise import put_in
+from tests.library.station.browser.serving import until
+from tests.library.station.browser.steps import missions_listed, open_page, row_of, sees_all, start
+from tests.library.station.browser.watched import Watch
+
+LOGO_IS_DRAWN = "() => document.querySelector('.head img').naturalWidth > 0"
+
+
+def test_the_printed_address_lets_one_fly_and_the_token_leaves_it(
+    serve: Serve, visit: Visit
+) -> None:
+    """The floor plan is seen, too: it needs the token as well; and whose station it is."""
+    whose = ("--title", "Ward 3", "--logo", str(FOLDER / "icon.svg"))
+    station = serve("drugs_distribution", "--name", "ward.example", "--speed", "60", *whose)
+    assert "#token=" in station.url
+    put_in(station)
+    page = visit(station)
+    expect(missions_listed(page)).to_have_count(3)
+    assert "token" not in page.url
+    expect(page.get_by_role("heading", name="Ward 3", level=1)).to_be_visible()
+    expect(page).to_have_title(re.compile("Ward 3$"))
+    until(lambda: page.evaluate(LOGO_IS_DRAWN), "the logo is drawn")
+    start(page)
+    sees_all(page, "Completed")
+    expect(page.locator("image[href^='blob:']").first).to_be_attached()
+    page.reload()
+    expect(page.get_by_role("tab", name="Monitor")).to_be_visible()
+    assert station.audit()
+
+
+def test_without_the_token_one_sees_where_to_find_it_and_can_paste_the_whole_address(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    watch.expected += ["401"]
+    station = put_in(serve("drugs_distribution", "--name", "ward.example"))
+    page = visit(station, path="/")
+    expect(page.get_by_role("heading")).to_contain_text("token")
+    expect(page.get_by_text("Mission 1")).to_have_count(0)
+    field = page.get_by_label("Address or token")
+    field.fill("wrong")
+    page.get_by_role("button", name="Open the station").click()
+    expect(page.get_by_role("alert").filter(has_text="no such token")).to_be_visible()
+    field.fill(station.url)
+    page.get_by_role("button", name="Open the station").click()
+    expect(missions_listed(page)).to_have_count(3)
+    until(lambda: station.phase == "idle", "nothing has happened")
+
+
+def test_one_browser_is_told_the_token_once_until_it_is_told_to_forget_it(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    """Another tab knows it, and so does one that was opened after all were closed; no cookie does."""
+    station = put_in(serve("drugs_distribution", "--name", "ward.example"))
+    first = visit(station)
+    expect(missions_listed(first)).to_have_count(3)
+    context = first.context
+    another = context.new_page()
+    first.close()
+    another.goto(f"http://127.0.0.1:{station.port}/")
+    expect(missions_listed(another)).to_have_count(3)
+    assert context.cookies() == []
+    watch.expected += ["401"]
+    open_page(another, "Help")
+    another.get_by_role("button", name="Forget the token").click()
+    expect(another.get_by_role("heading")).to_contain_text("asks for its token")
+    last = context.new_page()
+    last.goto(f"http://127.0.0.1:{station.port}/")
+    expect(last.get_by_role("heading")).to_contain_text("asks for its token")
+
+
+COMMANDS = re.compile(
+    "^(start|stop|resume|put away|add|new mission|set trips|delete|copy|import|undo|redo|retire|bring back"
+    "|cut|slide|skip|pause|go on|cancel|seen|i have seen|let .* join|lost|crash|answer)",
+    re.IGNORECASE,
+)
+"""How the names of buttons begin that change something."""
+
+
+def test_who_may_only_watch_sees_all_and_no_button_that_commands(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    station = put_in(serve("drugs_distribution", "--name", "ward.example", "--speed", "2"))
+    flier = visit(station)
+    buttons = flier.get_by_role("button", name=COMMANDS)
+    expect(buttons.filter(has_text="Stop: land now")).to_be_visible()  # so these names find some
+    start(flier)
+    page = visit(station, path=station.url_to_watch.partition(str(station.port))[2])
+    open_page(page, "Monitor")
+    row_of(page, "Mission 3").get_by_role("button", name="Mission 3").click()
+    expect(row_of(page, "Mission 3")).to_contain_text("Flying")
+    expect(page.get_by_text("You are watching")).to_be_visible()
+    buttons = page.get_by_role("button", name=COMMANDS)
+    expect(buttons).to_have_count(0)
+    page.get_by_role("tab", name="Drones").click()
+    page.get_by_role("listitem").get_by_role("button", name="cf1").click()
+    expect(page.get_by_role("region", name="Drone cf1")).to_be_visible()
+    expect(buttons).to_have_count(0)
+    flier.get_by_role("button", name="Stop: land now").click()
+    until(lambda: station.phase == "stopped", "all have landed")
+    expect(page.get_by_role("banner").get_by_text("Stopped")).to_be_visible()
+    for name in ("Missions", "Trips", "Results", "History", "Map"):
+        open_page(page, name)
+        expect(page.get_by_role("tabpanel", name=name, exact=True)).not_to_be_empty()
+        expect(buttons).to_have_count(0)
+
+
+@pytest.mark.long  # a slow flight once more
+def test_a_token_that_is_forgotten_or_replaced_elsewhere_leaves_no_page_whose_stop_fails(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    """A page that is open keeps its own; if that is forgotten, it is closed, too."""
+    watch.expected += ["401"]
+    station = put_in(serve("drugs_distribution", "--name", "ward.example", "--speed", "2"))
+    one = visit(station)
+    another = one.context.new_page()
+    another.goto(f"http://127.0.0.1:{station.port}/#token=wrong")
+    expect(another.get_by_role("heading")).to_contain_text("asks for its token")
+    start(one)
+    until(lambda: station.phase == "flying", "it flies")
+    one.get_by_role("button", name="Stop: land now").click()
+    until(lambda: station.phase in ("stopping", "stopped"), "the Stop is heard")
+    another.get_by_label("Address or token").fill(station.url)
+    another.get_by_role("button", name="Open the station").click()
+    open_page(another, "Help")
+    another.get_by_role("button", name="Forget the token").click()
+    for page in (one, another):
+        expect(page.get_by_role("heading")).to_contain_text("asks for its token")

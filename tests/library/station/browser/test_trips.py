@@ -1,0 +1,283 @@
+"""Trips are drawn on the floor plan: pins, their cards and the plan always say the same."""
+
+from __future__ import annotations
+
+import re
+from functools import partial
+from typing import Any
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.exercise import Place
+from tests.library.station.browser.serving import Station, until
+from tests.library.station.browser.steps import (
+    action_called,
+    add_mission,
+    card_of,
+    drag,
+    on_the_screen,
+    pin_of,
+    start,
+)
+
+WALL = (6.0, 8.0)
+"""In the first no-fly area of the ward."""
+
+
+FIRST_FRAME = """
+() => new Promise((seen) => {
+  document.querySelector("[role=tab][aria-controls=page-trips]").click();
+  requestAnimationFrame(function look() {
+    const world = document.querySelector("#page-trips svg.floor-picture g.world");
+    if (world) setTimeout(() => seen(world.getScreenCTM().a));
+    else requestAnimationFrame(look);
+  });
+})
+"""
+"""Goes to the trips, and says how many pixels a metre takes when that has been painted once."""
+
+
+def trips(station: Station) -> list[dict[str, Any]]:
+    """Return the trips of the only mission, as the station has them."""
+    return list(station.get("/api/plan")["missions"][0]["trips"])
+
+
+def has(station: Station, count: int) -> bool:
+    """Return whether the only mission has so many trips."""
+    return len(trips(station)) == count
+
+
+def targets(station: Station) -> list[list[float]]:
+    """Return where they go."""
+    return [trip["target"] for trip in trips(station)]
+
+
+def take(page: Page, place: Place) -> None:
+    """Press the mouse on the map."""
+    page.mouse.move(*on_the_screen(page, place))
+    page.mouse.down()
+
+
+def drawn(ward: Station, visit: Visit, *actions: tuple[str, Place]) -> tuple[Station, Page]:
+    """Draw a mission of these trips, and nothing else, at a station where nothing flies."""
+    return ward, draw(ward, visit, *actions)
+
+
+def draw(station: Station, visit: Visit, *actions: tuple[str, Place]) -> Page:
+    """Draw a mission of these trips, and nothing else."""
+    revision = station.get("/api/plan")["revision"]
+    assert station.put("/api/plan", {"revision": revision, "missions": []})[0] == 200
+    page = visit(station)
+    add_mission(page, "Drawn")
+    for count, (action, place) in enumerate(actions, 1):
+        drag(page, action, place)
+        until(partial(has, station, count), "the trip is kept")
+    return page
+
+
+def test_a_pin_goes_with_the_mouse_in_steps_of_ten_centimetres_and_of_one_with_shift(
+    ward: Station, visit: Visit
+) -> None:
+    station, page = drawn(ward, visit, ("take_photo", (3.0, 7.5)))
+    take(page, (3.0, 7.5))
+    page.mouse.move(*on_the_screen(page, (9.04, 2.16)), steps=5)
+    page.mouse.up()
+    until(lambda: targets(station) == [[9.0, 2.2]], "it snaps to 0.1 m")
+    take(page, (9.0, 2.2))
+    page.keyboard.down("Shift")
+    page.mouse.move(*on_the_screen(page, (4.0, 3.0)), steps=5)
+    page.mouse.move(*on_the_screen(page, (10.0, 1.5)), steps=5)
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    until(lambda: targets(station) != [[9.0, 2.2]], "it is moved")
+    [[x, y]] = targets(station)
+    assert abs(x - 10.0) < 0.05
+    assert abs(y - 1.5) < 0.05
+
+
+def test_the_arrow_keys_move_a_pin_and_delete_removes_it_and_undo_brings_it_back(
+    ward: Station, visit: Visit
+) -> None:
+    station, page = drawn(ward, visit, ("take_photo", (3.0, 7.5)), ("measure", (9.0, 2.5)))
+    pin_of(page, 1).focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Shift+ArrowDown")
+    until(lambda: targets(station)[0] == [3.1, 6.5], "it has moved")
+    before = trips(station)
+    page.keyboard.press("Delete")
+    until(lambda: len(trips(station)) == 1, "it is gone")
+    page.locator(".notices").get_by_role("button", name="Undo").click()
+    until(lambda: trips(station) == before, "it is back where it was")
+
+
+def test_a_pin_over_a_no_fly_area_says_so_while_it_is_still_held(
+    ward: Station, visit: Visit
+) -> None:
+    station, page = drawn(ward, visit, ("take_photo", (3.0, 7.5)))
+    take(page, (3.0, 7.5))
+    page.mouse.move(*on_the_screen(page, WALL), steps=5)
+    expect(pin_of(page, 1)).to_have_accessible_name(re.compile("In a no-fly area"))
+    expect(card_of(page, 1)).to_contain_text("In a no-fly area")
+    page.mouse.move(*on_the_screen(page, (-0.3, 8.0)), steps=5)
+    expect(pin_of(page, 1)).to_have_accessible_name(re.compile("Outside the map"))
+    assert targets(station) == [[3.0, 7.5]], "nothing is kept before it is let go"
+    page.keyboard.press("Escape")
+    expect(pin_of(page, 1)).not_to_have_accessible_name(re.compile("Problem"))
+    page.mouse.up()
+    assert targets(station) == [[3.0, 7.5]]
+
+
+def test_what_is_released_is_what_was_picked_before_it(ward: Station, visit: Visit) -> None:
+    """In name and in mass, though others are written later, and however the trips are ordered."""
+    station, page = drawn(
+        ward,
+        visit,
+        ("pick_item", (2.5, 4.0)),
+        ("take_photo", (9.0, 5.0)),
+        ("release_item", (16.0, 2.5)),
+    )
+    card_of(page, 1).get_by_role("button", name="Pick item").click()
+    card = card_of(page, 1)
+    card.get_by_label("Item", exact=True).fill("pills")
+    card.get_by_label("Mass").fill("8")
+    card.get_by_label("Mass").press("Tab")
+    item = {"name": "pills", "mass": "8 g"}
+    until(lambda: [one["item"] for one in trips(station)] == [item, None, item], "both have it")
+    card_of(page, 3).get_by_role("button", name="Release item").click()
+    expect(card_of(page, 3)).to_contain_text("Puts down “pills” (8 g), which trip 1 picks.")
+    page.keyboard.press("Alt+ArrowUp")
+    until(lambda: [one["item"] for one in trips(station)] == [item, item, None], "it is second now")
+    assert station.get("/api/plan")["problems"] == []
+
+
+def test_trips_at_one_place_have_pins_side_by_side(ward: Station, visit: Visit) -> None:
+    _, page = drawn(ward, visit, ("take_photo", (16.0, 2.5)), ("measure", (16.0, 2.5)))
+    first, second = middle(pin_of(page, 1)), middle(pin_of(page, 2))
+    assert abs(first[0] - on_the_screen(page, (16.0, 2.5))[0]) < 2
+    assert second[0] - first[0] > 20
+    pin_of(page, 1).click()
+    expect(card_of(page, 1)).to_have_class(re.compile("chosen"))
+
+
+def test_the_map_is_zoomed_about_the_pointer_and_goes_with_the_hand(
+    ward: Station, visit: Visit
+) -> None:
+    _, page = drawn(ward, visit)
+    x, y = on_the_screen(page, (9.0, 5.0))
+    page.mouse.move(x, y)
+    page.mouse.wheel(0, -600)
+    until(lambda: scale(page) > 90, "it is larger")
+    now = on_the_screen(page, (9.0, 5.0))
+    assert abs(now[0] - x) < 3
+    assert abs(now[1] - y) < 3
+    page.mouse.down()
+    page.mouse.move(x + 60, y + 40, steps=4)
+    page.mouse.up()
+    until(lambda: on_the_screen(page, (9.0, 5.0))[0] - now[0] > 55, "it went along")
+    page.get_by_role("button", name="Whole map").first.click()
+    until(lambda: scale(page) < 60, "all is seen again")
+
+
+def test_the_map_fills_its_box_in_the_first_frame_that_shows_it(
+    ward: Station, visit: Visit
+) -> None:
+    page = visit(ward)
+    page.get_by_role("tab", name="Trips").wait_for()
+    assert page.evaluate(FIRST_FRAME) > 20, "pixels that a metre takes"
+
+
+def test_of_a_mission_that_flies_only_what_has_not_flown_can_be_changed(
+    serve: Serve, visit: Visit
+) -> None:
+    """Once it is stopped nothing can, and the page says why."""
+    station = serve("drugs_distribution", "--speed", "2")
+    page = draw(station, visit, ("take_photo", (15.0, 8.5)), ("measure", (9.0, 5.0)))
+    start(page)
+    until(lambda: list(station.statuses().values()) == ["RUNNING"], "it flies")
+    page.get_by_role("tab", name="Trips").click()
+    expect(page.get_by_text("This mission is under way.")).to_be_visible()
+    card_of(page, 1).locator(".trip-head").click()
+    expect(card_of(page, 1).get_by_label("x (m)")).to_be_disabled()
+    card_of(page, 2).locator(".trip-head").click()
+    x = card_of(page, 2).get_by_label("x (m)")
+    x.fill("10")
+    assert targets(station)[1] == [9.0, 5.0], "nothing is flown letter by letter"
+    x.press("Tab")
+    until(lambda: targets(station)[1] == [10.0, 5.0], "it is in the plan")
+    assert station.now()["missions"][0]["trips"][1]["x"] == 10.0
+    page.get_by_role("button", name="Stop: fly home").click()
+    until(lambda: station.phase == "stopped", "all are down")
+    expect(page.get_by_text("This mission has been started")).to_be_visible()
+    expect(action_called(page, "take_photo")).to_be_hidden()
+    expect(x).to_be_disabled()
+
+
+def test_several_pins_are_selected_by_a_rectangle_and_go_together(
+    ward: Station, visit: Visit
+) -> None:
+    """Moved by mouse and keys, duplicated and deleted; each is one step, which undo takes back."""
+    places = ((3.0, 6.9), (4.0, 6.9), (9.0, 5.0))
+    station, page = drawn(ward, visit, *(("measure", place) for place in places))
+    page.keyboard.down("Shift")
+    take(page, (2.0, 7.5))
+    page.mouse.move(*on_the_screen(page, (5.0, 6.2)), steps=4)
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    expect(page.get_by_text("2 trips are selected")).to_be_visible()
+    take(page, (3.0, 6.9))
+    page.mouse.move(*on_the_screen(page, (3.0, 5.4)), steps=4)
+    page.mouse.up()
+    until(lambda: targets(station) == [[3.0, 5.4], [4.0, 5.4], [9.0, 5.0]], "both are moved")
+    page.keyboard.press("ArrowRight")
+    until(lambda: targets(station)[:2] == [[3.1, 5.4], [4.1, 5.4]], "both are moved again")
+    page.get_by_role("button", name="Duplicate").click()
+    until(lambda: len(trips(station)) == 5, "there are two more")
+    assert targets(station)[2:4] == [[3.6, 5.4], [4.6, 5.4]]
+    page.get_by_role("group", name="Selected trips").get_by_role("button", name="Delete").click()
+    until(lambda: len(trips(station)) == 3, "they are gone")
+    for left in (5, 3):
+        page.keyboard.press("Control+z")
+        until(partial(has, station, left), "it is undone")
+    for _ in range(2):
+        page.keyboard.press("Control+z")
+    until(lambda: targets(station) == [list(place) for place in places], "all is as it was drawn")
+
+
+def test_a_row_and_a_grid_are_drawn_over_the_map_and_added_at_once(
+    ward: Station, visit: Visit
+) -> None:
+    station, page = drawn(ward, visit)
+    page.get_by_role("button", name="A row of trips").click()
+    take(page, (2.0, 6.9))
+    page.mouse.move(*on_the_screen(page, (5.0, 6.9)), steps=4)
+    page.mouse.up()
+    form = page.get_by_role("form", name="A row of trips")
+    form.get_by_label("Trips").fill("4")
+    form.get_by_role("button", name="Add 4 trips").click()
+    until(lambda: len(trips(station)) == 4, "the row is kept")
+    assert [x for x, _ in targets(station)] == [2.0, 3.0, 4.0, 5.0]
+    page.get_by_role("button", name="A grid of trips").click()
+    form = page.get_by_role("form", name="A grid of trips")
+    form.get_by_label("Action").select_option("take_photo")
+    for name, value in (("From x", "7"), ("From y", "4.5"), ("To x", "9"), ("To y", "5.5")):
+        form.get_by_label(name).fill(value)
+    form.get_by_label("Columns").fill("3")
+    form.get_by_label("Rows").fill("2")
+    form.get_by_role("button", name="Add 6 trips").click()
+    until(lambda: len(trips(station)) == 10, "the grid is kept")
+    assert targets(station)[4:8] == [[7, 4.5], [8, 4.5], [9, 4.5], [9, 5.5]]
+    page.get_by_role("button", name=re.compile("^Undo ")).click()
+    until(lambda: len(trips(station)) == 4, "it goes at once, too")
+
+
+def scale(page: Page) -> float:
+    """Return how many pixels a metre takes."""
+    return on_the_screen(page, (1.0, 0.0))[0] - on_the_screen(page, (0.0, 0.0))[0]
+
+
+def middle(pin: Locator) -> tuple[float, float]:
+    """Return the middle of a pin's disc."""
+    box = pin.locator(".disc").bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

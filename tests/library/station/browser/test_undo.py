@@ -1,0 +1,85 @@
+"""What was drawn on a page is undone and done again there, and nothing of another page's."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.library.station.browser.conftest import Visit
+from tests.library.station.browser.exercise import put_in
+from tests.library.station.browser.serving import Station, until
+from tests.library.station.browser.steps import missions_listed, open_page, select_mission
+
+
+@pytest.fixture
+def planned(ward: Station) -> Station:
+    """A station with the exercise's plan."""
+    revision = ward.get("/api/plan")["revision"]
+    assert ward.put("/api/plan", {"revision": revision, "missions": []})[0] == 200
+    return put_in(ward)
+
+
+def names(station: Station) -> list[str]:
+    """Return the names of the missions in the plan."""
+    return [mission["name"] for mission in station.get("/api/plan")["missions"]]
+
+
+def rename(page: Page, mission: str, name: str) -> None:
+    """Type another name, letter by letter, and leave the field."""
+    select_mission(page, mission)
+    field = page.get_by_role("textbox", name="Name")
+    field.press("Control+a")
+    field.press_sequentially(name)
+    field.press("Tab")
+
+
+def test_all_is_undone_and_done_again_step_by_step_over_a_reload(
+    planned: Station, visit: Visit
+) -> None:
+    """A word that was typed is one step; deleting several missions is one, too."""
+    page = visit(planned)
+    rename(page, "Mission 1", "Beds")
+    select_mission(page, "Mission 3")
+    page.keyboard.press("Shift+ArrowUp")
+    page.get_by_role("region", name="Selected missions").get_by_role(
+        "button", name="Delete"
+    ).click()
+    until(lambda: names(planned) == ["Beds"], "they are gone")
+    page.reload()
+    expect(missions_listed(page)).to_have_text(["Beds"])
+    page.keyboard.press("Control+z")
+    expect(missions_listed(page)).to_have_text(["Beds", "Mission 2", "Mission 3"])
+    page.keyboard.press("Control+z")
+    expect(missions_listed(page)).to_have_text(["Mission 1", "Mission 2", "Mission 3"])
+    expect(page.get_by_role("button", name="Undo (Ctrl+Z)")).to_be_disabled()
+    page.keyboard.press("Control+Shift+z")
+    page.keyboard.press("Control+y")
+    until(lambda: names(planned) == ["Beds"], "both are done again")
+
+
+def test_what_another_page_has_drawn_since_is_not_undone(planned: Station, visit: Visit) -> None:
+    one, other = visit(planned), visit(planned)
+    rename(one, "Mission 1", "Beds")
+    expect(missions_listed(other).first).to_have_text("Beds")
+    rename(other, "Beds", "Photos")
+    rename(other, "Mission 2", "Air")
+    expect(missions_listed(one)).to_have_text(["Photos", "Air", "Mission 3"])
+    one.get_by_role("button", name="Undo (Ctrl+Z)").click()
+    expect(one.get_by_text("There is nothing of yours to undo.")).to_be_visible()
+    assert names(planned) == ["Photos", "Air", "Mission 3"]
+
+
+def test_who_else_is_here_is_seen_with_what_they_have_selected(
+    planned: Station, visit: Visit
+) -> None:
+    one, other = visit(planned), visit(planned)
+    select_mission(other, "Mission 2")
+    expect(one.get_by_role("img", name="1 other person looks at this station")).to_be_visible()
+    touched = one.get_by_role("option", name="Mission 2").get_by_role("img")
+    expect(touched).to_have_accessible_name("unnamed has this selected")
+    open_page(other, "Trips")
+    other.locator(".trip-head").first.click()
+    open_page(one, "Trips")
+    one.get_by_label("Mission", exact=True).select_option(label="Mission 2 (2 trips)")
+    seen = one.get_by_role("list", name="Trips").get_by_role("img", name="has this selected")
+    expect(seen).to_have_count(1)

@@ -1,0 +1,242 @@
+"""What is typed and cannot be in the plan stays, marked; and who leads to it, and who is told."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, Route, expect
+
+from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.exercise import put_in
+from tests.library.station.browser.serving import Station, until
+from tests.library.station.browser.steps import (
+    ANOTHER_WAS_QUICKER,
+    card_of,
+    holding_the_first,
+    open_page,
+    select_mission,
+)
+from tests.library.station.browser.watched import Watch
+
+
+@pytest.fixture
+def planned(ward: Station) -> Station:
+    """A station with a plan in which nothing is wrong."""
+    revision = ward.get("/api/plan")["revision"]
+    assert ward.put("/api/plan", {"revision": revision, "missions": []})[0] == 200
+    put_in(ward)
+    return ward
+
+
+Two = tuple[Page, Page, list[Route]]
+
+
+@pytest.fixture
+def two(planned: Station, visit: Visit, watch: Watch) -> Two:
+    """Two pages of it, and the other one's first change, which is held on its way."""
+    watch.expected.append(ANOTHER_WAS_QUICKER)
+    one, other = visit(planned), visit(planned)
+    return one, other, holding_the_first(other)
+
+
+def opened(page: Page, mission: str, trip: int) -> Locator:
+    """Open a trip's card."""
+    open_page(page, "Missions")
+    select_mission(page, mission)
+    open_page(page, "Trips")
+    card = card_of(page, trip)
+    card.locator(".trip-head").click()
+    return card
+
+
+def target(station: Station, mission: int, trip: int) -> list[float]:
+    missions: list[dict[str, Any]] = station.get("/api/plan")["missions"]
+    found: list[float] = missions[mission]["trips"][trip]["target"]
+    return found
+
+
+def told(page: Page) -> Locator:
+    """Return what stands beside Start."""
+    return page.locator(".why")
+
+
+def go_on(page: Page, held: list[Route]) -> None:
+    """Let the change go on, and those that come after it go by themselves."""
+    held[0].continue_()
+    page.unroute("**/api/plan")
+
+
+def notices(page: Page) -> Locator:
+    return page.locator(".notices [role=alert]")
+
+
+@pytest.mark.parametrize("wrong", ["abc", "", "1e300"])
+def test_a_wrong_coordinate_is_marked_and_start_waits_for_it(
+    planned: Station, visit: Visit, wrong: str
+) -> None:
+    """What was typed stays, the plan's own value is told, and the reason leads to the field."""
+    page = visit(planned)
+    x = opened(page, "Mission 2", 1).get_by_label("x (m)")
+    x.fill(wrong)
+    x.press("Tab")
+    page.get_by_role("button", name="Zoom in").click()  # it is drawn anew
+    expect(x).to_have_value(wrong)
+    expect(x).to_have_attribute("aria-invalid", "true")
+    said = "Write metres here, such as 2.5. The plan still has 9."
+    expect(x).to_have_accessible_description(said)
+    start = page.get_by_role("button", name="Start 3 missions")
+    expect(start).to_have_attribute("aria-disabled", "true")
+    expect(told(page)).to_have_text(f"Mission 2, trip 1: {said}")
+    assert target(planned, 1, 0) == [9.0, 1.5]
+    opened(page, "Mission 1", 1)
+    open_page(page, "Monitor")
+    told(page).get_by_role("button", name="Mission 2, trip 1").click()
+    x = card_of(page, 1).get_by_label("x (m)")
+    expect(x).to_be_focused()
+    expect(x).to_have_value(wrong)
+    x.fill("8,5")
+    expect(start).not_to_have_attribute("aria-disabled", "true")
+    expect(x).not_to_have_attribute("aria-invalid", "true")
+    until(lambda: target(planned, 1, 0) == [8.5, 1.5], "it is in the plan")
+
+
+def test_a_mission_with_a_wrong_coordinate_is_not_started_alone_either(
+    planned: Station, visit: Visit
+) -> None:
+    """The station knows nothing of what is no number: the page leads to it."""
+    page = visit(planned)
+    opened(page, "Mission 2", 1).get_by_label("x (m)").fill("abc")
+    open_page(page, "Missions")
+    select_mission(page, "Mission 2")
+    page.get_by_role("button", name="Start only this").click()
+    expect(card_of(page, 1).get_by_label("x (m)")).to_be_focused()
+    expect(notices(page)).to_contain_text("Mission 2, trip 1: Write metres here, such as 2.5.")
+    assert planned.journals() == []
+
+
+def test_what_keeps_a_plan_from_starting_leads_to_its_field_wherever_that_is(
+    planned: Station, visit: Visit
+) -> None:
+    page = visit(planned)
+    card = opened(page, "Mission 3", 1)
+    card.get_by_label("Mass").fill("heavy")
+    open_page(page, "Help")
+    told(page).get_by_role("button", name=re.compile("^Mission 3, trip 1: ")).click()
+    expect(card_of(page, 1).get_by_label("Mass")).to_be_focused()
+    card_of(page, 1).get_by_label("Mass").fill("8 g")
+    open_page(page, "Missions")
+    page.get_by_role("textbox", name="Name").fill("")
+    open_page(page, "Help")
+    told(page).get_by_role("button").click()
+    expect(page.get_by_role("textbox", name="Name")).to_be_focused()
+
+
+def test_a_height_that_cannot_be_flown_is_marked_itself_and_not_the_place_below(
+    planned: Station, visit: Visit
+) -> None:
+    page = visit(planned)
+    card = opened(page, "Mission 2", 1)
+    height = card.get_by_label("Height (m)")
+    height.fill("99")
+    height.press("Tab")
+    said = "The place (9, 1.5) at a height of 99 m is above the ceiling of 10 m"
+    expect(height).to_have_accessible_description(said)
+    expect(height).to_have_attribute("aria-invalid", "true")
+    expect(card.get_by_label("x (m)")).not_to_have_attribute("aria-invalid", "true")
+    open_page(page, "Help")
+    told(page).get_by_role("button").click()
+    expect(card_of(page, 1).get_by_label("Height (m)")).to_be_focused()
+
+
+def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
+    planned: Station, two: Two
+) -> None:
+    one, other, held = two
+    for page in (one, other):
+        select_mission(page, "Mission 2")
+    with other.expect_request(lambda request: request.method == "PUT"):
+        other.get_by_role("textbox", name="Name").fill("Beta")
+    one.get_by_role("textbox", name="Name").fill("Alpha")
+    until(lambda: planned.get("/api/plan")["missions"][1]["name"] == "Alpha", "it is kept")
+    go_on(other, held)
+    expect(notices(other)).to_contain_text(
+        "Another page wrote “Alpha” while you wrote “Beta” there. The plan has yours now."
+    )
+    until(lambda: planned.get("/api/plan")["missions"][1]["name"] == "Beta", "it is kept")
+    name = one.get_by_role("textbox", name="Name")
+    expect(name).to_have_value("Alpha")
+    expect(name).to_have_attribute("aria-invalid", "true")
+    expect(name).to_have_accessible_description(re.compile("changed this to “Beta”"))
+    name.press("Tab")
+    expect(name).to_have_value("Beta")
+    expect(name).not_to_have_attribute("aria-invalid", "true")
+
+
+def test_two_who_move_one_trip_along_x_and_along_y_both_find_it_there(
+    planned: Station, two: Two
+) -> None:
+    one, other, held = two
+    x, y = (
+        opened(one, "Mission 2", 1).get_by_label("x (m)"),
+        opened(other, "Mission 2", 1).get_by_label("y (m)"),
+    )
+    with other.expect_request(lambda request: request.method == "PUT"):
+        y.fill("2.5")
+    x.fill("8.5")
+    until(lambda: target(planned, 1, 0) == [8.5, 1.5], "it is kept")
+    go_on(other, held)
+    until(lambda: target(planned, 1, 0) == [8.5, 2.5], "both are kept")
+    expect(card_of(other, 1).get_by_label("x (m)")).to_have_value("8.5")
+    for page in (one, other):
+        expect(notices(page)).to_have_text("")
+
+
+def test_who_writes_into_a_mission_that_another_one_deletes_is_told(
+    planned: Station, two: Two
+) -> None:
+    one, other, held = two
+    for page in (one, other):
+        select_mission(page, "Mission 2")
+    with other.expect_request(lambda request: request.method == "PUT"):
+        other.get_by_role("textbox", name="Name").fill("Beta")
+    one.get_by_role("button", name="Delete").click()
+    until(lambda: len(planned.get("/api/plan")["missions"]) == 2, "it is gone")
+    go_on(other, held)
+    expect(notices(other)).to_contain_text("You wrote “Beta”, but another page has")
+
+
+def test_who_types_into_a_mission_that_another_one_starts_is_told(
+    serve: Serve, visit: Visit, watch: Watch
+) -> None:
+    """All that is drawn is there already, but what was typed is not."""
+    watch.expected.append(ANOTHER_WAS_QUICKER)
+    station = put_in(serve("drugs_distribution"))
+    page = visit(station)
+    held = holding_the_first(page)
+    select_mission(page, "Mission 2")
+    name = page.get_by_role("textbox", name="Name")
+    with page.expect_request(lambda request: request.method == "PUT"):
+        name.fill("Beta")
+    assert station.post("/api/start", {"id": "of another one"})[0] == 200
+    expect(page.get_by_role("button", name="Stop: fly home")).to_be_enabled()
+    go_on(page, held)
+    expect(notices(page)).to_contain_text(
+        "You wrote “Beta”, but another page has removed or started that meanwhile."
+    )
+    expect(name).to_have_value("Mission 2")
+
+
+def test_one_who_changes_another_field_hears_nothing(planned: Station, two: Two) -> None:
+    one, other, held = two
+    select_mission(one, "Mission 1")
+    select_mission(other, "Mission 2")
+    with other.expect_request(lambda request: request.method == "PUT"):
+        other.get_by_role("textbox", name="Name").fill("Beta")
+    one.get_by_role("textbox", name="Name").fill("Alpha")
+    until(lambda: planned.get("/api/plan")["missions"][0]["name"] == "Alpha", "it is kept")
+    go_on(other, held)
+    until(lambda: planned.get("/api/plan")["missions"][1]["name"] == "Beta", "both are kept")
+    expect(other.get_by_role("option", name="Alpha")).to_be_visible()
+    expect(notices(other)).to_have_text("")

@@ -1,0 +1,128 @@
+"""Why a mission waits for a drone, and which drone is ready: as allocation has it, in words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from pluto_fleet.shared.domain.model import Category, Item
+from pluto_fleet.shared.domain.status import DroneStatus
+from pluto_fleet.shared.fleet.telemetry import Charge
+from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons
+from pluto_fleet.station.wire import Words
+from tests.brain import apps
+from tests.brain.living import Living, enterable
+
+HOMES = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), (2.5, 0.5, 0.0))
+
+
+def living(*missions: apps.Mission, low: float | None = None, **on: Any) -> Living:
+    """Return a fleet of three that has just been asked how it is, with so much in its batteries."""
+    fleet = Living(enterable(), *missions, on=apps.fleet(*HOMES, **on))
+    for body in fleet.navigation.bodies.values() if low is not None else ():
+        vars(body)["_charge"] = Charge(low or 0.0, 0.0, 1.0 / body.drone.category.charge_time)
+    fleet.run(0.5)
+    return fleet
+
+
+def far(name: str, **more: Any) -> apps.Mission:
+    return apps.mission(name, apps.trip("1", 19.0, 19.0, **more))
+
+
+def looking(fleet: Living) -> WaitReasons:
+    """Return the reasons at the beginning of a sample."""
+    waiting = WaitReasons(fleet.app, fleet.fleet, lambda: 0.0)
+    waiting.look(fleet.life.brain, fleet.fleet)
+    return waiting
+
+
+def said(fleet: Living) -> list[str]:
+    """Return what is said of each that waits, in English."""
+    return [one["text"] for one in reasons(fleet)]
+
+
+def reasons(fleet: Living) -> list[Words]:
+    waiting, where = looking(fleet), fleet.life.brain.whereabouts()
+    missions = fleet.life.records.missions.items()
+    found = [
+        waiting.why(name, one["todo"]) for name, one in missions if where[name]["drone"] is None
+    ]
+    return [one for one in found if one is not None]
+
+
+def test_drones_that_are_free_but_too_low_are_not_what_a_mission_waits_for_without_a_word() -> None:
+    """It says how many are too low, what it takes, and what the nearest to it has."""
+    fleet = living(far("a"), far("b"), low=0.25)
+    begin, end = "waits for a drone (3 free, but too low: it takes ", " %, the nearest has 25 %)"
+    takes = [why.removeprefix(begin).removesuffix(end) for why in said(fleet)]
+    assert len(takes) == 2 and all(25 < int(percent) < 100 for percent in takes)
+    facts = [one["facts"] for one in reasons(fleet)]
+    assert facts == [{"low": 3, "takes": int(percent) / 100, "has": 0.25} for percent in takes]
+
+
+def test_when_a_drone_is_ready_that_is_too_low_is_when_its_queue_looks_at_it_again() -> None:
+    fleet = living(far("a"), far("b"), low=0.25)
+    waiting, brain = looking(fleet), fleet.life.brain
+    for name, one in fleet.life.records.missions.items():
+        waiting.why(name, one["todo"])
+    until = {one.id: at for one, (at, _) in brain._core.fleet.queue.low.items()}
+    assert len(until) == 3 and waiting.takes is not None and 0.25 < waiting.takes < 1
+    for id, drone in brain.drones().items():
+        ready = waiting.ready_in(id, drone, True)
+        assert ready == pytest.approx(until[id] - fleet.life.kernel.time(), abs=2.0)
+        assert waiting.ready_in(id, {**drone, "at": [9.0, 9.0, 0.0]}, True) is None
+        assert waiting.ready_in(id, drone, False) is None
+
+
+def test_drones_that_can_never_fly_it_are_counted_apart_with_the_reason() -> None:
+    heavy = Item(name="a sack", mass=0.5)
+    mission = apps.mission("a", apps.trip("1", 4.0, action="pick_item", item=heavy))
+    carrier = Category(name="carrier", payload=1.0)
+    app = apps.changed(enterable(), categories=(apps.SCOUT, carrier))
+    kinds = ["scout", "scout", "carrier"]
+    fleet = Living(app, mission, on=apps.fleet(*HOMES, categories=kinds))
+    fleet.at(0.2, lambda: fleet.life.control.retire("cf3"))
+    body = fleet.navigation.bodies["cf3"]
+    vars(body)["_charge"] = Charge(0.05, 0.0)  # it cannot be given: the mission waits
+    fleet.run(0.5)
+    (why,) = reasons(fleet)
+    cannot = "2 cannot: scout carries at most 10 g, the item weighs 500 g"
+    assert why["text"] == f"waits for a drone (1 retired; {cannot})"
+    assert why["facts"] == {"retired": 1, "cannot": [cannot]}
+
+
+def test_who_is_busy_lost_or_kept_on_the_ground_by_the_limit_is_said() -> None:
+    missions = [apps.mission(name, apps.trip("1", 9.0)) for name in "abc"]
+    full = living(*missions, max_airborne=1)
+    assert said(full) == ["waits for a drone (2 free, but no more may fly at once; 1 flying)"] * 2
+    assert {one["key"] for one in reasons(full)} == {"wait.drone-full"}
+    fleet = living(*missions, apps.mission("d", apps.trip("1", 9.0)))
+    fleet.life.brain._core.fleet.drones[0].status = DroneStatus.LOST
+    assert said(fleet) == ["waits for a drone (1 lost; 2 flying)"]
+    assert [one["facts"] for one in reasons(fleet)] == [{"lost": 1, "flying": 2}]
+
+
+def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is_not_ready() -> (
+    None
+):
+    def why_low(fleet: Living) -> list[str]:
+        waiting = looking(fleet)
+        return [waiting.why_low(drone) for drone in fleet.life.brain.drones().values()]
+
+    too_low = "its battery is too low for every trip that waits"
+    assert why_low(living(far("a"), low=0.25)) == [too_low] * 3
+    near = apps.mission("a", apps.trip("1", 1.0))
+    little = "its battery has little more than its reserve"
+    assert sorted(why_low(living(near, low=0.3))) == ["", little, little]  # one flies
+    assert why_low(living(near)) == ["", "", ""]
+
+
+def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
+    """None is forgotten, and nothing is found out twice within seconds."""
+    fleet = living(*[far(f"m{n}") for n in range(3 * MISSIONS_A_LOOK)], low=0.25)
+    waiting, missions, seen = looking(fleet), fleet.life.records.missions.items(), list[int]()
+    for _ in range(4):
+        waiting.look(fleet.life.brain, fleet.fleet)
+        seen.append(sum(bool(waiting.why(name, one["todo"])) for name, one in missions))
+    assert seen == [MISSIONS_A_LOOK, 2 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK]

@@ -1,0 +1,368 @@
+"""Flights of the past by their journals alone: of every version, damaged, or of something else."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import time
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import pytest
+from mcap.reader import make_reader
+
+from pluto_fleet.journal.store import Store
+from pluto_fleet.shared.domain.actions import BUILT_IN
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.config import StationConfig
+from pluto_fleet.station.history.folder import recording_of, rehearsals_in
+from pluto_fleet.station.history.past import PastFlights
+from pluto_fleet.station.history.recording import Recording
+from tests.library.files.an_app import APP, POLLINATE
+from tests.library.journal.keeping import GOLDEN, JOURNAL
+from tests.library.station.plan.drawing import FLEET
+
+FARM = replace(
+    APP, name="farm", actions={**BUILT_IN, "sprinkle": replace(POLLINATE, name="sprinkle")}
+)
+OLD, NEW = "2026-01-01-120000", "2026-01-02-120000"
+
+
+def kept(folder: Path, version: int, id: str) -> Path:
+    """Put a journal there that was written by this version of the events."""
+    path = folder / f"{id}.journal"
+    shutil.copyfile(GOLDEN / f"1-0.1.0-{version}" / JOURNAL, path)
+    return path
+
+
+def past_of(folder: Path, ours: Path | None = None) -> PastFlights:
+    """Return what a station serves that has this folder."""
+    config = StationConfig(folder=folder, fleet=FLEET, faults={})
+    config.own_folder.mkdir(exist_ok=True)
+    return PastFlights(FARM, config, lambda: ours)
+
+
+def frames_of(past: PastFlights, id: str) -> list[dict[str, Any]]:
+    """Return a whole replay, part by part."""
+    frames: list[dict[str, Any]] = []
+    start: float | None = 0.0
+    while start is not None:
+        part: Any = past.replay(id, start)
+        frames += part["frames"]
+        start = part["next"]
+    return frames
+
+
+def events_of(path: Path) -> Iterator[dict[str, Any]]:
+    store = Store.open(path)
+    try:
+        yield from store.read().events
+    finally:
+        store.close()
+
+
+def test_flights_are_listed_by_what_their_journals_tell(tmp_path: Path) -> None:
+    journal = kept(tmp_path, 2, NEW)
+    [flight] = past_of(tmp_path).flights()
+    counts = Counter(event["event"] for event in events_of(journal))
+    assert (flight["id"], flight["said"], flight["end"]) == (NEW, "", "stopped")
+    assert (flight["missions"], flight["completed"]) == (3, counts["mission.ended"])
+    assert flight["trips"] == counts["trip.completed"]
+    assert flight["simulated"] is True
+    assert flight["recorded"] is False
+    assert flight["lost"] == []
+    assert set(flight["drones"]) <= {"scout1", "scout2", "carrier1", "carrier2"}
+    assert flight["begun_at"] is not None
+    assert flight["ended_at"] is not None
+    assert flight["begun_at"] < flight["ended_at"]
+
+
+def test_a_journal_is_read_once_and_again_when_it_has_grown(tmp_path: Path) -> None:
+    """Also by the next station: it is read from a file what was read before."""
+    journal = kept(tmp_path, 2, NEW)
+    [before] = past_of(tmp_path).flights()
+    kept_file = tmp_path / "station" / "flights.json"
+    told = json.loads(kept_file.read_text())
+    told["flights"][NEW][1]["by"] = "what only the file says"
+    kept_file.write_text(json.dumps(told))
+    assert past_of(tmp_path).flights() == [{**before, "by": "what only the file says"}]
+    store = Store.open(journal)
+    store.append(['[{"t": 900.0, "event": "drone.lost", "drone": "scout1", "reason": "it fell"}]'])
+    store.close()
+    [after] = past_of(tmp_path).flights()
+    assert (after["by"], after["lost"], after["seconds"]) == (None, ["scout1"], 900.0)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "no JSON", "[]", '{"format": 1, "app": "farm", "flights": 3}']
+)
+def test_a_file_that_is_not_as_expected_is_made_anew(tmp_path: Path, text: str) -> None:
+    kept(tmp_path, 2, NEW)
+    first = past_of(tmp_path).flights()
+    (tmp_path / "station" / "flights.json").write_text(text)
+    assert past_of(tmp_path).flights() == first
+
+
+def test_a_journal_that_cannot_be_read_is_listed_with_what_is_wrong(tmp_path: Path) -> None:
+    """The others are listed all the same, and hours are counted by them."""
+    kept(tmp_path, 2, NEW)
+    (tmp_path / "none.journal").write_bytes(b"no journal at all")
+    damaged = kept(tmp_path, 2, "damaged")
+    whole = bytearray(damaged.read_bytes())
+    whole[len(whole) // 2 :] = b"\0" * (len(whole) - len(whole) // 2)
+    damaged.write_bytes(whole)
+    past = past_of(tmp_path)
+    flights = {flight["id"]: flight for flight in past.flights()}
+    assert flights[NEW]["said"] == ""
+    for id in ("none", "damaged"):
+        assert flights[id]["end"] == "unknown"
+        assert f"{id}.journal" in flights[id]["said"]
+        assert past.replay(id, 0.0)["said"] != ""
+        assert past.report(id)["flight"]["end"] == "unknown"
+    assert past.hours()
+
+
+def test_another_apps_journal_is_listed_as_such(tmp_path: Path) -> None:
+    kept(tmp_path, 2, NEW)
+    config = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
+    config.own_folder.mkdir()
+    [flight] = PastFlights(APP, config, lambda: None).flights()
+    assert flight["end"] == "unknown"
+    assert "farm" in flight["said"]
+
+
+@pytest.mark.parametrize("id", ["", "..", "../x", NEW + ".journal", "/etc/passwd", "\0", "x" * 999])
+def test_an_id_is_looked_up_and_never_made_into_a_path(tmp_path: Path, id: str) -> None:
+    kept(tmp_path, 2, NEW)
+    shutil.copyfile(tmp_path / f"{NEW}.journal", tmp_path.parent / "x.journal")
+    past = past_of(tmp_path)
+    for ask in (past.report, past.console, past.results, past.mcap):
+        with pytest.raises(BadInput, match="there is no flight"):
+            ask(id)
+    with pytest.raises(BadInput, match="there is no flight"):
+        past.replay(id, 0.0)
+
+
+@pytest.mark.parametrize("version", [1, 2])
+def test_a_flight_that_was_not_recorded_is_replayed_by_its_events(
+    tmp_path: Path, version: int
+) -> None:
+    """The last frame has each mission as the journal has it; what it does not tell is not known."""
+    journal = kept(tmp_path, version, OLD)
+    past = past_of(tmp_path)
+    frames = frames_of(past, OLD)
+    assert [frame["t"] for frame in frames] == sorted(frame["t"] for frame in frames)
+    assert frames[-1]["state"]["phase"] == "stopped"
+    missions = {row["name"]: row for frame in frames for row in frame["missions"]}
+    done = Counter(e["mission"] for e in events_of(journal) if e["event"] == "trip.completed")
+    assert {name: row["done"] for name, row in missions.items()} == dict(done)
+    rows = [row for frame in frames for row in frame["drones"]]
+    assert {row["id"] for row in rows} == {"scout1", "scout2", "carrier1", "carrier2"}
+    assert any(row["x"] is None for row in rows)
+    part: Any = past.replay(OLD, 0.0)
+    assert part["recorded"] is False
+    assert "not recorded" in part["said"]
+    assert len(part["log"]) == len(past.console(OLD).splitlines())
+    assert len(part["results"]) == len(past.results(OLD))
+
+
+def test_measured_drones_are_between_the_ends_of_their_commands(tmp_path: Path) -> None:
+    journal = kept(tmp_path, 2, NEW)
+    past = past_of(tmp_path)
+    flown = [e for e in events_of(journal) if e["event"] == "drone.flew" and e["ended"] == "done"]
+    leg = next(e for e in flown if e["what"] == "leg" and e["seconds"] > 1.0)
+    frame: Any = past.replay(NEW, leg["t"] - leg["seconds"] / 2)["frames"][0]
+    [row] = [row for row in frame["drones"] if row["id"] == leg["drone"]]
+    for axis, start, end in zip("xyz", leg["from"], leg["to"], strict=True):
+        assert min(start, end) - 0.01 <= row[axis] <= max(start, end) + 0.01
+    assert leg["battery"][1] - 0.01 <= row["battery"] <= leg["battery"][0] + 0.01
+
+
+def test_hours_are_those_between_take_off_and_landing(tmp_path: Path) -> None:
+    """Of a journal without measurements they are not known, and that is said."""
+    journal = kept(tmp_path, 2, NEW)
+    flown = [event for event in events_of(journal) if event["event"] == "drone.flew"]
+    kept(tmp_path, 1, OLD)
+    rows = {row["id"]: row for row in past_of(tmp_path).hours()}
+    for drone, row in rows.items():
+        commands = [event for event in flown if event["drone"] == drone]
+        in_the_air = sum(event["seconds"] for event in commands)
+        assert row["hours"] * 3600 >= in_the_air - 0.01
+        assert row["hours"] * 3600 <= commands[-1]["t"]
+        given = sum(max(e["battery"][0] - e["battery"][1], 0.0) for e in commands)
+        assert row["cycles"] >= given - 0.001
+        assert (row["flights"], row["unmeasured"]) == (2, 1)
+
+
+def test_a_report_says_what_became_of_each_mission_and_why(tmp_path: Path) -> None:
+    journal = kept(tmp_path, 2, NEW)
+    report = past_of(tmp_path).report(NEW)
+    events = list(events_of(journal))
+    failed = [event for event in events if event["event"] == "trip.failed"]
+    found = [one for one in report["incidents"] if one["kind"] == "failed"]
+    assert [(one["time"], one["mission"]) for one in found] == [
+        (event["t"], event["mission"]) for event in failed
+    ]
+    assert all(event["reason"] in one["text"] for event, one in zip(failed, found, strict=True))
+    trips = [trip for mission in report["missions"] for trip in mission["trips"]]
+    assert sum(trip["attempts"] for trip in trips) == sum(
+        event["event"] == "trip.launched" for event in events
+    )
+    assert sum(group["count"] for group in report["results"]) >= report["flight"]["results"]
+    assert {drone["id"] for drone in report["drones"]} == set(report["flight"]["drones"])
+
+
+def test_who_commanded_what_is_told_by_journal_and_log(tmp_path: Path) -> None:
+    """What only the journal has came from another program; edits of the plan are no commands."""
+    journal = kept(tmp_path, 2, NEW)
+    past = past_of(tmp_path)
+    begun_at = past.flights()[0]["begun_at"]
+    assert begun_at is not None
+    store = Store.open(journal)
+    commanded = [
+        {"t": 500.0, "event": "commanded", "id": id, "command": "pause"} for id in ("one", "two")
+    ]
+    store.append([json.dumps(commanded)])
+    store.close()
+    lines = [
+        {"do": "/api/plan", "given": {}, "status": 200, "said": ""},
+        {"do": "/api/start", "given": {"id": "start"}, "status": 200, "said": "started"},
+        {"do": "/api/pause", "given": {"id": "one", "mission": "A"}, "status": 200, "said": "yes"},
+        {"do": "/api/pause", "given": {"id": "no"}, "status": 409, "said": "nothing flies"},
+    ]
+    stamp = _utc(begun_at)
+    log = [json.dumps({"time": stamp, "client": "127.0.0.1", **line}) for line in lines]
+    (tmp_path / "station" / "audit.log").write_text("\n".join([*log, '{"torn']))
+    found = past.report(NEW)["commands"]
+    told = {(one["command"], one["client"], one["said"], one["time"]) for one in found}
+    assert told == {
+        ("start", "127.0.0.1", "started", None),
+        ("pause", "127.0.0.1", "yes", 500.0),
+        ("pause", None, "", 500.0),
+    }
+
+
+def _utc(at: int) -> str:
+    return time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(at / 1000))
+
+
+def test_an_mcap_file_is_read_by_its_own_library(tmp_path: Path) -> None:
+    """With as many poses, results and lines as the replay has."""
+    kept(tmp_path, 2, NEW)
+    past = past_of(tmp_path)
+    frames = frames_of(past, NEW)
+    counts: Counter[str] = Counter()
+    poses, moved = [], 0
+    begun_at = past.flights()[0]["begun_at"]
+    assert begun_at is not None
+    reader = make_reader(BytesIO(past.mcap(NEW)), validate_crcs=True)
+    for schema, channel, message in reader.iter_messages():
+        assert schema is not None
+        assert schema.encoding == "jsonschema"
+        assert message.log_time >= begun_at * 1_000_000
+        counts[schema.name] += 1
+        data = json.loads(message.data)
+        if schema.name == "foxglove.PoseInFrame":
+            poses.append((channel.topic, data["pose"]["position"]))
+        moved += len(data.get("transforms", ()))
+    rows = [row for frame in frames for row in frame["drones"] if row["x"] is not None]
+    shown = [(f"/drones/{row['id']}/pose", {axis: row[axis] for axis in "xyz"}) for row in rows]
+    assert poses == shown
+    assert moved == len(rows)
+    assert counts["foxglove.Log"] == len(past.console(NEW).splitlines())
+    assert counts["pluto.Result"] == len(past.results(NEW))
+    assert counts["pluto.Battery"] > 0
+    assert counts["pluto.Mission"] > 0
+
+
+def test_a_recording_that_begins_later_is_preceded_by_what_the_journal_tells(
+    tmp_path: Path,
+) -> None:
+    """As of a flight that `fly` began, and a station went on with."""
+    journal = kept(tmp_path, 2, NEW)
+    end = past_of(tmp_path).flights()[0]["seconds"]
+    recording = Recording(recording_of(journal), begun_at=0)
+    row = {"id": "scout1", "x": 1.0, "y": 1.0, "z": 1.0, "status": "BUSY"}
+    recording.write(end / 2, {"phase": "flying"}, [], [row])
+    recording.write(end, {"phase": "over"}, [], [row])
+    recording.finish()
+    past = past_of(tmp_path)
+    frames = frames_of(past, NEW)
+    assert frames[-1]["state"]["phase"] == "over"
+    assert [frame["t"] for frame in frames if frame["t"] >= end / 2] == [end / 2, end]
+    assert len(frames) > 2
+    assert past.replay(NEW, 0.0)["recorded"]
+    assert "was not recorded" in past.replay(NEW, 0.0)["said"]
+
+
+def test_a_damaged_recording_leaves_the_journal(tmp_path: Path) -> None:
+    journal = kept(tmp_path, 2, NEW)
+    recording_of(journal).write_bytes(os.urandom(1000))
+    part = past_of(tmp_path).replay(NEW, 0.0)
+    assert part["recorded"] is False
+    assert "not recorded" in part["said"]
+    assert part["frames"]
+
+
+def test_a_rehearsal_is_replayed_by_its_name(tmp_path: Path) -> None:
+    """It is no flight, so it is in no list."""
+    past = past_of(tmp_path)
+    folder = rehearsals_in(tmp_path / "station")
+    folder.mkdir()
+    recording = Recording(folder / "median.recording", begun_at=5)
+    recording.write(0.0, {"phase": "flying"}, [{"name": "A"}], [{"id": "cf1", "battery": 1.0}])
+    recording.tell({"number": 1, "text": "hello"})
+    recording.bring({"number": 1, "value": 3})
+    recording.finish()
+    part: Any = past.replay("median", 0.0)
+    assert part["frames"][0]["missions"] == [{"name": "A"}]
+    assert part["log"] == [{"number": 1, "text": "hello"}]
+    assert part["results"] == [{"number": 1, "value": 3}]
+    assert (part["begun_at"], part["recorded"], part["said"]) == (5, True, "")
+    assert past.flights() == []
+    with pytest.raises(BadInput, match="there is no flight"):
+        past.report("median")
+
+
+def test_a_part_of_a_long_replay_is_no_larger_than_it_may_be(tmp_path: Path) -> None:
+    """And the parts together are all of it."""
+    journal = kept(tmp_path, 2, NEW)
+    recording = Recording(recording_of(journal), begun_at=0)
+    for t in range(600):
+        rows = [{"id": f"cf{n}", "x": t / 7 + n, "why": "x" * 100} for n in range(50)]
+        recording.write(float(t), {"phase": "flying"}, [], rows)
+    recording.finish()
+    past = past_of(tmp_path)
+    sizes, times, start = [], [], 0.0
+    while True:
+        part: Any = past.replay(NEW, start)
+        sizes.append(len(json.dumps(part["frames"])))
+        times += [frame["t"] for frame in part["frames"]]
+        if part["next"] is None:
+            break
+        start = part["next"]
+    assert len(sizes) > 2
+    assert max(sizes) < 1_200_000
+    assert times == [float(t) for t in range(600)]
+
+
+def test_the_journal_that_is_being_written_is_read_beside_its_writer(tmp_path: Path) -> None:
+    """By no other way than SQLite, whose locks would be gone otherwise: the writer goes on."""
+    journal = kept(tmp_path, 2, NEW)
+    store = Store.open(journal)
+    past = past_of(tmp_path, ours=store.path)
+    try:
+        assert past.flights()[0]["end"] == "flying"
+        for t in (700.0, 701.0):
+            store.append([f'[{{"t": {t}, "event": "drone.lost", "drone": "scout1"}}]'])
+            assert past.flights()[0]["seconds"] == t
+        assert past.replay(NEW, 0.0)["frames"]
+        assert past.report(NEW)["flight"]["lost"] == ["scout1"]
+    finally:
+        store.close()
+    assert past_of(tmp_path).flights()[0]["end"] == "stopped"

@@ -1,0 +1,217 @@
+"""What is drawn on the map is in the fleet file, and nothing else of that has changed."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.files.fleet import load_fleet
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.map.drawn import DrawnMap, StaleMap
+from tests.library.files.an_app import APP
+
+SVG = b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 2 1"/>'
+FLEET = """\
+# Our ward.
+[map]
+size = [20.0, 12.0]
+image = "ward.svg"  # by the architect
+
+[[map.places]]
+name = "Bed 1"  # by the window
+at = [1, 1]
+
+# Our drones.
+[[drone]]
+id = "a"
+category = "scout"
+home = [1, 1]
+"""
+BED = {"name": "Bed 1", "x": 1, "y": 1}
+
+
+def ward(folder: Path, text: str = FLEET) -> DrawnMap:
+    """Return the map of a fleet file with this text, its floor plan beside it."""
+    (folder / "ward.svg").write_bytes(SVG)
+    (folder / "fleet.toml").write_bytes(text.encode())
+    airspace = load_fleet(folder / "fleet.toml", APP).airspace
+    return DrawnMap(airspace, folder / "fleet.toml", now=lambda: 0.0)
+
+
+def change(drawn: DrawnMap, **given: object) -> Mapping[str, object]:
+    """Draw on the newest map."""
+    asyncio.run(drawn.change(drawn.revision, given))
+    return drawn.data()
+
+
+def text(folder: Path) -> str:
+    return (folder / "fleet.toml").read_bytes().decode()
+
+
+def test_what_is_drawn_stands_in_the_fleet_file(tmp_path: Path) -> None:
+    """To the millimetre; all that is not sent stays, with its comments."""
+    drawn, heard = ward(tmp_path), list[int]()
+    drawn.changed = lambda: heard.append(drawn.revision)
+    zone = {"name": "Ward", "corners": [[0, 0], [5, 0], [5, 5.00001]]}
+    data = change(
+        drawn, places=[BED, {"name": "Bed 2", "x": 2.12345, "y": 3, "z": 1}], zones=[zone]
+    )
+    assert data["places"] == [BED, {"name": "Bed 2", "x": 2.123, "y": 3.0, "z": 1.0}]
+    assert text(tmp_path) == FLEET.replace(
+        "at = [1, 1]\n",
+        'at = [1, 1]\n\n[[map.places]]\nname = "Bed 2"\nat = [2.123, 3.0, 1.0]\n\n'
+        '[[map.zones]]\nname = "Ward"\ncorners = [[0.0, 0.0], [5.0, 0.0], [5.0, 5.0]]\n',
+    )
+    assert heard == [data["revision"]] == [1]
+    assert (drawn.name_of((2.2, 3.3)), drawn.name_of((4.0, 2.0))) == ("Bed 2", "Ward")
+    change(drawn, places=[BED], zones=[], north=0)
+    assert text(tmp_path) == FLEET
+    assert load_fleet(tmp_path / "fleet.toml", APP).landmarks == drawn.landmarks
+
+
+def test_what_is_the_same_is_no_change(tmp_path: Path) -> None:
+    """Nothing is written, and no page is told."""
+    drawn = ward(tmp_path)
+    before = (tmp_path / "fleet.toml").stat().st_mtime_ns
+    change(drawn, places=[BED])
+    assert (drawn.revision, (tmp_path / "fleet.toml").stat().st_mtime_ns) == (0, before)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"places": [{"name": "A", "x": 30, "y": 1}]}, 'place "A": at (30, 1) is outside the map'),
+        ({"places": [BED, BED]}, 'place "Bed 1": there is another place or zone "Bed 1"'),
+        ({"places": [{"name": "A", "x": 1}]}, 'place "A": at […] is not a list of 2 or 3 numbers'),
+        ({"places": [{**BED, "colour": 1}]}, 'place "Bed 1": unknown key "colour"'),
+        ({"places": 3}, "places must be a list of objects"),
+        (
+            {"zones": [{"name": "A", "corners": [[0, 0], [4, 4], [4, 0], [1, 3]]}]},
+            "crosses or touch",
+        ),
+        ({"north": "up"}, 'the map: north "up" is not a number'),
+        ({"image": {"x": 0, "y": 0, "width": 0, "height": 1}}, "image: size […] has an element"),
+        ({"image": 3}, "image must be null"),
+        ({"size": [1, 1]}, "the map has no size"),
+    ],
+)
+def test_what_is_no_map_is_refused(tmp_path: Path, given: dict[str, object], said: str) -> None:
+    """In words, and nothing is written."""
+    drawn = ward(tmp_path)
+    with pytest.raises(BadInput) as caught:
+        change(drawn, **given)
+    assert said in str(caught.value)
+    assert (text(tmp_path), drawn.revision) == (FLEET, 0)
+
+
+def test_a_file_that_was_changed_by_hand_counts(tmp_path: Path) -> None:
+    """A page that has not seen that is told; what does not concern the map is no conflict."""
+    drawn = ward(tmp_path)
+    by_hand = FLEET.replace('id = "a"', 'id = "b"  # mended')
+    (tmp_path / "fleet.toml").write_text(by_hand, "utf-8")
+    change(drawn, north=30)
+    assert 'id = "b"  # mended' in text(tmp_path)
+    by_hand = text(tmp_path).replace("[1, 1]", "[2, 2]", 1)
+    (tmp_path / "fleet.toml").write_text(by_hand, "utf-8")
+    with pytest.raises(StaleMap):
+        change(drawn, places=[])
+    assert drawn.data()["places"] == [{**BED, "x": 2.0, "y": 2.0}]
+    assert text(tmp_path) == by_hand
+    change(drawn, places=[])
+    assert "Bed 1" not in text(tmp_path)
+
+
+def test_two_pages_do_not_overwrite_each_other(tmp_path: Path) -> None:
+    drawn = ward(tmp_path)
+    asyncio.run(drawn.change(0, {"north": 3}))
+    with pytest.raises(StaleMap):
+        asyncio.run(drawn.change(0, {"north": 4}))
+    assert drawn.landmarks.north == 3.0
+
+
+@pytest.mark.parametrize("broken", ["[map", None, "[map]\nnorth = 'x'\n"])
+def test_a_file_that_cannot_be_read_any_more_is_not_replaced(
+    tmp_path: Path, broken: str | None
+) -> None:
+    """It is said what is wrong with it."""
+    drawn, file = ward(tmp_path), tmp_path / "fleet.toml"
+    if broken is None:
+        file.unlink()
+    else:
+        file.write_text(broken, "utf-8")
+    with pytest.raises(BadInput, match=r"fleet\.toml"):
+        change(drawn, north=3)
+    assert (file.read_text() if file.exists() else None) == broken
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_a_file_that_may_only_be_read_says_so(tmp_path: Path) -> None:
+    """Before anything is drawn, and when it is."""
+    drawn = ward(tmp_path)
+    (tmp_path / "fleet.toml").chmod(0o444)
+    assert drawn.data()["writable"] is False
+    with pytest.raises(BadInput, match="may only be read"):
+        change(drawn, north=3)
+
+
+def test_permissions_links_marks_and_line_ends_stay(tmp_path: Path) -> None:
+    """A link leads to the same file, which others may write as before."""
+    crlf = "\ufeff" + FLEET.replace("\n", "\r\n")
+    ward(tmp_path, crlf)
+    (tmp_path / "fleet.toml").rename(tmp_path / "real.toml")
+    (tmp_path / "real.toml").chmod(0o664)
+    (tmp_path / "fleet.toml").symlink_to("real.toml")
+    drawn = DrawnMap(Airspace(size=(20.0, 12.0)), tmp_path / "fleet.toml")
+    change(drawn, north=3)
+    assert (tmp_path / "fleet.toml").is_symlink()
+    assert (tmp_path / "real.toml").stat().st_mode & 0o777 == 0o664
+    assert text(tmp_path) == crlf.replace("architect\r\n", "architect\r\nnorth = 3.0\r\n")
+
+
+def test_without_a_fleet_file_the_station_keeps_it(tmp_path: Path) -> None:
+    """In a file of its own, which it finds again."""
+    drawn = DrawnMap(Airspace(), tmp_path / "map.toml")
+    change(drawn, places=[BED])
+    asyncio.run(drawn.take_picture(drawn.revision, "x", SVG))
+    again = DrawnMap(Airspace(), tmp_path / "map.toml")
+    assert again.landmarks == drawn.landmarks
+    assert again.image == drawn.image != None
+
+
+def test_a_floor_plan_lies_where_it_was_laid(tmp_path: Path) -> None:
+    """Another one is as large as the map until then; each has an address of its own."""
+    drawn = ward(tmp_path)
+    laid = {"x": 1.0, "y": 0.5, "width": 10.0, "height": 5.0, "turn": 90.0}
+    first = change(drawn, image=laid)["image"]
+    assert first == {**laid, "address": drawn.address}
+    asyncio.run(drawn.take_picture(drawn.revision, "../../New ward.PNG", SVG + b" "))
+    second = drawn.data()["image"]
+    assert second == {
+        "address": drawn.address,
+        "x": 0.0,
+        "y": 0.0,
+        "width": 20.0,
+        "height": 12.0,
+        "turn": 0.0,
+    }
+    assert first["address"] != second["address"]
+    [new] = [file for file in tmp_path.iterdir() if file.name.startswith("new-ward-")]
+    assert new.suffix == ".svg" and new.read_bytes() == SVG + b" "
+    assert drawn.image == new.resolve()
+    assert f'image = "{new.name}"  # by the architect' in text(tmp_path)
+    assert (tmp_path / "ward.svg").read_bytes() == SVG
+    assert change(drawn, image=None)["image"] is None
+
+
+def test_a_floor_plan_that_cannot_be_named_is_not_left_behind(tmp_path: Path) -> None:
+    """Where the file's map is written in a way that is not touched."""
+    drawn = ward(tmp_path, FLEET.replace("[map]\nsize", "map.size").replace('image', 'map.image')
+                 .split("[[map.places]]")[0] + FLEET[FLEET.index("# Our drones") :])  # fmt: skip
+    with pytest.raises(BadInput, match=r"write the line \[map\]"):
+        asyncio.run(drawn.take_picture(drawn.revision, "x", SVG))
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["fleet.toml", "ward.svg"]

@@ -1,0 +1,294 @@
+"""From a plan to a missions file and back."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pluto_fleet.files.landmarks import Landmarks, NamedPlace
+from pluto_fleet.files.missions import load_missions
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.model import Mission
+from pluto_fleet.station.plan.plan import MissionPlan, Stale
+from tests.library.files.an_app import APP
+from tests.library.files.test_missions import FULL
+from tests.library.station.plan.drawing import (
+    FLEET,
+    SOUND_PLANS,
+    Json,
+    a_plan,
+    drawn,
+    mission,
+    said,
+    trip,
+)
+
+FILE = """\
+[[mission]]
+name = "North field"
+safe_time = "3 min"
+repeat = 2
+at = "08:30"
+evaluator = "find_blooms"
+
+  [[mission.trip]]
+  name = "A"
+  action = "take_photo"
+  target = [2.0, 1.5]
+  delay = "30 s"
+  priority = 1
+
+  [[mission.trip]]
+  action = "pollinate"
+  parameters = { dose = "40 mg", share = "20 %" }
+  target = [4, 1.5, 0.8]
+
+  [[mission.trip]]
+  action = "pick_item"
+  item = { name = "pills", mass = "4 g" }
+  source = [0.5, 0.5]
+  target = [4.0, 3.0]
+
+  [[mission.trip]]
+  action = "release_item"
+  item = { name = "pills", mass = 0.004 }
+  target = [6.0, 3.0]
+
+[[mission]]
+name = "2"
+
+  [[mission.trip]]
+  action = "measure"
+  target = [1, 1]
+"""
+
+
+def imported(text: str) -> MissionPlan:
+    plan = a_plan()
+    plan.import_toml(text, plan.revision)
+    return plan
+
+
+def facts(missions: list[Mission[Any]]) -> list[object]:
+    """Return all that missions are made of, to be compared."""
+    of_mission = ("name", "index", *(f.name for f in APP.fields if f.on.value == "mission"))
+    of_trip = ("name", "index", "action", "target", "source", "parameters", "item", "delay")
+    return [
+        (
+            [getattr(one, name) for name in of_mission],
+            [[getattr(trip, name) for name in (*of_trip, "priority")] for trip in one.trips],
+        )
+        for one in missions
+    ]
+
+
+def test_a_file_comes_back_as_its_writer_wrote_it() -> None:
+    """With its quantities, its order, and places as one draws them."""
+    unnamed = FILE.replace('name = "2"\n', "").replace("0.8]", '"80 cm"]').replace("04 }", "040 }")
+    assert imported(unnamed).export_toml() == FILE
+
+
+def test_times_of_day_of_toml_become_texts() -> None:
+    """JSON has none."""
+    text = FILE.replace('"08:30"', "08:30:00")
+    assert imported(text).export_toml() == FILE.replace('"08:30"', '"08:30:00"')
+
+
+def test_the_whole_of_a_file_is_taken(tmp_path: Path) -> None:
+    """Each mission that a file's reader finds, with everything in it."""
+    file = tmp_path / "m.toml"
+    file.write_text(FULL, encoding="utf-8")
+    assert facts(imported(FULL).launchable()[0]) == facts(load_missions(file, APP, FLEET.airspace))
+
+
+def test_an_area_is_taken_as_plain_trips() -> None:
+    """And handed out so; missions beside it stay as they were typed."""
+    area = """
+  [[mission.area]]
+  polygon = [[1, 1], [5, 1], [5, 3], [1, 3]]
+  action = "take_photo"
+  spacing = "2 m"
+  delay = "1 min"
+"""
+    plan = imported(f'{FILE}\n[[mission]]\nname = "Field"\n{area}')
+    text = plan.export_toml()
+    assert text.startswith(FILE)
+    assert text.removeprefix(FILE).count("[[mission.trip]]") == 2
+    assert 'name = "area 1.2"' in text
+    assert "area]]" not in text
+    assert facts(imported(text).launchable()[0]) == facts(plan.launchable()[0])
+    assert plan.launchable()[0][-1].trips[0].delay == 60.0
+
+
+def test_a_list_beside_a_file_is_taken_as_plain_missions(tmp_path: Path) -> None:
+    """One that a page sends has none beside it."""
+    (tmp_path / "beds.csv").write_text("nr,x\n1,2\n2,3\n", encoding="utf-8")
+    text = """
+[[mission]]
+name = "Bed {nr}"
+each = "beds.csv"
+  [[mission.trip]]
+  action = "measure"
+  target = ["{x}", 1]
+"""
+    plan = a_plan()
+    plan.import_toml(text, plan.revision, "m.toml", tmp_path)
+    assert [mission.name for mission in plan.launchable()[0]] == ["Bed 1", "Bed 2"]
+    assert "each" not in plan.export_toml()
+    with pytest.raises(BadInput, match="lies beside a missions file, and this one is in no folder"):
+        plan.import_toml(text, plan.revision)
+
+
+def test_a_file_may_name_places_of_the_map() -> None:
+    """As it is drawn when the file comes; what was taken in has the places themselves."""
+    text = FILE.replace("target = [1, 1]", 'target = "Desk"')
+    plan = a_plan()
+    plan.landmarks = Landmarks(places=(NamedPlace(name="Desk", at=(1.0, 1.0)),))
+    plan.import_toml(text, plan.revision)
+    assert plan.export_toml() == FILE.replace("[1, 1]", "[1.0, 1.0]")
+
+
+@given(missions=SOUND_PLANS)
+@settings(max_examples=100, derandomize=True, deadline=None)
+def test_what_is_exported_flies_the_same(
+    tmp_path_factory: pytest.TempPathFactory, missions: list[Json]
+) -> None:
+    """From the file as from the screen; and a plan that takes the file in is the same again."""
+    plan = drawn(*missions)
+    flown, keys = plan.launchable()
+    assert keys == [one["key"] for one in missions]
+    text = plan.export_toml()
+    if not missions:
+        assert text == ""
+        return
+    file = tmp_path_factory.mktemp("plan") / "m.toml"
+    file.write_bytes(text.encode())
+    assert facts(load_missions(file, APP, FLEET.airspace)) == facts(flown)
+    assert imported(text).export_toml() == text
+
+
+def test_hostile_texts_stay_texts(tmp_path: Path) -> None:
+    """Nothing in a text can end it, and every character comes back."""
+    hostile = '"]\n[[mission]]\n\x7f\x00\\u0041\U0001f681 \u2028 {{ }} <script>'
+    parameters = {"dose": 1, "note": hostile, "a.b": 1}
+    text = drawn(
+        mission("mission-one", trip(action="pollinate", parameters=parameters))
+    ).export_toml()
+    assert '"a.b" = 1' in text
+    file = tmp_path / "m.toml"
+    file.write_bytes(text.replace(', "a.b" = 1', "").encode())
+    [read] = load_missions(file, APP, FLEET.airspace)
+    assert read.trips[0].parameters["note"] == hostile
+
+
+def test_an_unfinished_plan_is_exported_as_it_is() -> None:
+    """What is not drawn yet is not there."""
+    begun = mission("mission-one", trip(target=None, item={}), safe_time="3 m", name="")
+    assert drawn(begun, mission("mission-two", trips=[])).export_toml() == (
+        '[[mission]]\nname = ""\nsafe_time = "3 m"\n\n'
+        '  [[mission.trip]]\n  action = "take_photo"\n  item = {}\n\n'
+        '[[mission]]\nname = "mission-two"\n'
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "missions.toml: has no [[mission]]: nothing to fly"),
+        ("[[mission]", "missions.toml:1: is not valid TOML: "),
+        (FILE.replace('"3 min"', '"3 m"'),
+         ('missions.toml:3: mission "North field": safe_time "3 m" is a length, not a time: '
+          "it takes ms, s, min, h")),
+        (FILE.replace("[1, 1]", "[1, 99]"),
+         ('missions.toml:36: mission "2", trip 1: target (1, 99) is outside the map: '
+          "x goes from 0 to 20 m, y from 0 to 20 m")),
+    ],
+)  # fmt: skip
+def test_a_bad_file_is_refused_as_check_refuses_it(text: str, sentence: str) -> None:
+    """With its lines; and nothing changes."""
+    plan = drawn(mission())
+    before = plan.data()
+    with pytest.raises(BadInput) as caught:
+        plan.import_toml(text, plan.revision)
+    assert str(caught.value).startswith(sentence)
+    assert plan.data() == before
+
+
+def test_a_bad_file_is_told_by_the_name_that_it_has() -> None:
+    plan = drawn(mission())
+    with pytest.raises(BadInput, match=r"^north\.toml:1: is not valid TOML"):
+        asyncio.run(plan.import_file("[[mission]", plan.revision, "north.toml"))
+
+
+def test_what_unflyable_trips_is_taken_and_told() -> None:
+    """The person who draws can mend it."""
+    plan = imported(FILE.replace('"4 g"', '"8 g"').replace("0.004", "0.008"))
+    [(_, _, _, sentence)] = said(plan)
+    assert "carrier carries at most 5 g" in sentence
+
+
+def test_a_file_replaces_what_was_drawn_but_not_what_flies() -> None:
+    """With keys that nothing has."""
+    plan = drawn(mission("mission-one"), mission("mission-two"))
+    plan.launched(["mission-two"])
+    plan.import_toml(FILE, plan.revision)
+    missions: Any = plan.data()["missions"]
+    assert [one["name"] for one in missions] == ["mission-two", "North field", "2"]
+    plan.import_toml(FILE, plan.revision)
+    again: Any = plan.data()["missions"]
+    old, new = ({one["key"] for one in some[1:]} for some in (missions, again))
+    assert not old & new
+
+
+def test_what_was_handed_out_in_flight_may_come_back_in_flight() -> None:
+    """The missions that fly are not there twice."""
+    plan = imported(FILE)
+    missions: Any = plan.data()["missions"]
+    plan.launched([missions[0]["key"]])
+    plan.import_toml(plan.export_toml(), plan.revision)
+    assert plan.export_toml() == FILE
+    assert plan.launchable()[0][0].name == "2"
+
+
+@given(
+    at=st.integers(0, len(FILE)),
+    gone=st.integers(0, 20),
+    new=st.one_of(
+        st.text(max_size=4), st.sampled_from(["nan", "-inf", "1979-05-27", "[[]]", "{}"])
+    ),
+)
+@settings(max_examples=300, derandomize=True, deadline=None)
+def test_any_text_is_a_plan_or_refused(at: int, gone: int, new: str) -> None:
+    """Wherever a file was cut or written over; what is taken is handed out again."""
+    plan = a_plan()
+    try:
+        plan.import_toml(FILE[:at] + new + FILE[at + gone :], plan.revision)
+    except BadInput as error:
+        assert str(error).startswith("missions.toml:")
+    else:
+        assert imported(plan.export_toml()).export_toml() == plan.export_toml()
+
+
+def test_a_file_is_not_taken_on_an_old_plan() -> None:
+    """Nor is an example."""
+    plan = drawn(mission())
+    with pytest.raises(Stale):
+        plan.import_toml(FILE, plan.revision - 1)
+    with pytest.raises(Stale):
+        plan.example(plan.revision - 1)
+    assert plan.launchable()[1] == ["mission-one"]
+
+
+def test_some_missions_alone_are_a_file_too() -> None:
+    """Those of these keys, in the plan's order."""
+    plan = drawn(mission("mission-one"), mission("mission-two"), mission("mission-six"))
+    text = plan.export_toml(["mission-six", "mission-one"])
+    assert [line for line in text.split("\n") if line.startswith("name")] == [
+        'name = "mission-one"',
+        'name = "mission-six"',
+    ]

@@ -1,0 +1,151 @@
+"""Of what failed only the trips that were not done are flown again, and picks only with their releases."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pluto_fleet.files.fleet import default_fleet
+from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.plan.missing import settled
+from pluto_fleet.station.plan.plan import MissionPlan
+from tests.library.files.an_app import APP
+from tests.library.station.plan.drawing import Json, a_plan, drawn, mission, trip
+
+ITEM = {"name": "box", "mass": 0.004}
+FLEET = replace(default_fleet(APP, 4), apart=0.0)
+PICK, RELEASE = "pick_item", "release_item"
+
+
+def handling(key: str) -> list[Json]:
+    return [
+        trip(f"{key}-trip-pick", action=PICK, target=[3, 4], item=ITEM),
+        trip(f"{key}-trip-drop", action=RELEASE, target=[8, 4], item=ITEM),
+    ]
+
+
+def long(key: str) -> Json:
+    """Return a mission of a photo, two ways with an item, and a measurement."""
+    one, two = handling(f"{key}-a"), handling(f"{key}-b")
+    return mission(key, trip(f"{key}-photo"), *one, *two, trip(f"{key}-photo-2", target=[6, 6]))
+
+
+def failed(plan: MissionPlan, **done: list[str]) -> MissionPlan:
+    """Let missions of a plan fail that have done some of their trips."""
+    plan.launched([name.replace("_", "-") for name in done])
+    names = {name.replace("_", "-"): trips for name, trips in done.items()}
+    plan.settle(dict.fromkeys(names, "FAILED"), names)
+    return plan
+
+
+def missing(plan: MissionPlan, chosen: list[str] | None = None) -> dict[str, list[str]]:
+    missions, _ = plan.launchable(chosen, only_failed=True)
+    return {one.name: [each.name for each in one.trips] for one in missions}
+
+
+@pytest.mark.parametrize(
+    ("done", "again"),
+    [
+        ([], ["1", "2", "3", "4", "5", "6"]),
+        (["1"], ["2", "3", "4", "5", "6"]),
+        (["1", "2"], ["2", "3", "4", "5", "6"]),
+        (["1", "2", "3"], ["4", "5", "6"]),
+        (["1", "2", "3", "4"], ["4", "5", "6"]),
+        (["1", "3", "5"], ["6"]),
+        (["2", "3", "6"], ["1", "4", "5"]),
+    ],
+)
+def test_what_was_picked_and_not_released_is_picked_again(
+    done: list[str], again: list[str]
+) -> None:
+    assert missing(failed(drawn(long("mission-one")), mission_one=done)) == {"mission-one": again}
+
+
+def ways(total: Any, key: str) -> int:
+    return sum(one == key for one in total)
+
+
+@settings(max_examples=25, derandomize=True, deadline=None)
+@given(seed=st.integers(0, 1_000), share=st.sampled_from([0.1, 0.3, 0.6]))
+def test_after_random_failures_exactly_what_is_missing_flies_until_all_is_done(
+    seed: int, share: float
+) -> None:
+    plan = drawn(long("mission-one"), long("mission-two"), fleet=FLEET)
+    flown = list[tuple[str, str, str]]()
+    """Mission, trip and action of all that was done."""
+    only_failed = False
+    for life in range(60):
+        missions, keys = plan.launchable(only_failed=only_failed)
+        before = {(name, each) for name, each, _ in flown}
+        for one in missions:
+            for each in one.trips:
+                assert (one.name, each.name) not in before or each.action == PICK
+        plan.launched(keys, only_failed)
+        outcome = simulate(
+            APP,
+            missions,
+            FLEET,
+            seed=seed + life,
+            faults=Faults(action=share if life < 50 else 0.0),
+            until=None,
+            on_event=None,
+        )
+        stands = outcome.standing["missions"]
+        actions = {"2": PICK, "3": RELEASE, "4": PICK, "5": RELEASE}
+        for name, stand in stands.items():
+            names = [str(each["name"]) for each in stand["done"]]
+            flown += [(name, each, actions.get(each, "")) for each in names]
+        plan.settle(
+            {name: stand["status"] for name, stand in stands.items()},
+            {name: settled({**stand, "gone": []}) for name, stand in stands.items()},
+        )
+        ends: Any = plan.data()["missions"]
+        if all(one["ended"] == "COMPLETED" for one in ends):
+            break
+        only_failed = True
+    assert all(one["ended"] == "COMPLETED" for one in ends)
+    assert {(name, each) for name, each, _ in flown} == {
+        (name, str(number)) for name in ("mission-one", "mission-two") for number in range(1, 7)
+    }
+    for name, each, action in flown:
+        if action != PICK:
+            assert ways([(one, two) for one, two, _ in flown], (name, each)) == 1  # type: ignore[arg-type]
+
+
+def test_what_cannot_be_flown_again_alone_is_refused_in_words(tmp_path: Path) -> None:
+    keys = ("mission-one", "mission-two", "mission-six")
+    plan = a_plan(tmp_path / "plan.json")
+    plan.replace(plan.revision, [long(key) for key in keys])
+    with pytest.raises(BadInput, match="no mission has failed of which a trip is missing"):
+        missing(plan)
+    with pytest.raises(BadInput, match='"mission-two" has not failed, or was changed since'):
+        missing(plan, ["mission-two"])
+    failed(plan, mission_one=["1"], mission_six=[str(number) for number in range(1, 7)])
+    assert [*missing(plan)] == ["mission-one"]
+    with pytest.raises(BadInput, match='"mission-six" failed, and all its trips were done'):
+        missing(plan, ["mission-six"])
+    assert missing(a_plan(tmp_path / "plan.json")) == missing(plan)  # it outlives the station
+    shapes: Any = plan.data()["missions"]
+    plan.replace(plan.revision, shapes)  # as a page sends it back
+    assert [*missing(plan)] == ["mission-one"]
+    assert '"1"' not in plan.export_toml(["mission-one"], only_failed=True)
+    plan.replace(plan.revision, [{**shapes[0], "trips": shapes[0]["trips"][:3]}, *shapes[1:]])
+    with pytest.raises(BadInput, match='"mission-one" has not failed, or was changed since'):
+        missing(plan, ["mission-one"])
+    plan.launched(["mission-two"])
+    plan.settle({"mission-two": "COMPLETED"}, {"mission-two": ["1"]})
+    with pytest.raises(BadInput, match='"mission-two" was completed: nothing of it is missing'):
+        missing(plan, ["mission-two"])
+
+
+def test_missions_in_rounds_are_flown_whole() -> None:
+    plan = failed(drawn({**long("mission-one"), "repeat": 2}), mission_one=["1"])
+    with pytest.raises(BadInput, match='"mission-one" flies in rounds'):
+        missing(plan)

@@ -1,0 +1,155 @@
+"""Fields of an app's own in a plan that is drawn: typed in, shown as missing, handed out and taken in."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pluto_fleet.files.fleet import default_fleet
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.config import StationConfig, described
+from pluto_fleet.station.map.drawn import DrawnMap
+from pluto_fleet.station.plan.plan import MissionPlan
+from tests.library.files.an_app import OWN
+from tests.library.station.plan.drawing import mission, said, trip
+
+FLEET = default_fleet(OWN)
+TRIP = {"action": "measure", "fragile": False, "warmth": "21 C"}
+
+
+def drawn(*missions: dict[str, Any], keep: Path | None = None) -> MissionPlan:
+    plan = MissionPlan(OWN, FLEET, keep, now=lambda: 0.0)
+    plan.replace(plan.revision, list(missions))
+    return plan
+
+
+def whole(**given: object) -> dict[str, Any]:
+    return mission("mission-one", trip("trip-one-1", **TRIP), patient="Ada", **given)
+
+
+def test_a_page_learns_of_them_with_their_types_and_units(tmp_path: Path) -> None:
+    config = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
+    fields: Any = described(OWN, config, DrawnMap(FLEET.airspace, config.map_path), "x")["fields"]
+    by_name = {one["name"]: one for on in ("mission", "trip") for one in fields[on]}
+    assert by_name["patient"] == {
+        "name": "patient",
+        "type": "text",
+        "label": "Patient",
+        "default": None,
+        "own": True,
+        "needed": True,
+        "units": [],
+    }
+    assert by_name["margin"]["units"] == ["ms", "s", "min", "h"]
+    assert (by_name["margin"]["default"], by_name["margin"]["needed"]) == (600.0, False)
+    assert by_name["delay"] == {"name": "delay", "type": "time", "label": "delay", "default": None}
+    json.dumps(fields)
+
+
+def test_what_must_be_filled_in_is_shown_as_missing() -> None:
+    """Beside its field, by its label; as long as it is missing nothing starts."""
+    plan = drawn(mission("mission-one", trip("trip-one-1", action="measure")))
+    assert said(plan) == [
+        ("mission-one", None, "patient", "Patient is not filled in yet"),
+        ("mission-one", "trip-one-1", "fragile", "Fragile is not filled in yet"),
+        ("mission-one", "trip-one-1", "warmth", "Warmth is not filled in yet"),
+    ]
+    with pytest.raises(BadInput, match="Patient is not filled in yet"):
+        plan.launchable()
+
+
+def test_a_value_of_each_type_can_be_typed() -> None:
+    """As a person writes it; it is launched in SI units."""
+    plan = drawn(whole(margin="3 min", share="40 %", urgent=True))
+    assert said(plan) == []
+    (made,), _ = plan.launchable()
+    ready: Any = made
+    assert (ready.patient, ready.margin, ready.share, ready.urgent) == ("Ada", 180.0, 0.4, True)
+    (flown,) = ready.trips
+    assert (flown.fragile, flown.warmth, flown.layers, flown.note) == (False, 294.15, 1, "")
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"margin": "3 m"}, 'Margin "3 m" is a length, not a time: it takes ms, s, min, h'),
+        ({"share": "x"}, 'Share "x" is not a percent: write a number and a unit (%)'),
+        ({"urgent": "yes"}, 'Urgent "yes" is neither true nor false'),
+    ],
+)
+def test_what_is_wrong_is_said_beside_its_field(given: dict[str, object], says: str) -> None:
+    (one,) = said(drawn(whole(**given)))
+    assert one == ("mission-one", None, next(iter(given)), says)
+
+
+def test_a_plan_is_handed_out_and_taken_in_again(tmp_path: Path) -> None:
+    """And kept in between: as it was typed."""
+    plan = drawn(whole(margin="3 min", urgent=True), keep=tmp_path / "plan.json")
+    text = plan.export_toml()
+    assert 'patient = "Ada"' in text and 'margin = "3 min"' in text and "fragile = false" in text
+    again = MissionPlan(OWN, FLEET, tmp_path / "plan.json", now=lambda: 0.0)
+    assert again.export_toml() == text
+    other = drawn()
+    other.import_toml(text, other.revision)
+    assert other.export_toml() == text
+
+
+def test_what_a_list_leaves_out_stays_the_default(tmp_path: Path) -> None:
+    """So that it is another one as soon as the app has another default."""
+    (tmp_path / "beds.csv").write_text("who,share\nAda,10 %\nBob,20 %\n")
+    text = """[[mission]]
+each = "beds.csv"
+name = "{who}"
+patient = "{who}"
+share = "{share}"
+[[mission.trip]]
+action = "measure"
+target = [1, 1]
+fragile = false
+warmth = "21 C"
+"""
+    plan = drawn()
+    plan.import_toml(text, plan.revision, folder=tmp_path)
+    data: Any = plan.data()["missions"]
+    assert [(one["patient"], one["share"]) for one in data] == [("Ada", 0.1), ("Bob", 0.2)]
+    assert "margin" not in data[0] and "layers" not in data[0]["trips"][0]
+
+
+def test_the_example_has_them() -> None:
+    plan = drawn()
+    plan.example(plan.revision)
+    assert said(plan) == [] and not plan.is_empty
+    missions, _ = plan.launchable()
+    assert missions
+
+
+ANY = st.one_of(
+    st.text(max_size=9), st.integers(-5, 5), st.floats(0, 9), st.booleans(), st.sampled_from(("3 min", "21 C", "40 %"))
+)  # fmt: skip
+NAMES = ("patient", "margin", "share", "urgent")
+
+
+@given(st.dictionaries(st.sampled_from(NAMES), ANY), st.dictionaries(st.sampled_from(("fragile", "warmth", "note", "layers")), ANY))  # fmt: skip
+def test_whatever_is_typed_is_kept_and_judged(of_mission: dict[str, Any], of_trip: dict[str, Any]) -> None:  # fmt: skip
+    """A plan is flown, or it says what keeps it from that; handed out, it says the same of itself."""
+    plan = drawn(
+        mission("mission-one", trip("trip-one-1", action="measure", **of_trip), **of_mission)
+    )
+    problems = said(plan)
+    if problems:
+        with pytest.raises(BadInput):
+            plan.launchable()
+    else:
+        assert plan.launchable()
+    other = drawn()
+    try:
+        other.import_toml(plan.export_toml(), other.revision)
+    except BadInput:
+        assert problems
+    else:
+        assert not problems and said(other) == []

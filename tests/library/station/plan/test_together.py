@@ -1,0 +1,235 @@
+"""Several people draw one plan, and parts of it fly meanwhile."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
+
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.plan.plan import MissionPlan, Stale
+from tests.library.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
+
+KEYS = ["mission-one", "mission-two"]
+
+
+def keys_of(plan: MissionPlan) -> list[str]:
+    missions: Any = plan.data()["missions"]
+    return [one["key"] for one in missions]
+
+
+def test_a_change_of_an_old_plan_is_refused() -> None:
+    """The page that drew it draws it again on the new one."""
+    plan = a_plan()
+    old = plan.revision
+    plan.replace(old, [mission("mission-one")])
+    with pytest.raises(Stale, match=f"it is at {plan.revision}, not at {old}"):
+        plan.replace(old, [mission("mission-two")])
+    assert keys_of(plan) == ["mission-one"]
+
+
+def test_what_is_there_already_may_be_said_again() -> None:
+    """An answer may have been lost on its way: nothing is done twice, and no page is refused."""
+    plan = a_plan()
+    old = plan.revision
+    plan.replace(old, [mission()])
+    new = plan.revision
+    plan.replace(old, [mission()])
+    assert plan.revision == new
+
+
+def test_what_flies_stays_as_it_is() -> None:
+    """No matter what a page sends of it; left out, it comes first."""
+    plan = drawn(*map(mission, KEYS))
+    before: Any = plan.data()["missions"]
+    plan.launched(["mission-two"])
+    other = mission("mission-two", trip(), name="other", launched=False)
+    plan.replace(plan.revision, [other, mission("mission-one")])
+    assert keys_of(plan) == ["mission-two", "mission-one"]
+    plan.replace(plan.revision, [mission("mission-six")])
+    missions: Any = plan.data()["missions"]
+    assert [one["key"] for one in missions] == ["mission-two", "mission-six"]
+    assert missions[0] == {**before[1], "launched": True}
+
+
+def test_who_has_drawn_a_mission_otherwise_that_was_launched_meanwhile_is_told() -> None:
+    """Though the plan stays as it is; who has changed nothing of it is refused nothing."""
+    plan = drawn(*map(mission, KEYS))
+    old = plan.revision
+    plan.launched(KEYS)
+    new = plan.revision
+    with pytest.raises(Stale):
+        plan.replace(old, [mission(KEYS[0], name="other"), mission(KEYS[1])])
+    plan.replace(old, list(map(mission, KEYS)))
+    assert plan.revision == new
+
+
+def test_a_key_of_what_flies_is_taken() -> None:
+    """A trip of a mission that was left out counts, too."""
+    plan = drawn(mission("mission-one"))
+    plan.launched(["mission-one"])
+    with pytest.raises(BadInput, match="two missions or trips have the key"):
+        plan.replace(plan.revision, [mission("mission-two", trip("mission-one-trip"))])
+
+
+def test_only_what_has_not_been_launched_can_be() -> None:
+    """Until nothing flies any more: then all can be, and changed as well."""
+    plan = drawn(*map(mission, KEYS))
+    plan.launched(["mission-one"])
+    missions, keys = plan.launchable()
+    assert [one.name for one in missions] == keys == ["mission-two"]
+    plan.launched(keys)
+    assert plan.launchable() == ([], [])
+    plan.unlock()
+    assert plan.launchable()[1] == KEYS
+
+
+def test_a_launched_mission_and_a_new_one_may_not_share_a_name() -> None:
+    """Though only the new one would be launched."""
+    plan = drawn(mission("mission-one"))
+    plan.launched(["mission-one"])
+    plan.replace(plan.revision, [mission("mission-two", name="mission-one")])
+    with pytest.raises(BadInput, match="names must differ"):
+        plan.launchable()
+
+
+def test_missions_to_fly_are_new_ones_each_time() -> None:
+    """Flying them changes them."""
+    plan = drawn(mission())
+    (first,), _ = plan.launchable()
+    first.trips.clear()
+    (second,), _ = plan.launchable()
+    assert len(second.trips) == 1
+
+
+def test_a_journal_that_was_found_says_what_flies() -> None:
+    """Against what the plan said: the station may have ended between the one and the other."""
+    plan = drawn(*map(mission, KEYS))
+    plan.launched(["mission-one"])
+    plan.adopt(["mission-two", "gone"])
+    assert plan.launchable()[1] == ["mission-one"]
+
+
+def test_marks_are_changes_that_all_pages_see() -> None:
+    """And what is marked already is no change."""
+    plan = drawn(mission())
+    before = plan.revision
+    plan.launched(["mission-one"])
+    plan.launched(["mission-one", "unknown-key"])
+    assert plan.revision == before + 1
+    plan.unlock()
+    plan.unlock()
+    assert plan.revision == before + 2
+
+
+class Drawing(RuleBasedStateMachine):
+    """Two pages draw one plan as pages do: what is refused as stale is drawn on the newest."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.plan = a_plan()
+        self.pages = [self.plan.data(), self.plan.data()]
+        self.revision = self.plan.revision
+        self.seen = self.plan.data()
+        self.fixed: dict[str, Json] = {}
+        self.count = 0
+
+    @rule(page=st.integers(0, 1), place=st.integers(0, 5), drawn=MISSIONS)
+    def add(self, page: int, place: int, drawn: Json) -> None:
+        [new] = keyed([drawn])
+        self.count += 1
+        new["key"] = f"mission-{self.count}"
+        new["trips"] = [{**one, "key": f"{new['key']}-{one['key']}"} for one in new["trips"]]
+        self.edit(page, lambda missions: missions.insert(place, new))
+        assert new["key"] in keys_of(self.plan)
+
+    @rule(page=st.integers(0, 1), place=st.integers(0, 5), name=st.text(max_size=3))
+    def rename(self, page: int, place: int, name: str) -> None:
+        self.change(page, place, {"name": name})
+
+    @rule(page=st.integers(0, 1), place=st.integers(0, 5))
+    def empty(self, page: int, place: int) -> None:
+        self.change(page, place, {"trips": []})
+
+    @rule(page=st.integers(0, 1), place=st.integers(0, 5))
+    def delete(self, page: int, place: int) -> None:
+        self.edit(page, lambda missions: missions.pop(place) if missions[place:] else None)
+
+    @rule(page=st.integers(0, 1))
+    def reverse(self, page: int) -> None:
+        self.edit(page, lambda missions: missions.reverse())
+
+    @rule(page=st.integers(0, 1))
+    def look(self, page: int) -> None:
+        self.pages[page] = self.plan.data()
+
+    @rule(page=st.integers(0, 1))
+    def example(self, page: int) -> None:
+        self.look(page)
+        if len(keys_of(self.plan)) < 20:
+            self.plan.example(self.pages[page]["revision"])
+
+    @rule(places=st.sets(st.integers(0, 5)))
+    def launch(self, places: set[int]) -> None:
+        self.plan.launched([key for i, key in enumerate(keys_of(self.plan)) if i in places])
+        missions: Any = self.plan.data()["missions"]
+        self.fixed |= {one["key"]: one for one in missions if one["launched"]}
+
+    @rule()
+    def land(self) -> None:
+        self.plan.unlock()
+        self.fixed.clear()
+
+    def change(self, page: int, place: int, given: Json) -> None:
+        def apply(missions: list[Json]) -> None:
+            if missions[place:]:
+                missions[place] = {**missions[place], **given}
+
+        self.edit(page, apply)
+
+    def edit(self, page: int, change: Any) -> None:
+        """Change what the page has; if that is not the newest, the newest."""
+        for _ in range(2):
+            mine: Any = self.pages[page]
+            missions = list(mine["missions"])
+            change(missions)
+            try:
+                self.plan.replace(mine["revision"], missions)
+            except Stale:
+                self.look(page)
+            else:
+                break
+        self.look(page)
+        assert self.pages[page]["revision"] == self.plan.revision
+
+    @invariant()
+    def every_look_shows_the_same(self) -> None:
+        assert self.plan.data() == self.plan.data()
+
+    @invariant()
+    def the_revision_grows_with_every_change_and_only_then(self) -> None:
+        now = self.plan.data()
+        assert self.plan.revision >= self.revision
+        assert (now != self.seen) == (self.plan.revision > self.revision)
+        self.seen, self.revision = now, self.plan.revision
+
+    @invariant()
+    def what_flies_never_changes_nor_vanishes(self) -> None:
+        missions: Any = self.plan.data()["missions"]
+        by_key = {one["key"]: one for one in missions}
+        assert {key: by_key.get(key) for key in self.fixed} == self.fixed
+
+    @invariant()
+    def every_key_is_there_once(self) -> None:
+        missions: Any = self.plan.data()["missions"]
+        keys = [one["key"] for m in missions for one in (m, *m["trips"])]
+        assert len(keys) == len(set(keys))
+
+
+TestDrawing = Drawing.TestCase
+TestDrawing.settings = settings(
+    max_examples=60, stateful_step_count=25, derandomize=True, deadline=None
+)

@@ -1,0 +1,139 @@
+"""A forecast is what many runs of the same missions say, with the drones as they are now."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.app import App
+from pluto_fleet.cli.runs import spread
+from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.app import moving
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.preflight.question import Question
+from pluto_fleet.station.wire import Forecast
+from pluto_fleet.trials.case import fresh
+from tests.flying import Example
+from tests.library.station.plan.drawing import mission, trip
+from tests.library.station.preflight.asking import (
+    FLEET,
+    SCOUTS,
+    THREE,
+    answer,
+    handling,
+    of,
+    photos,
+    present,
+    question,
+    texts,
+)
+
+
+@pytest.mark.parametrize(("apart", "world"), [(0.5, "traffic"), (0.0, "alone")])
+def test_with_full_batteries_it_is_what_simulate_says_of_as_many_runs(
+    apart: float, world: str, tmp_path: Path
+) -> None:
+    asked = question(*THREE, fleet=replace(FLEET, apart=apart), faults=Faults(link=0.2), runs=9)
+    runs = [
+        simulate(
+            asked.app,
+            [fresh(one) for one in asked.missions],
+            asked.fleet,
+            seed=seed,
+            faults=asked.faults,
+            until=None,
+            on_event=None,
+        )
+        for seed in range(9)
+    ]
+    told = spread([run.duration for run in runs if run.completed])
+    forecast = answer(asked, tmp_path)
+    assert told is not None
+    assert (forecast["runs"], forecast["world"]) == (9, world)
+    assert (forecast["median"], forecast["high"]) == (told["median"], told["p95"])
+    failed = sum(run.missions[0].status.value != "COMPLETED" for run in runs)
+    assert of(forecast, "mission-one")["fails"] == failed / 9
+    assert 0.0 < (forecast["lowest_battery"] or 0.0) < 1.0
+
+
+def in_the_hall(
+    warehouse: tuple[App, Example], folder: Path, level: float, out: Sequence[str] = ()
+) -> Forecast:
+    """Forecast the example's missions, with all batteries at one level."""
+    app, example = warehouse
+    asked = Question(
+        app=moving(app, example.fleet.motion),
+        fleet=example.fleet,
+        missions=example.missions,
+        present=present(example.fleet, level, out),
+        faults=Faults(),
+        runs=3,
+    )
+    return answer(asked, folder)
+
+
+def test_low_batteries_lengthen_it_and_it_says_what_waits_for_them(
+    warehouse: tuple[App, Example], tmp_path: Path
+) -> None:
+    full, low = (in_the_hall(warehouse, tmp_path, level) for level in (1.0, 0.2))
+    assert full["median"] is not None and low["median"] is not None
+    assert low["median"] > full["median"]
+    assert all(one["ready"] for one in full["drones"])
+    assert not any(one["ready"] for one in low["drones"])
+    first = low["bottlenecks"][0]
+    assert first["text"].startswith(
+        "6 missions wait: 5 drones are below 50 %, the first is ready in"
+    )
+    soonest = min(one["ready_in"] or 0.0 for one in low["drones"])
+    assert first["facts"]["ready_in"] == pytest.approx(soonest)
+    assert texts(full["bottlenecks"]) == [
+        "2 missions wait, as no more than 4 drones may fly at once"
+    ]
+
+
+def test_a_drone_that_is_lost_flies_nothing_and_the_others_take_longer(tmp_path: Path) -> None:
+    both = answer(question(*THREE, drones=SCOUTS), tmp_path)
+    alone = answer(question(*THREE, drones=SCOUTS, out=[SCOUTS[0].id]), tmp_path)
+    assert both["median"] is not None and alone["median"] is not None
+    assert alone["median"] > both["median"]
+    lost, other = alone["drones"]
+    assert (lost["ready"], lost["ready_in"], other["ready"]) == (False, None, True)
+    assert texts([lost["why"]] if lost["why"] else []) == ["lost"]
+    with pytest.raises(BadInput, match="no drone may fly"):
+        answer(question(*THREE, drones=SCOUTS[:1], out=[SCOUTS[0].id]), tmp_path)
+
+
+def test_it_names_the_drones_that_are_too_few(
+    warehouse: tuple[App, Example], tmp_path: Path
+) -> None:
+    forecast = in_the_hall(warehouse, tmp_path, 1.0, ["lifter2"])
+    (few,) = [one for one in forecast["bottlenecks"] if one["key"] == "preflight.few-lift"]
+    assert few["text"] == "1 of 6 missions waits for the one drone that can lift 38 g"
+    assert few["facts"]["drones"] == ["lifter1"]
+
+
+def test_a_drone_that_can_do_none_of_the_missions_says_why(tmp_path: Path) -> None:
+    forecast = answer(question(mission("mission-one", *handling("aa"))), tmp_path)
+    cannot = [one["why"]["text"] for one in forecast["drones"] if one["why"] is not None]
+    assert cannot == ["scout cannot pick_item"] * 2
+
+
+def test_what_repeats_for_ever_has_no_end_and_says_so(tmp_path: Path) -> None:
+    forecast = answer(question(mission("mission-one", trip(), repeat=True), runs=1), tmp_path)
+    assert (forecast["median"], forecast["high"]) == (None, None)
+    assert of(forecast, "mission-one")["fails"] == 0.0
+    assert texts(forecast["assumed"]) == [
+        "some missions repeat until they are stopped: they are flown for 2 h"
+    ]
+
+
+def test_without_a_number_there_are_runs_enough_for_percentiles_and_one_is_in_the_middle(
+    tmp_path: Path,
+) -> None:
+    forecast = answer(question(photos("mission-one", 1), runs=None), tmp_path)
+    assert forecast["runs"] >= 21
+    assert forecast["runs"] % 2 == 1

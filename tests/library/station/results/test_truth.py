@@ -1,0 +1,178 @@
+"""What the layers of the map show is what the simulated world held, at a hundred random places."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Sequence
+from itertools import pairwise
+from random import Random
+from typing import Any
+
+import pytest
+
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.config import layers
+from pluto_fleet.station.results.flights import Brought, ResultsOfFlights
+from pluto_fleet.station.results.heat import Sample, heat_at, newest
+from pluto_fleet.station.results.mosaic import on_top
+from pluto_fleet.station.results.tables import COLUMNS, cells, csv_text, from_cell, geojson
+from tests.library.station.results.flying import Flown, flown, truth
+
+PLACES = 100
+ERROR = 0.006
+"""The largest error of a simulated sensor, as a share: six times its standard deviation."""
+
+
+@pytest.fixture(scope="module")
+def pm10(tmp_path_factory: pytest.TempPathFactory) -> Flown:
+    """The dust over the building site."""
+    return flown("pm10", tmp_path_factory.mktemp("pm10"))
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Flown:
+    """The archaeological site."""
+    return flown("aerial_mapping", tmp_path_factory.mktemp("aerial_mapping"))
+
+
+@pytest.fixture(scope="module")
+def field(tmp_path_factory: pytest.TempPathFactory) -> Flown:
+    """The field of alfalfa."""
+    return flown("alfalfa", tmp_path_factory.mktemp("alfalfa"))
+
+
+def places(flight: Flown) -> list[tuple[float, float]]:
+    """Return random places of the map."""
+    chance, (width, depth) = Random(7), flight.size
+    return [(chance.uniform(0, width), chance.uniform(0, depth)) for _ in range(PLACES)]
+
+
+def where(one: Brought) -> tuple[float, float]:
+    """Return where something was really done."""
+    point = one.result["at"] or one.result["target"]
+    assert point is not None
+    return point[0], point[1]
+
+
+def of_layer(flight: Flown, layer: str) -> list[Brought]:
+    """Return the results that a layer shows."""
+    return [one for one in flight.results.rows if layer in one.result["layers"]]
+
+
+def test_dust_is_shown_as_it_was_where_it_was_measured_and_between(pm10: Flown) -> None:
+    [layer] = layers(pm10.app, sim=True)[:1]
+    assert (layer["kind"], layer["quantity"], layer["unit"]) == ("heat", "pm10", "µg/m³")
+    assert layer["reach"] is not None
+    shown: list[Sample] = []
+    held: list[Sample] = []
+    for one in of_layer(pm10, layer["id"]):
+        [number] = one.result["values"]
+        assert (number["quantity"], number["unit"]) == ("pm10", "µg/m³")
+        shown.append((*where(one), number["value"]))
+        held.append((*where(one), truth(pm10.world, "pm10", *where(one))))
+    shown, held = newest(shown), newest(held)
+    assert len(shown) > 20
+    for (x, y, value), (_, _, real) in zip(shown, held, strict=True):
+        assert heat_at(shown, x, y, layer["reach"]) == value == pytest.approx(real, rel=ERROR)
+    known = 0
+    for x, y in places(pm10):
+        here = heat_at(shown, x, y, layer["reach"])
+        near = any((x - sx) ** 2 + (y - sy) ** 2 < layer["reach"] ** 2 for sx, sy, _ in shown)
+        assert (here is not None) == near
+        if here is not None:
+            known += 1
+            assert here == pytest.approx(heat_at(held, x, y, layer["reach"]), rel=ERROR)
+    assert 0 < known < PLACES
+
+
+@pytest.mark.parametrize("name", ["site", "field"])
+def test_photos_show_what_lies_there_and_the_best_one_is_on_top(
+    name: str, request: pytest.FixtureRequest
+) -> None:
+    flight: Flown = request.getfixturevalue(name)
+    photos = of_layer(flight, "take_photo:photos")
+    assert len(photos) > 10
+    for one in photos:
+        assert one.value["sees"] == lying_on(flight, one.value)
+    covered = 0
+    for x, y in places(flight):
+        there = [one for one in photos if is_on(one.value, x, y)]
+        shown = on_top([(one.result["number"], one.value) for one in photos], x, y)
+        assert (shown is not None) == bool(there)
+        if shown is not None:
+            covered += 1
+            best = max(one.value["sharpness"] for one in there)
+            sharp = [one.result["number"] for one in there if one.value["sharpness"] == best]
+            assert shown == max(sharp)
+    assert 0 < covered < PLACES
+
+
+def lying_on(flight: Flown, photo: dict[str, Any]) -> list[str]:
+    """Return the kinds of all that lies on the ground of a photo, by the world's own data."""
+    return sorted(one.kind for one in flight.world.features if is_on(photo, *one.at))
+
+
+def is_on(photo: dict[str, Any], x: float, y: float) -> bool:
+    """Return whether a place is on the ground that a photo shows."""
+    (px, py, _), width, height = photo["position"], photo["width"], photo["height"]
+    return bool(px - width / 2 <= x <= px + width / 2 and py - height / 2 <= y <= py + height / 2)
+
+
+def test_findings_are_those_of_the_app_alone(field: Flown, site: Flown) -> None:
+    found = [tag for one in of_layer(field, "take_photo:findings") for tag in one.result["tags"]]
+    kinds = {one.kind for one in field.world.features}
+    assert found
+    assert {*found} <= kinds
+    assert not any(one.result["tags"] for one in site.results.rows)  # it shows photos only
+    assert "take_photo:findings" not in [one["id"] for one in layers(site.app, sim=True)]
+
+
+def test_a_dose_is_no_measurement(field: Flown) -> None:
+    doses = [one.result for one in field.results.rows if one.result["action"] == "pollinate"]
+    assert doses
+    assert all((one["kind"], one["values"], one["layers"]) == ("handling", [], []) for one in doses)
+
+
+@pytest.mark.parametrize("name", ["pm10", "site", "field"])
+def test_files_read_back_say_the_same(name: str, request: pytest.FixtureRequest) -> None:
+    flight: Flown = request.getfixturevalue(name)
+    rows = list(cells(flight.results))
+    assert len(rows) >= len(flight.results.rows) > 0
+    header, *lines = csv.reader(io.StringIO(csv_text(rows).removeprefix("\ufeff"), newline=""))
+    assert tuple(header) == COLUMNS
+    read = [[from_cell(cell) for cell in line] for line in lines]
+    assert read == [[_text(row[name]) for name in COLUMNS] for row in rows]
+
+    features: Sequence[Any] = json.loads(json.dumps(geojson(flight.results, name)))["features"]
+    assert [one["id"] for one in features] == [r["number"] for r in rows if r["x"] is not None]
+    placed = [row for row in rows if row["x"] is not None]
+    for feature, row in zip(features, placed, strict=True):
+        given = feature["properties"]
+        assert (given["quantity"], given["value"]) == (row["quantity"], row["value"])
+        assert "; ".join(given["tags"]) == row["tags"]
+        if feature["geometry"]["type"] == "Point":
+            assert feature["geometry"]["coordinates"] == [row["x"], row["y"], row["z"]]
+        else:
+            [ring] = feature["geometry"]["coordinates"]
+            assert ring[0] == ring[-1]
+            assert _area(ring) == pytest.approx(
+                float(row["width"] or 0) * float(row["height"] or 0)
+            )
+
+
+def _text(value: object) -> str:
+    return "" if value is None else str(value)
+
+
+def _area(ring: Sequence[Sequence[float]]) -> float:
+    """Return the area of a ring: above 0 if it goes counter-clockwise."""
+    return sum(x * v - u * y for (x, y), (u, v) in pairwise(ring)) / 2
+
+
+def test_there_is_nothing_of_flights_that_are_not_there(pm10: Flown) -> None:
+    flights = ResultsOfFlights(pm10.app, pm10.results.journal.parent)
+    for name in ("", ".", "..", "../flight", "flight.journal", "flight\0", "*"):
+        with pytest.raises(BadInput, match="there is no flight"):
+            flights.of(name)

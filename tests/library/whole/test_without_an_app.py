@@ -1,0 +1,154 @@
+"""The library flies drones where no app, no compiler and no brain but its own copy can be imported."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.crtp import process as crtp
+from pluto_fleet.gateway.process import LOCK, LOG, SETTINGS
+from pluto_fleet.gateway.settings import data_of
+from pluto_fleet.gateway.starting import connect
+from pluto_fleet.process import respawn
+from tests.flying import compiled
+from tests.library.gateway.flights import Task
+from tests.library.gateway.processes import Brain, pid, played, settings
+from tests.library.whole.installed import installed
+from tests.paths import ROOT
+
+APP = "drugs_distribution"
+WRENS = [ROOT / "docs/navigation"]
+FLEET = """
+[map]
+size = [20.0, 20.0]
+[fleet]
+navigation = "drugs_distribution.drones:Own"
+[[drone]]
+id = "w1"
+category = "nurse"
+home = [1.0, 0.5]
+uri = "wren:100,50"
+"""
+MISSIONS = """
+[[mission]]
+name = "M"
+[[mission.trip]]
+action = "measure"
+target = [2, 2]
+"""
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, ...]:
+    """The command of the library's program."""
+    return installed(tmp_path_factory.mktemp("site"))
+
+
+def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ...]) -> None:
+    """By the author of a navigation, for one: it is the library's own brain that they share."""
+    code = (
+        "import sys; from importlib import import_module; from pkgutil import walk_packages\n"
+        "sys.path[:0] = sys.argv[1:3]\n"
+        "import pluto_fleet\n"
+        "names = [one.name for one in walk_packages(pluto_fleet.__path__, 'pluto_fleet.')]\n"
+        "out = ('pluto_fleet.shared', 'pluto_fleet.station.web.server', 'pluto_fleet.cli.plot')\n"
+        "out = (*out, 'pluto_fleet.files.sweep')\n"
+        "for name in names:\n"
+        "    if not name.startswith(out): import_module(name)\n"
+        "import pluto_fleet.shared.domain.errors as errors; print(len(names), errors.__file__)\n"
+    )
+    *first, _, folder, needed = program
+    done = subprocess.run(
+        [*first, code, folder, needed], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    number, home = done.stdout.split()
+    assert int(number) > 200
+    assert home == f"{folder}/pluto_fleet/shared/domain/errors.py"
+
+
+def test_the_program_says_its_version(program: tuple[str, ...]) -> None:
+    done = subprocess.run([*program, "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout.endswith("\nextras: not installed: areas, crazyflie, plot, station\n")
+
+
+def test_the_gateway_flies_from_its_settings_alone(
+    program: tuple[str, ...], tmp_path: Path
+) -> None:
+    async def play(brain: Brain) -> None:
+        link = await connect(tmp_path, settings(), brain.kernel, 1, command=[*program, "gateway"])
+        brain.links.append(link)
+        assert await brain.flown(link, Task()) is None
+        await brain.told(link.land("cf1"))
+        await link.goodbye()
+        await brain.until(lambda: pid(tmp_path) is None)
+
+    played(tmp_path, play)
+    assert "the gateway ends" in (tmp_path / LOG).read_text(encoding="utf-8")
+
+
+def test_simulated_crazyflies_need_no_app(program: tuple[str, ...], tmp_path: Path) -> None:
+    homes = {"cf1": (1.0, 1.0, 0.0), "cf2": (2.0, 1.0, 0.0)}
+    try:
+        uris = crtp.start(tmp_path, homes, [*program, "crtp"])
+        assert list(uris) == ["cf1", "cf2"]
+        assert json.loads(crtp.told(tmp_path, "uris")) == uris
+    finally:
+        crtp.end(tmp_path)
+
+
+def test_both_are_the_library_s_own_processes() -> None:
+    """Whichever app flies: its package is not named."""
+    home = str(Path(sys.modules["pluto_fleet"].__path__[0]).parent)
+    command = respawn.library("gateway")
+    assert (command[0], command[-4:]) == (sys.executable, [home, "pluto_fleet", home, "gateway"])
+
+
+def test_a_navigation_in_an_app_s_own_package_is_found(tmp_path: Path) -> None:
+    """Also where the app is not installed: the gateway looks where the app was found."""
+    home = compiled(APP, tmp_path) / "src"
+    own = "from wren import Wren\n\n\nclass Own(Wren):\n    pass\n"
+    (home / APP / "drones.py").write_text(own, encoding="utf-8")
+    (tmp_path / "fleet.toml").write_text(FLEET, encoding="utf-8")
+    (tmp_path / "missions.toml").write_text(MISSIONS, encoding="utf-8")
+    journal = tmp_path / "flight.journal"
+    files = (tmp_path / "missions.toml", "--fleet", tmp_path / "fleet.toml", "--journal", journal)
+    done = subprocess.run(
+        [sys.executable, "-m", APP, "fly", *map(str, files)],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([*map(str, WRENS), *sys.path])},
+        cwd=home,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, "w1 has no action measure" in done.stderr) == (2, True), done.stderr
+
+
+def test_a_gateway_that_an_earlier_library_has_started_is_found(tmp_path: Path) -> None:
+    """By the app's own program, which is still called so; it goes on, and no second one is started."""
+    package = compiled(APP, tmp_path)
+    folder = tmp_path / "gateway"
+    folder.mkdir()
+    (folder / SETTINGS).write_text(json.dumps(data_of(settings(idle=20.0))), encoding="utf-8")
+    with subprocess.Popen(
+        [sys.executable, "-m", APP, "gateway", str(folder)],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(package / "src"), *sys.path])},
+        stderr=subprocess.DEVNULL,
+    ) as process:
+
+        async def play(brain: Brain) -> None:
+            await brain.until(lambda: (folder / "gateway").exists())
+            link = await brain.linked()
+            assert await brain.flown(link, Task()) is None
+            assert int((folder / LOCK).read_text()) == process.pid
+            await brain.told(link.land("cf1"))
+            await link.goodbye()
+            await brain.until(lambda: process.poll() is not None)
+
+        played(folder, play)
+        assert process.returncode == 0

@@ -1,5 +1,0 @@
-"""Stations of examples, as in the tests of flights."""
-
-from tests.station.flights.conftest import programs, serve
-
-__all__ = ["programs", "serve"]

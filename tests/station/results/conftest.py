@@ -1,5 +1,0 @@
-"""Stations, as the tests of flights start them."""
-
-from tests.station.flights.conftest import programs, serve
-
-__all__ = ["programs", "serve"]
