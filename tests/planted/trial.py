@@ -1,0 +1,114 @@
+"""Plants one bug in a copy of the checkout, and runs the tests that reach it until one fails."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.paths import ROOT
+from tests.planted.bug import Bug
+from tests.planted.reach import Reach
+
+FIRST = 40
+"""So many tests are tried at first: to look for the others takes longer than to run these."""
+_PATHS = (".", "grammar", "runtime", "stdlib_blocks")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verdict:
+    """What came of a bug."""
+
+    bug: Bug
+    line: int
+    reached: int
+    """How many tests reach it."""
+    catcher: str | None
+    """The first test that fails."""
+    seconds: float
+
+    @property
+    def place(self) -> str:
+        """Where it was planted."""
+        return f"{self.bug.file}:{self.line}"
+
+
+class Copy:
+    """A copy of the checkout, in which one bug at a time is planted."""
+
+    def __init__(self, folder: Path, reach: Reach, limit: float) -> None:
+        self._folder = folder
+        self._reach = reach
+        self._limit = limit
+        listed = ["git", "ls-files", "-co", "--exclude-standard"]
+        names = subprocess.run(listed, cwd=ROOT, capture_output=True, check=True, text=True)
+        for name in names.stdout.splitlines():
+            if (ROOT / name).is_file():
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(ROOT / name, folder / name)
+        self._changed = time.time()
+
+    def try_out(self, bug: Bug) -> Verdict:
+        """Plant a bug, look who catches it, and take it back."""
+        file = self._folder / bug.file
+        text = (ROOT / bug.file).read_text(encoding="utf-8")
+        tests = self._reach.tests(bug, text)
+        began = time.monotonic()
+        catcher = None
+        self._write(file, bug.planted(text))
+        try:
+            for some in _parts(tests):
+                catcher = self._first_failure(some)
+                if catcher is not None:
+                    break
+        finally:
+            self._write(file, text)
+        seconds = time.monotonic() - began
+        return Verdict(
+            bug=bug, line=bug.line(text), reached=len(tests), catcher=catcher, seconds=seconds
+        )
+
+    def _write(self, file: Path, text: str) -> None:
+        """Write a file so that what was compiled of it before is out of date: that is looked up by the second."""
+        file.write_text(text, encoding="utf-8")
+        self._changed += 2
+        os.utime(file, (self._changed, self._changed))
+
+    def _first_failure(self, tests: Sequence[str]) -> str | None:
+        listed = self._folder / "tests.txt"
+        listed.write_text("\n".join(tests), encoding="utf-8")
+        command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "--tb=no", "-rfE"]
+        command += ["-p", "no:cacheprovider", f"@{listed}"]
+        paths = os.pathsep.join(str(self._folder / path) for path in _PATHS)
+        environment = {**os.environ, "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": ""}
+        with subprocess.Popen(
+            command,
+            cwd=self._folder,
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        ) as run:
+            try:
+                said, _ = run.communicate(timeout=self._limit)
+            except subprocess.TimeoutExpired:
+                os.killpg(run.pid, 9)
+                return "one that then never ends"
+        if run.returncode == 0:
+            return None
+        found = re.search(r"^(?:FAILED|ERROR) (\S+)", said, re.MULTILINE)
+        return found[1] if found else f"the run itself: {said.strip()[-200:]}"
+
+
+def _parts(tests: Sequence[str]) -> Iterator[Sequence[str]]:
+    if tests:
+        yield tests[:FIRST]
+    if len(tests) > FIRST:
+        yield tests[FIRST:]
