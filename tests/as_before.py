@@ -24,7 +24,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from plutoc.cli import main as plutoc
-from tests.flying import fly_straight
+from tests.kit.apps import fly_straight
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"

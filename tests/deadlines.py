@@ -19,7 +19,7 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.earliest_deadline import earliest_deadline
 from pluto_fleet.shared.fleet.policies import Policy, nearest
 from pluto_fleet.shared.flow.run import Run
-from tests.brain import apps
+from tests.kit import apps
 
 SHARE = 0.95
 """In how many of the plans it is to miss no more, at least."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
@@ -22,22 +22,27 @@ _ANOTHER = re.compile(r"((?P<app>\w+)\._runtime|pluto_fleet\.shared)(?P<inner>\.
 BLOCKS = ".blocks"
 
 
-class Elsewhere(MetaPathFinder, Loader):
-    """Finds one module in place of another: `home` says which, by name; None: the one that is meant."""
+class OneBrain(MetaPathFinder, Loader):
+    """Finds `plutoc_runtime.x` in place of any `<app>._runtime.x`; an app's blocks stay its own."""
 
-    def __init__(self, home: Callable[[str], str | None]) -> None:
-        self._home = home
+    def __init__(self) -> None:
         self._specs: dict[str, ModuleSpec | None] = {}
 
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return where a module is."""
-        return None if self._home(name) is None else spec_from_loader(name, self)
+        """Return where a module of the brain is, or of an app's blocks."""
+        found = _ANOTHER.fullmatch(name)
+        inner = "" if found is None else found["inner"] or ""
+        if found is None or not f"{inner}.".startswith(f"{BLOCKS}."):
+            return None if _brain(name) is None else spec_from_loader(name, self)
+        home = Path(sys.modules[found["app"]].__path__[0], "_runtime")
+        above = inner.split(".")[1:-1]
+        return PathFinder.find_spec(name, [str(home.joinpath(*above))])
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         """Return the module that is shared."""
-        home = self._home(spec.name)
+        home = _brain(spec.name)
         assert home is not None
         module = import_module(home)
         self._specs[spec.name] = module.__spec__
@@ -47,25 +52,6 @@ class Elsewhere(MetaPathFinder, Loader):
         """Leave the module's own name to it: the import system has put the other one there."""
         assert module.__spec__ is not None
         module.__spec__ = self._specs[module.__spec__.name]
-
-
-class OneBrain(Elsewhere):
-    """Finds `plutoc_runtime.x` in place of any `<app>._runtime.x`; an app's blocks stay its own."""
-
-    def __init__(self) -> None:
-        super().__init__(_brain)
-
-    def find_spec(
-        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
-    ) -> ModuleSpec | None:
-        """Return where a module of the brain is, or of an app's blocks."""
-        found = _ANOTHER.fullmatch(name)
-        inner = "" if found is None else found["inner"] or ""
-        if found is None or not f"{inner}.".startswith(f"{BLOCKS}."):
-            return super().find_spec(name, path, target)
-        home = Path(sys.modules[found["app"]].__path__[0], "_runtime")
-        above = inner.split(".")[1:-1]
-        return PathFinder.find_spec(name, [str(home.joinpath(*above))])
 
 
 def _brain(name: str) -> str | None:

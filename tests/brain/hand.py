@@ -8,7 +8,7 @@ from typing import Any
 from pluto_fleet.app import App
 from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.domain.airspace import Airspace
-from tests.brain import apps
+from tests.kit import apps
 
 Data = Mapping[str, Any]
 

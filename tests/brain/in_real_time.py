@@ -13,7 +13,7 @@ from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.trace import Event
-from tests.brain import apps
+from tests.kit import apps
 
 
 def fly(

@@ -7,9 +7,8 @@ import pytest
 from pluto_fleet.gateway.lossy_line import LossyLine
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.hooks.context import Context
-
-from . import apps
-from .living import Living, enterable, names
+from tests.kit import apps
+from tests.kit.living import Living, enterable, names
 
 
 def picking(*, safe_time: float, late: float) -> Living:

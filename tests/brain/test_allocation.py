@@ -14,7 +14,7 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.batch_optimal import batch_optimal
 from pluto_fleet.shared.fleet.own_policy import own_policy
 from pluto_fleet.shared.fleet.policies import Policy, first, least_used, nearest
-from tests.brain import apps
+from tests.kit import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
 

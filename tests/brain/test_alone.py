@@ -24,9 +24,9 @@ from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Point, T
 from pluto_fleet.shared.domain.status import DroneStatus, Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.flow.standing import fleet_data
-from tests.brain import apps
 from tests.equivalence.fly import alone as by_itself
-from tests.flying import A_WEEK, Example
+from tests.kit import apps
+from tests.kit.apps import A_WEEK, Example
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App
@@ -55,12 +55,10 @@ def seen(
 
 
 @pytest.mark.parametrize("faults", [Faults(), ROUGH], ids=["well", "rough"])
-def test_one_drone_flies_as_it_does_with_traffic(
-    example: Example, example_app: App, faults: Faults
-) -> None:
+def test_one_drone_flies_as_it_does_with_traffic(example: Example, faults: Faults) -> None:
     """The same events at the same times, metres and batteries, also where things go wrong."""
     alive = 0
-    for category in example_app.categories:
+    for category in example.app.categories:
         first = next((d for d in example.fleet.drones if d.category == category.name), None)
         if first is None:
             continue
@@ -68,7 +66,7 @@ def test_one_drone_flies_as_it_does_with_traffic(
             fleet = replace(example.fleet, drones=(first,), after_trip=after)
             for seed in SEEDS:
                 runs = [
-                    seen(fly, example_app, example, fleet, seed=seed, faults=faults)
+                    seen(fly, example.app, example, fleet, seed=seed, faults=faults)
                     for fly in (library.simulate, by_itself)
                 ]
                 assert runs[0] == runs[1], (category.name, after, seed)
@@ -76,9 +74,9 @@ def test_one_drone_flies_as_it_does_with_traffic(
     assert alive
 
 
-def test_every_example_completes_all_its_missions_alone(example: Example, example_app: App) -> None:
+def test_every_example_completes_all_its_missions_alone(example: Example) -> None:
     """Its evaluators and actions find what they need in the same world."""
-    outcome = fly(example_app, deepcopy(example.missions), example.fleet, seed=0)
+    outcome = fly(example.app, deepcopy(example.missions), example.fleet, seed=0)
     assert outcome.completed
     assert outcome.given_up == ""
     assert all(drone.status is DroneStatus.FREE for drone in outcome.drones)

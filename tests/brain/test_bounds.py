@@ -14,8 +14,7 @@ from pluto_fleet.shared.fleet.needs import Request
 from pluto_fleet.shared.fleet.policies import first
 from pluto_fleet.shared.fleet.reach import MORE, Reach
 from pluto_fleet.shared.fleet.telemetry import Charge, KnownState, resting
-
-from . import apps
+from tests.kit import apps
 
 seconds = st.floats(0, 5)
 motions = st.builds(

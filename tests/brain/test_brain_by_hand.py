@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from pluto_fleet.shared.brain import Brain
-from tests.brain import apps
 from tests.brain.hand import charged, settled, trip
+from tests.kit import apps
 
 
 def kinds(brain: Brain) -> list[object]:

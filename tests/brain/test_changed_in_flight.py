@@ -15,9 +15,8 @@ from pluto_fleet.flight.changing import left
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import BadInput, Failure
 from pluto_fleet.trials.invariants import violations
-
-from . import apps
-from .living import Living, enterable, names
+from tests.kit import apps
+from tests.kit.living import Living, enterable, names
 
 Trip = Mapping[str, object]
 Strike = tuple[int, int, Random]

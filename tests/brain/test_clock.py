@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.brain import apps
+from tests.kit import apps
 
 
 def starts(outcome: apps.SimulationResult) -> list[float]:

@@ -24,8 +24,8 @@ from pluto_fleet.shared.alone import simulate as alone
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain import app
 from pluto_fleet.shared.domain.trace import dumped
-from tests.brain import apps
-from tests.flying import EXAMPLES, compiled
+from tests.kit import apps
+from tests.kit.apps import EXAMPLES, compiled
 from tests.library.cli.conftest import MISSIONS
 from tests.library.files.an_app import APP
 

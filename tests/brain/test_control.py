@@ -13,9 +13,8 @@ from pluto_fleet.shared.domain.model import Drone, Trip
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.trials.invariants import violations
-
-from . import apps
-from .living import Living, enterable, names
+from tests.kit import apps
+from tests.kit.living import Living, enterable, names
 
 
 def two_trips() -> apps.Mission:

@@ -9,9 +9,8 @@ from pluto_fleet.shared.domain.model import AfterTrip
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.told import Stuck
-
-from . import apps
-from .living import Living, enterable, names
+from tests.kit import apps
+from tests.kit.living import Living, enterable, names
 
 HOMES = ((1.0, 0.5, 0.0), (2.0, 0.5, 0.0))
 ONE_DRONE, TWO_DRONES = apps.fleet(HOMES[0]), apps.fleet(*HOMES)

@@ -16,7 +16,7 @@ from pluto_fleet.shared.domain.model import Mission, Results
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Verdict
-from tests.brain import apps
+from tests.kit import apps
 from tests.library.files import an_app
 
 

@@ -23,14 +23,14 @@ from pluto_fleet.shared.domain.fleet_data import DroneData, Feature, FleetData, 
 from pluto_fleet.shared.domain.model import AfterTrip
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT
 from pluto_fleet.trials.explore import random_missions
-from tests.flying import EXAMPLES
+from tests.kit.apps import EXAMPLES
 from tests.library.files.an_app import APP, PLAIN
 from tests.library.files.test_fleet import FULL
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App
     from pluto_fleet.shared.domain.model import Mission
-    from tests.flying import Example
+    from tests.kit.apps import Example
 
 
 OF_THE_LIBRARY = {"night_round"}
@@ -51,17 +51,17 @@ def plain(missions: list[Mission[Any]]) -> str:
     return repr(missions)
 
 
-def test_the_examples_files_are_read_alike(example: Example, example_app: App) -> None:
+def test_the_examples_files_are_read_alike(example: Example) -> None:
     """Both files of each."""
     folder = EXAMPLES / example.name
-    fleet = files.load_fleet(folder / "fleet.toml", example_app)
+    fleet = files.load_fleet(folder / "fleet.toml", example.app)
     assert told(fleet) == told(example.fleet)
     path = folder / "missions.toml"
     if example.name in OF_THE_LIBRARY:
         with pytest.raises(BadInput, match="needs pluto-fleet, the library that flies"):
-            files.load_missions(path, example_app, fleet.airspace)
+            files.load_missions(path, example.app, fleet.airspace)
         return
-    missions = files.load_missions(path, example_app, fleet.airspace)
+    missions = files.load_missions(path, example.app, fleet.airspace)
     assert plain(missions) == plain(list(example.missions))
 
 

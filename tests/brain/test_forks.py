@@ -13,7 +13,7 @@ from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
-from tests.brain import apps, in_real_time
+from tests.kit import apps, in_real_time
 
 Fly = Callable[[Callable[..., object]], apps.SimulationResult]
 

@@ -8,7 +8,7 @@ from pluto_fleet.shared.domain.model import Drone
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
-from tests.brain import apps
+from tests.kit import apps
 
 HOMES = ((0.5, 0.5, 0.0), (6.0, 0.5, 0.0))
 

@@ -10,9 +10,8 @@ from pluto_fleet.gateway.settings import joining_data
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.simulation.body import simulated
 from pluto_fleet.trials.invariants import violations
-
-from . import apps
-from .living import Living, enterable, names
+from tests.kit import apps
+from tests.kit.living import Living, enterable, names
 
 NEW: dict[str, Any] = {"id": "cf9", "category": "scout", "home": [2.0, 8.0]}
 

@@ -17,7 +17,7 @@ from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context, LiveDrone, can_wait
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from tests.brain import apps, in_real_time
+from tests.kit import apps, in_real_time
 
 Hook = Callable[..., object]
 

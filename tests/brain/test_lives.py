@@ -32,7 +32,7 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from tests.brain import apps
+from tests.kit import apps
 
 SCOUT = Category(name="scout", speed=1.0)
 AIRSPACE = Airspace(cruise_height=1.0)

@@ -18,7 +18,7 @@ from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from tests.brain import apps
+from tests.kit import apps
 
 
 def fly(

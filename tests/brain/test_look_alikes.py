@@ -6,7 +6,7 @@ import pytest
 
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.plan_check import look_alikes
-from tests.brain import apps
+from tests.kit import apps
 
 
 @pytest.mark.parametrize(

@@ -17,8 +17,8 @@ from pluto_fleet.shared.domain.model import Drone
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.brain import apps
-from tests.brain.living import Living, enterable, names
+from tests.kit import apps
+from tests.kit.living import Living, enterable, names
 from tests.library.journal.memory import Memory
 
 HOMES = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))

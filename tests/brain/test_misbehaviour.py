@@ -23,7 +23,7 @@ from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_evaluator.step import evaluate_mission
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.priority_manager.step import raise_priority
-from tests.brain import apps
+from tests.kit import apps
 
 Hook = Callable[..., object]
 ANY_END = (Status.STANDBY, Status.COMPLETED, Status.FAILED)

@@ -12,9 +12,8 @@ from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.trials.invariants import violations
-
-from . import apps
-from .living import Living, enterable, names
+from tests.kit import apps
+from tests.kit.living import Living, enterable, names
 
 
 def item_mission() -> apps.Mission:

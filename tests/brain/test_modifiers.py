@@ -16,7 +16,7 @@ from pluto_fleet.shared.flow.run import Run
 from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.trials.invariants import violations
 from plutoc_blocks.mission_modifier.step import modify_mission
-from tests.brain import apps
+from tests.kit import apps
 
 ANY_END = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
 

@@ -21,8 +21,7 @@ from pluto_fleet.shared.fleet.queue import Queue
 from pluto_fleet.shared.fleet.reach import Reach
 from pluto_fleet.shared.fleet.telemetry import KnownState, resting
 from pluto_fleet.shared.time.virtual import VirtualTime
-
-from . import apps
+from tests.kit import apps
 
 PLAIN = Airspace(size=(30.0, 30.0))
 WALLED = Airspace(size=(30.0, 30.0), no_fly=(((8, 5), (9, 5), (9, 25), (8, 25)),))

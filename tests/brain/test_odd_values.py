@@ -19,8 +19,8 @@ from pluto_fleet.shared.domain.text import LONGEST_VALUE, shown
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context, Verdict
 from pluto_fleet.shared.hooks.plain_data import keepable, value_data, value_of
-from tests.brain import apps
-from tests.brain.living import Living, enterable
+from tests.kit import apps
+from tests.kit.living import Living, enterable
 
 
 def refuses(error: type[BaseException]) -> type:

@@ -20,8 +20,8 @@ from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.trials.explore import random_missions
-from tests.brain.living import Living
-from tests.flying import compiled_file
+from tests.kit.apps import compiled_file
+from tests.kit.living import Living
 
 SOURCE = """pluto 1
 

@@ -18,13 +18,13 @@ from pluto_fleet.shared.alone import simulate as by_itself
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.domain.trace import Event
-from tests.brain import apps
 from tests.brain.hand import charged, settled, trip
 from tests.equivalence.campaign import OURS, drawn
 from tests.equivalence.flows import packaged
 from tests.equivalence.fly import Record, alone, record
 from tests.equivalence.worlds import random_world
-from tests.flying import MISHAPS, Example, Flown
+from tests.kit import apps
+from tests.kit.apps import MISHAPS, Example, Flown
 
 Data = Mapping[str, Any]
 GRAPHS = 20

@@ -16,9 +16,8 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.status import FAILED, Status
 from pluto_fleet.shared.flow.promises import kept_from
-
-from . import apps
-from .living import Living, enterable
+from tests.kit import apps
+from tests.kit.living import Living, enterable
 
 HOUR, DAY = 3_600.0, 86_400.0
 TWO = apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))

@@ -23,7 +23,7 @@ from pluto_fleet.shared.flow.run import Run
 from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.shared.time.kernel import FLEET
 from plutoc_blocks.mission_modifier.step import modify_mission
-from tests.brain import apps, in_real_time
+from tests.kit import apps, in_real_time
 
 FAST = Category(name="scout", speed=200.0)
 LOW = Airspace(cruise_height=0.003)

@@ -17,9 +17,8 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context, Verdict
 from pluto_fleet.shared.time.future import Future
-
-from . import apps
-from .living import Living, enterable, names
+from tests.kit import apps
+from tests.kit.living import Living, enterable, names
 
 HOMES = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.flow.control import _COMMANDS
-from tests.flying import compiled
+from tests.kit.apps import compiled
 from tests.paths import ROOT
 
 PAGE = (ROOT / "docs/seam.md").read_text("utf-8")

@@ -6,7 +6,7 @@ import pytest
 
 from pluto_fleet.shared.domain.status import DroneStatus, Status
 from pluto_fleet.shared.domain.trace import Event
-from tests.brain import apps
+from tests.kit import apps
 
 
 def test_a_safe_time_longer_than_each_trip_never_fails_a_later_one() -> None:

@@ -18,7 +18,7 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.own_policy import own_policy
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context, Verdict
-from tests.brain import apps, in_real_time
+from tests.kit import apps, in_real_time
 
 Fly = Callable[..., apps.SimulationResult]
 

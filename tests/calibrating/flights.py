@@ -27,7 +27,7 @@ from pluto_fleet.shared.time.kernel import Kernel
 from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from tests.brain import apps
+from tests.kit import apps
 
 Around = Callable[[Kernel, Controls], Controls]
 

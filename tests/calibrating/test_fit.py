@@ -17,9 +17,9 @@ from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, Motion
 from pluto_fleet.shared.time.kernel import Kernel
 from pluto_fleet.simulation.radio import ANSWER, Radio
-from tests.brain import apps
 from tests.calibrating.campaign import campaign
 from tests.calibrating.flights import flown, surveyed
+from tests.kit import apps
 
 SLOW = replace(CRAZYFLIE, pace=1.1, settles=0.6, take_off=0.8, landing=1.2, drain=1.25)
 EXACT = SLOW.exact

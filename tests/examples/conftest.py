@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from tests.flying import NAMES, Example, built
+from tests.kit import apps
 
 
-@pytest.fixture(scope="session", params=NAMES)
-def example(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Example:
+@pytest.fixture(params=apps.NAMES)
+def example(request: pytest.FixtureRequest) -> apps.Example:
     """Return an example, compiled and imported."""
-    return built(request.param, tmp_path_factory.mktemp("examples"))
+    return apps.example(request.param)

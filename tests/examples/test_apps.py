@@ -15,20 +15,19 @@ import pytest
 from pluto_fleet.shared.domain.trace import Event
 from plutoc.cli import main
 from plutoc.service.document import Document
-from tests.flying import EXAMPLES, MISHAPS, Example, built
+from tests.kit.apps import EXAMPLES, MISHAPS, Example, example
 
 SEEDS = range(10)
 
 
 @pytest.fixture(scope="session")
-def apps(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Example]:
+def apps() -> Mapping[str, Example]:
     """Return the examples that these tests look into."""
     names = (
         *("aerial_mapping", "alfalfa", "drugs_distribution_retry", "night_round"),
         *("object_finder", "pm10", "warehouse_item_finder"),
     )
-    folder = tmp_path_factory.mktemp("apps")
-    return {name: built(name, folder) for name in names}
+    return {name: example(name) for name in names}
 
 
 def events(trace: Sequence[Event], kind: str, **facts: object) -> list[Event]:

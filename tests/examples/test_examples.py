@@ -15,7 +15,7 @@ import pytest
 
 from pluto_fleet.trials.invariants import violations
 from plutoc.cli import main
-from tests.flying import EXAMPLES, MISHAPS, NAMES, Example, compiled
+from tests.kit.apps import EXAMPLES, MISHAPS, NAMES, Example, compiled
 
 SEEDS = range(10)
 BAD_SEEDS = range(20)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.flying import EXAMPLES, compiled
+from tests.kit.apps import EXAMPLES, compiled
 
 WITH_HOOKS = sorted(path.parent.name for path in EXAMPLES.glob("*/hooks.py"))
 

@@ -12,7 +12,7 @@ import pytest
 
 from pluto_fleet.shared.alone.testing import AppKit, Clock, HookCall, KitContext
 from tests.examples.test_docs import DOCS, blocks
-from tests.flying import compiled_file
+from tests.kit.apps import compiled_file
 
 PAGE = DOCS / "testing-hooks.md"
 

@@ -9,7 +9,7 @@ import pytest
 
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.plans import DISTRIBUTION, write
-from tests.flying import compiled
+from tests.kit.apps import compiled
 
 pytest.importorskip("cflib")
 

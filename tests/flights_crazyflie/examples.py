@@ -28,7 +28,7 @@ from tests.flights_crazyflie.campaign import gateway_left
 from tests.flights_crazyflie.flight import Event, Flight
 from tests.flights_crazyflie.judge import beside_its_target, nearest, unmeant
 from tests.flights_crazyflie.plans import quick_package, write
-from tests.flying import EXAMPLES, NAMES
+from tests.kit.apps import EXAMPLES, NAMES
 
 SPEED = 1.0
 """Metres per second that fast drones fly at most: their position controllers allow no more."""

@@ -8,8 +8,8 @@ from functools import partial
 from pathlib import Path
 from shutil import copytree
 
-from tests.flying import EXAMPLES, compiled_file
 from tests.kill.plans import trip
+from tests.kit.apps import EXAMPLES, compiled_file
 
 Target = tuple[float, float, float]
 Plan = Mapping[tuple[str, str], tuple[str, tuple[float, float], str]]

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
-from tests.flying import compiled
 from tests.kill.lives import Flight
 from tests.kill.painter import HOUSE, painter_in
 from tests.kill.plans import PLANS
 from tests.kill.tally import Tally
 from tests.kill.trial import Trial
+from tests.kit.apps import compiled
 
 SPEEDS = (10.0, 20.0, 40.0)
 """How much faster than the clock time passes."""

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.flying import compiled
 from tests.kill.lives import Flight
 from tests.kill.painter import WALL, painter_in
 from tests.kill.plans import PLANS, Plan
 from tests.kill.trial import end_gateway
+from tests.kit.apps import compiled
 
 NewFlight = Callable[[float], Flight]
 

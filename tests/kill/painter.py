@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.flying import compiled_file
 from tests.kill.plans import Plan, fleet, trip
+from tests.kit.apps import compiled_file
 
 APP = """pluto 1
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.flying import STRAIGHT_LEGS
+from tests.kit.apps import STRAIGHT_LEGS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tests.flying import EXAMPLES, NAMES, compiled_file
+from tests.kit.apps import EXAMPLES, NAMES, compiled_file
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,7 +13,7 @@ from pluto_fleet.files.fleet import fleet_of
 from pluto_fleet.files.missions import missions_of
 from pluto_fleet.files.plan_check import problems
 from pluto_fleet.files.reading import parsed
-from tests.flying import NAMES
+from tests.kit.apps import NAMES
 from tests.prediction.plans import OWN, Plan, example
 from tests.prediction.random_plans import random_plans
 from tests.prediction.record import Flown, Promise, flown, keep, kept, promised

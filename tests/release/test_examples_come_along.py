@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from zipfile import ZipFile
 
-from tests.flying import EXAMPLES, NAMES
+from tests.kit.apps import EXAMPLES, NAMES
 from tests.release.environments import ROOT, run, succeed
 
 

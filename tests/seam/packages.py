@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 
 from pluto_fleet.seam import written
 from pluto_fleet.shared.domain.app import SEAM
-from tests.flying import EXAMPLES, compiled_file
+from tests.kit.apps import EXAMPLES, compiled_file
 
 HERE = Path(__file__).parent
 NAME, WITH_HOOKS = "drugs_distribution_retry", "watered_garden"

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.seam import NEWEST, written
-from tests.flying import compiled, compiled_file, fly_straight
+from tests.kit.apps import compiled, compiled_file, fly_straight
 from tests.seam.packages import (
     BEFORE,
     HERE,

@@ -21,7 +21,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.app import SEAM, moving
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, PEAK, STRAIGHT, Motion
-from tests.flying import EXAMPLES, compiled
+from tests.kit.apps import EXAMPLES, compiled
 from tests.library.files.an_app import APP
 
 NAME = "drugs_distribution"

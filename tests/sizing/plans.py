@@ -20,7 +20,7 @@ from pluto_fleet.sizing.bounds import Rule, usual_runs
 from pluto_fleet.sizing.fleets import Stock
 from pluto_fleet.sizing.question import Question
 from pluto_fleet.sizing.tries import flown
-from tests.brain.apps import Mission, Trip, app, fleet, flow, mission, pick, release, trip
+from tests.kit.apps import Mission, Trip, app, fleet, flow, mission, pick, release, trip
 
 CONFIDENCE = 0.99
 """Of the plans by chance."""

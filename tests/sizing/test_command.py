@@ -12,7 +12,7 @@ from pluto_fleet.app import App
 from pluto_fleet.cli import main
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.shared.domain.model import Category
-from tests.brain.apps import app, flow
+from tests.kit.apps import app, flow
 
 TESTED = app(flow(clock=True), categories=[Category(name="scout")])
 FLEET = """

@@ -9,7 +9,7 @@ from math import dist
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.sizing.fleets import Stock
-from tests.brain.apps import fleet, mission, pick, release, trip
+from tests.kit.apps import fleet, mission, pick, release, trip
 
 WALL = ((3.0, 0.0), (4.0, 0.0), (4.0, 5.0), (3.0, 5.0))
 ROOM = Airspace(size=(6.0, 5.0), no_fly=(WALL,))

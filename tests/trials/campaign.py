@@ -40,7 +40,7 @@ from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import smallest_case
 from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
-from tests.flying import NAMES
+from tests.kit.apps import NAMES
 from tests.trials.examples import example, fleet_of, missions_of
 
 HEADER = ("example", "runs", "rows", "lives", "completed", "failed", "cancelled", "found", "s")

@@ -18,7 +18,7 @@ from plutoc.emit.stubs import EXPORTS
 from plutoc.plan.build import build
 from plutoc.source import Source
 from tests.equivalence.flows import Package, in_memory, packaged
-from tests.flying import EXAMPLES
+from tests.kit.apps import EXAMPLES
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App

@@ -22,7 +22,7 @@ from pluto_fleet.shared.fleet.earliest_deadline import earliest_deadline
 from pluto_fleet.shared.fleet.least_makespan import least_makespan
 from pluto_fleet.shared.fleet.policies import Policy
 from pluto_fleet.shared.flow.run import Run
-from tests.brain import apps
+from tests.kit import apps
 
 POLICIES = [batch_optimal, least_makespan, earliest_deadline]
 LONGEST = 150.0

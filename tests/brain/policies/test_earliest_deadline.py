@@ -21,9 +21,9 @@ from pluto_fleet.shared.fleet.earliest_deadline import earliest_deadline
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.flow.run import Run
 from pluto_fleet.shared.hooks.context import Context
-from tests.brain import apps
-from tests.brain.living import Living, enterable
 from tests.deadlines import SHARE, TIRELESS, Drawn, results
+from tests.kit import apps
+from tests.kit.living import Living, enterable
 
 NEAR, FAR = (14.0, 0.5, 0.0), (0.5, 0.5, 0.0)
 TIRED = Category(name="scout", flight_time=200.0, charge_time=400.0)

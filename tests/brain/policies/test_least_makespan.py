@@ -17,7 +17,7 @@ from pluto_fleet.shared.fleet.least_makespan import least_makespan
 from pluto_fleet.shared.fleet.policies import Policy, nearest
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
-from tests.brain import apps
+from tests.kit import apps
 
 TIRED = Category(name="scout", flight_time=200.0, charge_time=400.0)
 

@@ -13,7 +13,7 @@ from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.own_batch import Again, Assignment, Waiting, chooses_for_all
 from pluto_fleet.shared.fleet.own_policy import own_policy
-from tests.brain import apps, in_real_time
+from tests.kit import apps, in_real_time
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
 Waits = Sequence[Waiting[Any, Any]]

@@ -14,7 +14,7 @@ import pytest
 from plutoc.cli.options import FORMATS
 from plutoc.explain.pages import codes
 from plutoc_blocks import BLOCKS
-from tests.flying import NAMES
+from tests.kit.apps import NAMES
 from tests.paths import ROOT
 
 OURS = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}

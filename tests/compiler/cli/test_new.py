@@ -8,7 +8,7 @@ import pytest
 
 from plutoc.cli.examples import names
 from tests.compiler.cli.conftest import Call, tree
-from tests.flying import EXAMPLES, NAMES
+from tests.kit.apps import EXAMPLES, NAMES
 
 
 def test_a_new_app_compiles_and_flies(

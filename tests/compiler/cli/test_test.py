@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.cli import main
-from tests.flying import EXAMPLES
+from tests.kit.apps import EXAMPLES
 
 Said = pytest.CaptureFixture[str]
 

@@ -16,7 +16,7 @@ from plutoc.source import Source
 from tests.compiler.emit.apps import ODD_NAMES, PARCELS, PLAIN
 from tests.compiler.emit.plans import checked_of, plan_of
 from tests.compiler.emit.test_hooks_file import BEFORE, BESIDE, LAST
-from tests.flying import EXAMPLES, compiled
+from tests.kit.apps import EXAMPLES, compiled
 
 WITH_HOOKS = sorted(path.parent.name for path in EXAMPLES.glob("*/hooks.py"))
 PYTEST = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_hooks.py")

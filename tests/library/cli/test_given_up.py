@@ -18,7 +18,7 @@ from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
-from tests.brain import apps
+from tests.kit import apps
 from tests.library.cli.conftest import Command
 from tests.library.files.an_app import APP, FieldMission
 from tests.trials.examples import WAITING, app_of

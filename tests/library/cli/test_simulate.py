@@ -12,7 +12,7 @@ import pytest
 
 from pluto_fleet.app import App
 from pluto_fleet.shared.alone.faults import FAULTS, Faults
-from tests.brain import apps
+from tests.kit import apps
 from tests.library.cli.conftest import Command
 from tests.library.files.an_app import APP, POLLINATE
 

@@ -15,7 +15,7 @@ from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import AfterTrip, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.fleet.reach import chain_of, flight_seconds, stops_of
-from tests.brain import apps
+from tests.kit import apps
 
 APP = moving(apps.app(apps.flow()), CRAZYFLIE.exact)
 (SCOUT,) = APP.categories

@@ -23,8 +23,8 @@ from pluto_fleet.shared.domain.model import Drone, Point
 from pluto_fleet.shared.domain.status import DroneStatus, Status
 from pluto_fleet.shared.hooks.plain_data import trip_data
 from pluto_fleet.simulation.drones import SimulatedNavigation
-from tests.brain import apps
-from tests.brain.living import Living, enterable
+from tests.kit import apps
+from tests.kit.living import Living, enterable
 
 FLEET = FleetFile(
     airspace=Airspace(),

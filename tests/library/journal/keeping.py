@@ -19,7 +19,7 @@ from pluto_fleet.journal.fold import replayed
 from pluto_fleet.journal.header import EVENTS, LANGUAGE
 from pluto_fleet.journal.store import Store
 from plutoc import __version__
-from tests.flying import compiled_file
+from tests.kit.apps import compiled_file
 
 GOLDEN = Path(__file__).parent / "golden"
 SOURCE = GOLDEN / "source"

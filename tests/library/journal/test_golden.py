@@ -11,7 +11,7 @@ import pytest
 
 from pluto_fleet.journal.header import EVENTS, LANGUAGE
 from plutoc import __version__
-from tests.flying import compiled_file
+from tests.kit.apps import compiled_file
 from tests.library.journal.keeping import (
     APP,
     GOLDEN,

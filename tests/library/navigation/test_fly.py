@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 import pluto_fleet
-from tests.flying import compiled
 from tests.kill.trial import end_gateway
+from tests.kit.apps import compiled
 from tests.library.navigation.test_loading import offered
 from tests.paths import ROOT
 

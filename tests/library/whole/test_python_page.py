@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.flying import compiled
+from tests.kit.apps import compiled
 from tests.paths import ROOT
 
 PAGE = ROOT / "docs/python.md"

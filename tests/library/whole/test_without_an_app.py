@@ -15,7 +15,7 @@ from pluto_fleet.gateway.process import LOCK, LOG, SETTINGS
 from pluto_fleet.gateway.settings import data_of
 from pluto_fleet.gateway.starting import connect
 from pluto_fleet.process import respawn
-from tests.flying import compiled
+from tests.kit.apps import compiled
 from tests.library.gateway.flights import Task
 from tests.library.gateway.processes import Brain, pid, played, settings
 from tests.library.whole.installed import installed

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.flying import fly_straight
+from tests.kit.apps import fly_straight
 from tests.release.environments import ROOT, compile_app, succeed
 
 ALTERED = {

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.flying import EXAMPLES, compiled, fly_straight
+from tests.kit.apps import EXAMPLES, compiled, fly_straight
 from tests.library.station.browser.installed import App
 from tests.library.station.browser.serving import Station
 

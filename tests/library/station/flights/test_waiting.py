@@ -11,8 +11,8 @@ from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.telemetry import Charge
 from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons
 from pluto_fleet.station.wire import Words
-from tests.brain import apps
-from tests.brain.living import Living, enterable
+from tests.kit import apps
+from tests.kit.living import Living, enterable
 
 HOMES = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), (2.5, 0.5, 0.0))
 

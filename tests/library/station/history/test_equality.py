@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.station.history.frames import Shown
 from pluto_fleet.station.history.recording import MOVES_EVERY, MOVING
-from tests.flying import NAMES
+from tests.kit.apps import NAMES
 from tests.library.station.browser.serving import Station, until
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.flights.test_flights import tell

@@ -21,8 +21,8 @@ from pluto_fleet.shared.domain.model import Category, Mission
 from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.station.plan.plan import MissionPlan
-from tests.brain import apps
-from tests.flying import EXAMPLES
+from tests.kit import apps
+from tests.kit.apps import EXAMPLES
 from tests.library.files.an_app import APP, PLAIN
 from tests.library.station.plan.drawing import FLEET, a_plan, drawn, mission
 from tests.trials.examples import example, fleet_of

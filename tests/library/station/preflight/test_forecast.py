@@ -17,7 +17,7 @@ from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.preflight.question import Question
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.trials.case import fresh
-from tests.flying import Example
+from tests.kit.apps import Example
 from tests.library.station.plan.drawing import mission, trip
 from tests.library.station.preflight.asking import (
     FLEET,

@@ -14,7 +14,7 @@ from pluto_fleet.app import described
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.station.results.flights import FlightResults, ResultsOfFlights
-from tests.flying import EXAMPLES, compiled
+from tests.kit.apps import EXAMPLES, compiled
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App

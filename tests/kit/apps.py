@@ -1,14 +1,31 @@
-"""Small apps, written by hand, for the tests of the runtime: one flow for each thing to be seen."""
+"""Apps for tests, all in this process: small ones of a flow written by hand, and compiled ones.
+
+`flow`, `app`, `mission`, `trip` and `fleet` make a small app and its plan; `fly` simulates them.
+`example` and `loaded` compile an app once a session and import it; `compiled` gives the package's folder.
+"""
 
 from __future__ import annotations
 
+import atexit
+import shutil
+import sys
 from collections.abc import Callable, Coroutine, Mapping, Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from copy import deepcopy
 from dataclasses import dataclass, replace
+from functools import cache
+from importlib import import_module, invalidate_caches
+from io import StringIO
+from itertools import count
+from pathlib import Path
+from tempfile import mkdtemp
+from types import ModuleType
 from typing import Any
 
 from pluto_fleet.app import App, described
 from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import FleetFile, load_fleet
+from pluto_fleet.files.missions import load_missions
 from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
@@ -22,6 +39,8 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.fleet.policies import Policy, nearest
 from pluto_fleet.shared.flow.run import Run
+from pluto_fleet.trials.invariants import Items, items_of
+from plutoc.cli import main
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.gap_monitor.step import watch_gap
@@ -34,8 +53,9 @@ from plutoc_blocks.priority_manager.step import raise_priority
 from plutoc_blocks.timer_monitor.step import watch_timer
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.step import watch_trip
+from tests.paths import EXAMPLES
 
-__all__ = ["SimulationResult"]
+__all__ = ["EXAMPLES", "SimulationResult"]
 
 Way = Callable[[Run[Any], Status], Coroutine[Any, Any, Status]]
 NO_FAULTS = Faults()
@@ -265,3 +285,147 @@ def events(outcome: SimulationResult, kind: str) -> list[Event]:
 def times(outcome: SimulationResult, kind: str) -> list[float]:
     """Return when events of one kind happened."""
     return [float(str(event["t"])) for event in events(outcome, kind)]
+
+
+def moments(outcome: SimulationResult, kind: str) -> dict[str, float]:
+    """Return when an event of this kind happened to each mission, the last time."""
+    return {str(one["mission"]): float(str(one["t"])) for one in events(outcome, kind)}
+
+
+# Compiled apps
+
+NAMES = sorted(path.parent.name for path in EXAMPLES.glob("*/app.pluto"))
+"""The examples."""
+
+A_WEEK = 7 * 86_400.0
+"""Seconds. A mission that has not ended by then never will: its end is missed in the trace."""
+
+MISHAPS = {"crash": 0.10, "link": 0.05, "action": 0.05}
+"""What `--fail crash=10%,link=5%,action=5%` lets go wrong."""
+
+STRAIGHT_LEGS = '[motion]\nlegs = "straight"\n'
+"""What a fleet file says whose drones are to be back in half of the time that a Crazyflie takes."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flown:
+    """What came of one run."""
+
+    outcome: SimulationResult
+    trace: Sequence[Event]
+
+    @property
+    def ends(self) -> list[tuple[str, str]]:
+        """How each mission ended, and why if it failed."""
+        return [(mission.status.value, mission.reason) for mission in self.outcome.missions]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Example:
+    """An example's package, imported, with its own two files."""
+
+    name: str
+    package: Path
+    app: App
+    missions: Sequence[model.Mission[Any]]
+    items: Items
+    fleet: FleetFile
+
+    def fly(self, seed: int, mishaps: Mapping[str, float] | None = None) -> Flown:
+        """Simulate the missions to their end."""
+        trace: list[Event] = []
+        outcome = simulate(
+            self.app,
+            deepcopy(self.missions),
+            self.fleet,
+            seed=seed,
+            faults=Faults(**(mishaps or {})),
+            until=A_WEEK,
+            on_event=trace.append,
+        )
+        return Flown(outcome=outcome, trace=trace)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Loaded:
+    """An app that was compiled and imported, and its hooks."""
+
+    name: str
+    package: Path
+    app: App
+    hooks: ModuleType
+
+
+@cache
+def example(name: str) -> Example:
+    """Return an example, compiled and imported, once a session."""
+    package = compiled(name)
+    app = imported(name, package)
+    fleet = load_fleet(EXAMPLES / name / "fleet.toml", app)
+    missions = load_missions(EXAMPLES / name / "missions.toml", app, fleet.airspace)
+    items = items_of(missions)
+    return Example(name=name, package=package, app=app, missions=missions, items=items, fleet=fleet)
+
+
+@cache
+def loaded(text: str, hooks: str = "") -> Loaded:
+    """Return the app of a source, once a session; `NAME` in it becomes a name of its own."""
+    name = f"app_{next(_NUMBERS)}"
+    folder = _folder() / name
+    folder.mkdir()
+    (folder / "app.pluto").write_text(text.replace("NAME", name), encoding="utf-8")
+    (folder / "hooks.py").write_text(hooks, encoding="utf-8")
+    package = compiled_file(folder / "app.pluto", folder / "package")
+    (name,) = (path.name for path in (package / "src").iterdir() if path.is_dir())
+    app = imported(name, package)
+    return Loaded(name=name, package=package, app=app, hooks=sys.modules[f"{name}.hooks"])
+
+
+_NUMBERS = count(1)
+
+
+def compiled(name: str, into: Path | None = None) -> Path:
+    """Return the folder of an example's package; `into` a folder it is the caller's own to change."""
+    package = _example_package(name)
+    return package if into is None else Path(shutil.copytree(package, into / name))
+
+
+@cache
+def _example_package(name: str) -> Path:
+    return compiled_file(EXAMPLES / name / "app.pluto", _folder() / name)
+
+
+@cache
+def _folder() -> Path:
+    """The folder of what is compiled in this session."""
+    folder = Path(mkdtemp(prefix="pluto-apps-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+def compiled_file(source: Path, package: Path) -> Path:
+    """Compile an app as a person would, and return the package's folder."""
+    said = StringIO()
+    with redirect_stdout(said), redirect_stderr(said):
+        code = main(["compile", str(source), "-o", str(package)])
+    if code != 0:
+        raise AssertionError(f"plutoc compile of {source} ended with {code}:\n{said.getvalue()}")
+    return package
+
+
+def imported(name: str, package: Path) -> App:
+    """Import an app from its package's folder, in place of another of this name."""
+    for known in [known for known in sys.modules if known.split(".")[0] == name]:
+        del sys.modules[known]
+    invalidate_caches()
+    sys.path.insert(0, str(package / "src"))
+    try:
+        return described(import_module(f"{name}.flow").APP)
+    finally:
+        sys.path.remove(str(package / "src"))
+
+
+def fly_straight(fleet: Path) -> None:
+    """Let the drones of a fleet file fly straight."""
+    with fleet.open("a", encoding="utf-8") as file:
+        file.write(f"\n{STRAIGHT_LEGS}")

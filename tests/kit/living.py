@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable, Coroutine, Sequence
+from typing import Any, TypeVar
 
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile, with_joined
@@ -15,27 +15,17 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.alone.world import World
-from pluto_fleet.shared.domain.fields import Entity, Field, FieldType
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import FLEET, EventKind
+from pluto_fleet.shared.time.kernel import FLEET, Call, EventKind, Kernel, Key, Task, Timer
 from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation, WorldAction
+from tests.kit import apps
 from tests.library.journal.memory import Memory
 
-from . import apps
-from .mortal import Mortal
-
-FIELDS = (
-    Field(name="at", on=Entity.MISSION, type=FieldType.TIME_OF_DAY, label="At"),
-    Field(name="repeat", on=Entity.MISSION, type=FieldType.ROUNDS, label="Repeat", default=0),
-    Field(name="every", on=Entity.MISSION, type=FieldType.TIME, label="Every"),
-    Field(name="safe_time", on=Entity.MISSION, type=FieldType.TIME, label="Safe time"),
-    Field(name="delay", on=Entity.TRIP, type=FieldType.TIME, label="Delay"),
-    Field(name="priority", on=Entity.TRIP, type=FieldType.INT, label="Priority", default=0),
-)
+T = TypeVar("T")
 
 
 def enterable(**flow: Any) -> App:
@@ -43,7 +33,7 @@ def enterable(**flow: Any) -> App:
     actions = flow.pop("actions", ())
     app = apps.app(apps.flow(**flow), actions=actions)
     points = ("wait", "allocate") if flow.get("clock") else ("allocate",)
-    return apps.changed(app, resumes=points, fields=FIELDS)
+    return apps.changed(app, resumes=points)
 
 
 class _AtOnce:
@@ -60,6 +50,83 @@ class _AtOnce:
         if self.life is not None:
             self.life.recorder.durable(number)
         return number
+
+
+class Mortal(Kernel):
+    """Runs everything on its host, at its host's time and in its order, until it is killed."""
+
+    def __init__(self, host: Kernel) -> None:
+        # nothing of a kernel's own is needed: everything is the host's
+        self._host, self._mine = host, dict[Task[Any], None]()
+        self.alive = True
+        self.settled: Callable[[], object] | None = None
+        host.settled = self._settle
+
+    def kill(self) -> None:
+        """Let nothing of it run on, as when a process is killed; not from one of its own events."""
+        self.alive = False
+        self._host.settled = None
+        for task in self._mine:
+            if not task.is_set:
+                task.drop()
+        self._mine.clear()
+
+    def _settle(self) -> None:
+        if self.alive and self.settled is not None:
+            self.settled()
+
+    @property
+    def now(self) -> float:
+        """The host's time."""
+        return self._host.now
+
+    @now.setter
+    def now(self, _: float) -> None:
+        raise AttributeError("time is the host's")
+
+    @property
+    def at_the_end(self) -> Callable[[], object] | None:
+        """What is called when all else of this instant is done."""
+        return self._host.at_the_end
+
+    @at_the_end.setter
+    def at_the_end(self, call: Callable[[], object] | None) -> None:
+        self._host.at_the_end = None if call is None else self._while_alive(call)
+
+    def time(self) -> float:
+        """Return the host's time."""
+        return self._host.time()
+
+    def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
+        """Call this at a time, unless it is cancelled, or the kernel killed."""
+        return self._host.at(when, kind, key, self._while_alive(call))
+
+    def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
+        """Call this at a time, unless the kernel is killed."""
+        self._host.schedule(when, kind, key, self._while_alive(call))
+
+    def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
+        """Set a coroutine on its way."""
+        task = self._host.spawn(coroutine, key, name)
+        self._mine[task] = None
+        if len(self._mine) > 2 * len(self._host.tasks) + 100:
+            self._mine = {task: None for task in self._mine if not task.is_set}
+        return task
+
+    def under_way(self) -> Sequence[Task[Any]]:
+        """Return its own coroutines that have not ended."""
+        return [task for task in self._mine if not task.is_set]
+
+    def crash(self, error: BaseException) -> None:
+        """An error that no coroutine caught stops the host as well: it is a mistake of ours."""
+        self._host.crash(error)
+
+    def _while_alive(self, call: Callable[[], object]) -> Call:
+        def called() -> None:
+            if self.alive:
+                call()
+
+        return called
 
 
 class Living:
