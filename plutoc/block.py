@@ -101,8 +101,6 @@ class Choice:
     hook: HookKind | None = None
     adapt: Callable[..., Any] | None = None
     """Makes of the app's hook what the options are."""
-    earlier: tuple[str, tuple[int, int]] | None = None
-    """An earlier default, and the first seam whose packages have another: `diff` and `compile` tell of that."""
 
 
 AnyParam = Param | HookParam | Choice

@@ -15,13 +15,9 @@ REWRITES = {
     "pytest tests/library/station/browser/test_every_page.py -m 'long or not long' --update": "the pictures of the ground station",
     "python -m tests.library.station.schema": "the description of the station's interface, and what is made of it",
     "pytest tests/compiler/editor/browser --update": "the pictures of the graph editor",
-    "pytest tests/library/journal --update": "what kept journals come to, after a change of the records",
     "python docs/tutorial/make_pictures.py": "the pictures and the quoted files in the pages",
-    "python -m tests.library.journal.keeping": "keep a journal as this version writes it, once a release",
-    "python -m tests.seam.packages": "keep a package of a new seam, once it is settled",
 }
 CAMPAIGNS = {
-    "python -m tests.as_before --seeds 100": "simulations of straight flights print what they printed before",
     "python -m tests.compiler.format --mutants 2000": "format many layouts of every example",
     "python -m tests.compiler.lsp.holes": "cut a thousand holes into the examples: is what stood there offered?",
     "python -m tests.fuzz --minutes 10": "feed the compiler with odd input",

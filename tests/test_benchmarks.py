@@ -91,12 +91,12 @@ def test_the_choice_of_drones_is_measured() -> None:
 
 
 def test_makespans_are_measured_by_policy() -> None:
-    """Here of one plan, without a solver: the defaults are nowhere near the former ones."""
+    """Here of one plan, without a solver: the defaults are nowhere near `nearest` and `home`."""
     few = ["--plans", "1", "--seconds", "0", "--json"]
     told = json.loads(python(str(ROOT / "benchmarks" / "allocation.py"), *few).stdout)
     assert list(told["makespans_s"]) == ["1 few drones"]
-    defaults, former = told["ratios"]["defaults"], told["ratios"]["nearest, home"]
-    assert 1.0 <= defaults["median"] <= defaults["worst"] < 1.5 < former["median"]
+    defaults, nearest = told["ratios"]["defaults"], told["ratios"]["nearest, home"]
+    assert 1.0 <= defaults["median"] <= defaults["worst"] < 1.5 < nearest["median"]
     assert told["ratios"]["defaults"] == told["ratios"]["least_makespan, next"]
 
 

@@ -20,7 +20,6 @@ from plutoc.emit.errors import never_written, outdated, place_of
 from plutoc.emit.lock import NAME as LOCK
 from plutoc.emit.lock import only_forgets
 from plutoc.emit.write import CannotWrite, Changes, Refused, write
-from plutoc.project.defaults import told
 from plutoc.project.hooks import default_folder, find_hooks, hooks_path, passed_over
 from plutoc.project.package import changes_of, known_hooks
 from plutoc.project.reading import shown
@@ -170,10 +169,7 @@ def _refuse(checked: Checked, changes: Changes) -> None:
         raise Rejected([never_written(place, folder)])
     if changes.files:
         paths = [change.path for change in changes.files]
-        defaults = told(checked, changes)
-        raise Rejected(
-            [outdated(place, folder, paths, defaults, settles_merge=changes.settles_merge)]
-        )
+        raise Rejected([outdated(place, folder, paths, settles_merge=changes.settles_merge)])
 
 
 def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
@@ -192,7 +188,6 @@ def _outcome(compiled: Compiled, changes: Changes) -> Iterator[str]:
     elif changes.files:
         settled = ", and a merge is settled" if changes.settles_merge else ""
         yield f"{folder}: {counted(len(changes.files), 'file')} changed{settled}"
-        yield from (f"  {default}" for default in told(compiled.checked, changes))
         for change in changes.files:
             mark = "+" if change.before is None else "-" if change.after is None else "~"
             yield f"  {mark} {shown(Path(change.path))}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 from plutoc.cli.endings import CLEAN, ERRORS, UsageError
@@ -15,9 +14,6 @@ from plutoc.compile import analyse
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.diff.model import Difference, Version
 from plutoc.diff.run import compare
-from plutoc.graph.model import Graph
-from plutoc.project.defaults import Seam, as_compiled, seam_in, seam_path
-from plutoc.project.hooks import default_folder
 from plutoc.project.reading import shown
 from plutoc.report.change_reports import json, markdown, text
 from plutoc.source import Source
@@ -32,8 +28,7 @@ def diff(options: Options) -> int:
         raise UsageError("`-`, standard input, can be one of the two apps, not both")
     sources = _sources(options.old, options.new)
     old, new = _versions(*sources)
-    seam = _seam(options.old, options.new, old.checked.graph)
-    found = compare(replace(old, checked=as_compiled(old.checked, seam)), new)
+    found = compare(old, new)
     output.line(_report(found, options.format).rstrip("\n"))
     return ERRORS if options.exit_code and found.changes else CLEAN
 
@@ -56,22 +51,6 @@ def _read(path: Path) -> Source:
             raise UsageError("standard input is empty: the command before the `|` gave no app")
         return source
     return read_app(_file(path))
-
-
-def _seam(old: Path, new: Path, graph: Graph) -> Seam | None:
-    """Return for which seam the package was compiled that lies beside the old app; None: there is none."""
-    if old == STANDARD_INPUT:
-        return None
-    is_there = new == STANDARD_INPUT or os.path.lexists(old)
-    file = default_folder(_file(old if is_there else new), graph) / seam_path(graph)
-    try:
-        if is_there:
-            return seam_in(file.read_text(encoding="utf-8"))
-        from plutoc.cli.revisions import read_at
-
-        return seam_in(read_at(os.fspath(old), file).text)
-    except (OSError, UnicodeDecodeError, UsageError):
-        return None  # a package that was not compiled, or not kept, says nothing
 
 
 def _file(path: Path) -> Path:

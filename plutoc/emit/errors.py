@@ -137,11 +137,10 @@ def outdated(
     place: Place,
     folder: str,
     paths: Sequence[str],
-    defaults: Sequence[str] = (),
     *,
     settles_merge: bool = False,
 ) -> Diagnostic:
-    """`--check` of a package that is not what its source says; `defaults`: which of those are others now."""
+    """`--check` of a package that is not what its source says."""
     since, settles = "", ""
     if settles_merge:
         since, settles = " since a merge", ", which settles the generated files by itself"
@@ -152,7 +151,7 @@ def outdated(
         "P4008",
         f"`{folder}` is out of date{since}: {files} would change",
         help=f"run {_compiling(place, folder)}{settles}; `--diff` shows what would change in\n"
-        f"{shown}{more}" + "".join(f"\n{default}" for default in defaults),
+        f"{shown}{more}",
     )
 
 

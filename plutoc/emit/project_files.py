@@ -7,7 +7,7 @@ from plutoc.emit.python import Import, import_lines
 from plutoc.emit.render import render
 from plutoc.emit.stubs import exports_of
 from plutoc.graph.model import Graph
-from plutoc_runtime.domain.app import SEAM
+from plutoc_runtime.domain.app import SEAM, library_for
 
 
 def init_file(graph: Graph, *, former: bool) -> str:
@@ -42,7 +42,7 @@ def project_file(graph: Graph, source_name: str, *, carry: bool = False) -> str:
         description=toml_text(one_line(graph.title) or graph.name),
         libraries=[toml_text(library.requirement) for library in graph.libraries],
         direct=any(library.direct for library in graph.libraries),
-        seam=".".join(map(str, SEAM)),
+        speaks=library_for(SEAM),
         carry=carry,
     )
 

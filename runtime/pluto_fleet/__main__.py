@@ -58,7 +58,7 @@ def _said(words: Sequence[str]) -> int:
     about = f"{_ABOUT} It knows no app: {_APPS}."
     parser = ArgumentParser(prog=_NAME, description=about, allow_abbrev=False)
     vars(parser)["color"] = False  # from Python 3.14 on it would be True
-    what = "say which version this is, which seams it speaks, and which extras are installed"
+    what = "say which version this is, which seam it speaks, and which extras are installed"
     parser.add_argument("--version", action=_Version, nargs=0, help=what)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for command, does in _COMMANDS.items():
@@ -75,9 +75,9 @@ class _Version(Action):
 
     def __call__(self, parser: ArgumentParser, *_: object) -> None:
         from . import __version__, extras
-        from .seam import spoken
+        from .shared.domain.app import SEAM
 
-        output.line(f"{_NAME} {__version__}, speaks seam {spoken()}")
+        output.line(f"{_NAME} {__version__}, speaks seam {SEAM}")
         output.line(f"extras: {extras.installed()}")
         parser.exit()
 

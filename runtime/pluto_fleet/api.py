@@ -26,8 +26,7 @@ from .flight.simulate import simulate as _simulate
 from .jobs.reports import Down
 from .journal.header import header
 from .journal.store import Store
-from .older import loaded_again, provide
-from .seam import checked, is_older
+from .seam import check
 from .shared.alone.faults import Faults
 from .shared.domain.airspace import Airspace
 from .shared.domain.app import moving
@@ -73,12 +72,9 @@ def load_app(package: str) -> App:
     """
     brain = f"{package}._runtime"
     try:
-        seam = checked(package, import_module(f"{brain}.command").SEAM)
+        check(package, import_module(f"{brain}.command").SEAM)
     except ModuleNotFoundError as error:
         raise BadInput(f"{package} is no app that can be imported here: {error}") from error
-    if is_older(seam):
-        provide(brain)
-        return described(loaded_again(brain))
     return described(loaded(lambda: import_module(f"{package}.flow").APP))
 
 

@@ -15,13 +15,12 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from .process.signal_guard import IN_A_PROCESS
-from .seam import Seam, checked
+from .seam import check
 from .shared.domain import app as shared
 from .shared.domain.actions import Action, Parameter
 from .shared.domain.errors import BadInput
 from .shared.domain.fields import Entity, Field, FieldType
 from .shared.domain.model import Category, Mission, Trip
-from .shared.domain.motion import PEAK
 from .shared.domain.own_fields import OwnField
 from .shared.domain.quantities import Type
 
@@ -42,7 +41,7 @@ class App(shared.App):
 
     package: str
     """The name of the package."""
-    seam: Seam
+    seam: int
     given: object
     """The package's own description, for its brain alone."""
     brain: ModuleType
@@ -51,10 +50,8 @@ class App(shared.App):
     def new_brain(
         self, fleet: Mapping[str, Any], *, space: Airspace, hooks: HookRunner | None = None
     ) -> Brain:
-        """Return a brain of this app, for drones that are as fast as these categories say."""
-        speeds = {one.name: _mean_and_top(one) for one in self.categories}
-        told = {**fleet, "speeds": speeds}  # seam 3.0 knows no motion but the mean speed
-        made: Brain = self.brain.Brain(self.given, told, space=space, hooks=hooks)
+        """Return a brain of this app."""
+        made: Brain = self.brain.Brain(self.given, fleet, space=space, hooks=hooks)
         return made
 
     def perform(self, brain: Any, request: Mapping[str, Any], now: float) -> str:
@@ -72,7 +69,7 @@ def described(given: Any) -> App:
         return given
     runtime = type(given).__module__.removesuffix(_WHERE)
     brain = import_module(f"{runtime}.brain")
-    seam = checked(given.name, brain.SEAM)
+    check(given.name, brain.SEAM)
     brain.put_guard(IN_A_PROCESS)
     about: Mapping[str, Any] = brain.about(given)
     fields = tuple(map(_field, about["fields"]))
@@ -89,15 +86,15 @@ def described(given: Any) -> App:
         },
         evaluators={name: given.evaluators[name] for name in about["evaluators"]},
         resumes=tuple(about["resumes"]),
-        results=tuple(about.get("results", ())),  # from seam 3.3 on
+        results=tuple(about["results"]),
         package=runtime.rpartition(".")[0] or runtime,
-        seam=seam,
+        seam=brain.SEAM,
         given=given,
         brain=brain,
     )
 
 
-def bare(name: str, package: str, seam: Seam) -> App:
+def bare(name: str, package: str, seam: int) -> App:
     """Return an app with nothing but its name, for commands that need no more."""
 
     def flow(_: object) -> NoReturn:
@@ -121,7 +118,7 @@ def bare(name: str, package: str, seam: Seam) -> App:
 
 def _field(data: Mapping[str, Any]) -> Field:
     known = {"name": data["name"], "label": data["label"], "default": data["default"]}
-    if data.get("own"):  # from seam 3.2 on
+    if data.get("own"):
         return OwnField(**known, on=Entity(data["on"]), type=Type(data["type"]))
     return Field(**known, on=Entity(data["on"]), type=FieldType(data["type"]))
 
@@ -130,12 +127,6 @@ def _category(data: Mapping[str, Any]) -> Category:
     able = data["actions"]
     known = {key: value for key, value in data.items() if key not in ("motion", "top_speed")}
     return Category(**{**known, "actions": None if able is None else frozenset(able)})
-
-
-def _mean_and_top(category: Category) -> list[float | None]:
-    if not category.motion.smooth:
-        return [category.speed, None]
-    return [min(category.speed, category.motion.limit) / PEAK, category.speed]
 
 
 def _action(data: Mapping[str, Any], hook: Callable[..., Any] | None) -> Action:

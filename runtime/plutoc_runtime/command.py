@@ -25,11 +25,9 @@ if TYPE_CHECKING:
     from .alone.simulate import Outcome
     from .domain.app import App
 
-_SEAM = ".".join(map(str, SEAM))
-
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
 _EXTRAS |= dict.fromkeys(("size", "fly", "resume", "journal", "tell", "decide", "--runs"), "")
-_EXTRAS |= dict.fromkeys(("gateway", "crtp", "--jobs", "--start"), "")
+_EXTRAS |= dict.fromkeys(("--jobs", "--start"), "")
 """What needs the library, and with which of its extras."""
 _WORDS = [*_EXTRAS, "check", "simulate", "--version"]
 _WORDS += ["--fleet", "--seed", "--no-spread", "--fail", "--until", "--trace", "--json"]
@@ -97,7 +95,7 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
         from importlib.metadata import distributions  # slow to import
 
         found = [one.version for one in distributions(name=name.rstrip("_"))]
-        print(f"{name} {[*found, '(not installed)'][0]}, seam {_SEAM}, pluto-fleet: not installed")
+        print(f"{name} {[*found, '(not installed)'][0]}, seam {SEAM}, pluto-fleet: not installed")
         return 0
     flags = [word for word in argv if word.startswith("--")] if argv[:1] == ["simulate"] else []
     for what in (word.partition("=")[0] for word in flags or argv[:1]):

@@ -228,14 +228,3 @@ def test_whatever_is_changed_each_trip_that_is_left_is_flown_once(strikes: list[
 def goes_on(living: Living) -> None:
     with suppress(BadInput):
         living.life.control.go_on("a")
-
-
-def test_an_app_of_an_older_seam_is_told_that_it_cannot(monkeypatch: pytest.MonkeyPatch) -> None:
-    living = Living(enterable(), three_trips())
-    living.run(3.0)
-    monkeypatch.setattr(living.app.brain, "SEAM", (3, 2))
-    with pytest.raises(BadInput) as refusal:
-        change(living, trip("3", 4))
-    assert str(refusal.value) == (
-        "tested speaks seam 3.2, and trips can be changed in flight from 3.3 on: compile it anew"
-    )

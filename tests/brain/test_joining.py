@@ -90,14 +90,3 @@ def test_what_is_no_drone_does_not_break_a_gateway() -> None:
     living.run(3.0)
     assert living.gateway.join({"drone": 7}).startswith("that is no drone: KeyError")
     assert living.gateway.join({"drone": {"id": "x"}, "real": None}).startswith("that is no drone")
-
-
-def test_an_older_app_is_told_that_no_drone_can_join_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    living = Living(enterable(), long("a"))
-    living.run(3.0)
-    monkeypatch.setattr(living.app.brain, "SEAM", (3, 2))
-    with pytest.raises(BadInput) as refusal:
-        join(living)
-    assert str(refusal.value) == (
-        "tested speaks seam 3.2, and drones can join from 3.3 on: compile it anew"
-    )

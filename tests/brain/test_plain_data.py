@@ -110,7 +110,6 @@ KNOWN = {
         "midnight",
         "after_trip",
         "max_airborne",
-        "speeds",
         "id",
         "category",
         "home",

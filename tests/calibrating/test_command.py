@@ -15,9 +15,7 @@ from pluto_fleet.__main__ import main
 from pluto_fleet.journal.store import Store
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from tests.calibrating.flights import surveyed
-from tests.paths import ROOT
 
-OLD = ROOT / "tests" / "library" / "journal" / "golden" / "1-0.1.0-1" / "flight.journal"
 MOVES = replace(
     CRAZYFLIE, pace=1.1, settles=0.6, take_off=0.8, landing=1.2, drain=1.25, spread=0.02
 )
@@ -134,13 +132,6 @@ def test_what_is_no_journal_is_told_so(tmp_path: Path, capsys: pytest.CaptureFix
     assert told(capsys, 2, text).startswith(f"{text}: ")
 
 
-def test_a_journal_of_before_is_told_so(capsys: pytest.CaptureFixture[str]) -> None:
-    assert told(capsys, 2, OLD) == (
-        f"{OLD}: it was begun by an earlier pluto-fleet, which did not measure what drones flew; fly again"
-        " with today's, and calibrate with that journal"
-    )
-
-
 def made(path: Path, *events: dict[str, object], **header: object) -> Path:
     """Make a journal of these events, a row each."""
     begun = {"t": 0.0, "event": "journal.begun", "app": "a", "events": 2, **header}
@@ -153,8 +144,6 @@ def test_a_journal_in_which_nothing_was_flown_is_told_so(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert "no drone has flown in it" in told(capsys, 2, made(tmp_path / "J"))
-    newer = made(tmp_path / "K", events=4)
-    assert "begun by a newer pluto-fleet (events 4)" in told(capsys, 2, newer)
 
 
 def test_a_measurement_of_a_later_version_is_told_so(

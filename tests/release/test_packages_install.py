@@ -14,7 +14,7 @@ from zipfile import ZipFile
 import pytest
 
 from pluto_fleet import __version__
-from pluto_fleet.seam import NEWEST, written
+from pluto_fleet.shared.domain.app import SEAM
 from tests.release.environments import ROOT, Finished, compile_app, fresh, run, succeed
 
 WITH_PROMISES = ROOT / "examples/night_round"
@@ -138,7 +138,7 @@ def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> 
     def told(*words: str | Path) -> Finished:
         return run(program, *words, PYTHONPATH=OURS, XDG_STATE_HOME=state)
 
-    assert f"seam {written(NEWEST)}, pluto-fleet {__version__}" in told("--version").out
+    assert f"seam {SEAM}, pluto-fleet {__version__}" in told("--version").out
     own = succeed(programs / "pluto-fleet", "--version")
     assert own.startswith(f"pluto-fleet {__version__}, speaks seam ")
     assert own.endswith("extras: not installed: areas, crazyflie, plot, station\n")

@@ -11,16 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import FLEW
-from ..journal.header import EVENTS
 from ..journal.reader import Reader
 from ..shared.domain.errors import BadInput
-from ..shared.domain.text import quoted, shown
+from ..shared.domain.text import quoted
 
 if TYPE_CHECKING:
     from ..shared.domain.model import Point
-
-MEASURED_SINCE = 2
-"""The `events` of the first journals with measurements."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,7 +85,7 @@ def read_flights(path: Path) -> Flights:
         if reader.damaged is not None:
             raise BadInput(reader.damaged)
     if not any(runs):
-        raise BadInput(f"{path}: {_why_none(header)}")
+        raise BadInput(f"{path}: {_NONE}")
     return Flights(path=path, fleet=header.get("fleet"), runs=[run for run in runs if run])
 
 
@@ -120,24 +116,11 @@ def _command(path: Path, row: int, facts: Mapping[str, Any]) -> Command:
         ) from None
 
 
-def _why_none(header: Mapping[str, Any]) -> str:
-    """Return why a journal has no commands."""
-    events = header.get("events")
-    if isinstance(events, int) and events < MEASURED_SINCE:
-        by = header.get("library")
-        version = (
-            "an earlier pluto-fleet" if by is None else f"an earlier pluto-fleet ({shown(by)})"
-        )
-        return (
-            f"it was begun by {version}, which did not measure what drones flew; fly again with today's,"
-            " and calibrate with that journal"
-        )
-    if isinstance(events, int) and events > EVENTS:
-        return f"it was begun by a newer pluto-fleet (events {events}): calibrate with that one"
-    return (
-        "no drone has flown in it, so there is nothing to calibrate with; what `simulate` flies is not"
-        " measured: use fly"
-    )
+_NONE = (
+    "no drone has flown in it, so there is nothing to calibrate with; what `simulate` flies is not"
+    " measured: use fly"
+)
+"""Why a journal has no commands."""
 
 
 def read_all(paths: Sequence[Path]) -> list[Flights]:

@@ -15,23 +15,13 @@ if TYPE_CHECKING:
     from typing import Any, NoReturn
 
     from ..app import App
-    from ..seam import Seam
 
 _WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
 """Commands that need only an app's name: a Stop must work even if hooks.py does not."""
 
 
-def start(name: str, load: Callable[[], object], package: str, seam: Seam) -> int:
+def start(name: str, load: Callable[[], object], package: str, seam: int) -> int:
     """Load an app and run the command that the program was called with."""
-    # Earlier libraries start these two by the app's program, and must not meet its own code.
-    if sys.argv[1:2] == ["gateway"]:
-        from ..gateway.process import main as gateway
-
-        return gateway(sys.argv[2:])
-    if sys.argv[1:2] == ["crtp"]:
-        from ..crtp.process import main as crtp
-
-        return crtp(sys.argv[2:])
     app: App | None = None
     ending = ExitCode(name)
     with ending:

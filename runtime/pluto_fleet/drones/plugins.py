@@ -104,14 +104,7 @@ def no_such_module(kind: PluginKind, name: str, module: str) -> BadInput:
 
 def needs(kind: PluginKind, name: str, missing: str) -> BadInput:
     """Return the error about a module that the class needs."""
-    if missing.partition(".")[0] == _FORMER:
-        here = "what it had for a navigation is in pluto_fleet.drones now, such as Point"
-        return kind.refused(name, f"imports {quoted(missing)}: {here}")
     return kind.refused(name, f"needs {quoted(missing)}: install it with pip")
-
-
-_FORMER = "plutoc_runtime"
-"""What navigations imported `Point` from before seam 3."""
 
 
 def no_such_class(kind: PluginKind, name: str, wanted: str, there: Sequence[str]) -> BadInput:

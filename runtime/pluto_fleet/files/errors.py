@@ -56,10 +56,6 @@ def no_such_field(key: str, what: str, keys: Sequence[str]) -> str:
     )
 
 
-def no_promises(key: str, app: str) -> str:
-    return f"{key} needs a newer package than {app} is: compile it anew, and install it"
-
-
 def not_a_table(header: str) -> str:
     return f"is not a table: write {header}"
 

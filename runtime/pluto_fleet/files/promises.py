@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from ..shared.domain.values import Read
     from .reading import Table
 
-SINCE = (3, 2)
-"""The first seam whose brains keep promises."""
-
 _FROM_START = Quantity(Type.TIME, 0.0, LARGEST)
 
 
@@ -85,8 +82,6 @@ def read_promises(table: Table, app: App) -> Mapping[str, Any]:
         value = table.read(key, convert)
         if value is not None:
             given[key] = value
-            if app.seam < SINCE:
-                table.problem(errors.no_promises(key, app.name), key)
     try:
         return promised(given)
     except ValueError as error:

@@ -10,7 +10,6 @@ from ..files.missions import read_trips
 from ..files.missions_text import trip_table
 from ..files.plan_check import unflyable
 from ..files.reading import Document, Table, shortened
-from ..seam import written
 from ..shared.domain.actions import PICK
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import percent, quoted
@@ -25,20 +24,8 @@ if TYPE_CHECKING:
     from ..journal.fold import Record
     from ..shared.domain.model import Trip
 
-FROM = (3, 3)
-"""The first seam whose brains can change trips, and take drones in, while they fly."""
-
 Given = Sequence[object]
 """Trips as a missions file has them, in their order; one without a name is a new one."""
-
-
-def refuse_if_older(app: App, what: str) -> None:
-    """Raise `BadInput` if the app's brain cannot do what only those since then can."""
-    seam = app.brain.SEAM
-    if seam < FROM:
-        raise BadInput(
-            f"{app.name} speaks seam {written(seam)}, and {what} from {written(FROM)} on: compile it anew"
-        )
 
 
 def flying(record: Record) -> list[Record]:

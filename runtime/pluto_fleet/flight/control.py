@@ -18,7 +18,7 @@ from ..shared.domain.status import Status
 from ..shared.domain.text import counted, quoted
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, Task
-from .changing import TripChange, refuse_if_older, refuse_if_stale
+from .changing import TripChange, refuse_if_stale
 from .mishaps import Mishaps
 from .mission_status import aside, in_order
 from .reconcile import ANSWERS as DONE_OR_NOT
@@ -142,7 +142,6 @@ class Control(Suspending):
     ) -> Callable[[], None]:
         """Return what makes that change, checked; raise `BadInput` if it cannot be made."""
         record = self.record(mission)
-        refuse_if_older(self._run.app, "trips can be changed in flight")
         if self._status(mission, record) in (Status.UNCERTAIN, Status.HELD):
             raise BadInput(f"mission {quoted(mission)} waits for a decision: decide that first")
         self._refuse_while_it_steps_out(mission)
@@ -195,7 +194,6 @@ class Control(Suspending):
     def fleet_with(self, entry: Mapping[str, object]) -> FleetFile:
         """Return the fleet with a drone that joins; raise `BadInput` if it cannot."""
         self._refuse_after_stop()
-        refuse_if_older(self._run.app, "drones can join")
         if not self._run.is_set_out:
             raise BadInput("the drones are just being asked where they are: try again in a moment")
         return with_joined(self._run.app, self._run.fleet, [entry])

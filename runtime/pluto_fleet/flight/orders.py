@@ -7,7 +7,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..gateway.wire import result_data
-from ..shared.domain.actions import MEASURE, PHOTO
 from ..shared.domain.errors import Cancelled, FlightFailed
 from ..shared.hooks.plain_data import item_of
 
@@ -36,8 +35,7 @@ class OrderedJob:
         self.parameters: Mapping[str, Plain] = order["parameters"]
         self.item: Item | None = item_of(order["item"])
         self.seconds: float = order["seconds"]
-        # a brain before seam 3.2 says nothing of that
-        self.beside: bool = order.get("beside", self.action in (MEASURE, PHOTO))
+        self.beside: bool = order["beside"]
 
     def begins(self) -> None:
         """Called right before the action is done."""

@@ -25,9 +25,6 @@ if TYPE_CHECKING:
     from .driver import Stands
     from .simulation import Around, Listener
 
-_LEGS = (3, 1)
-"""The first seam whose brains are told several legs at once."""
-
 Look = Callable[["Brain", float, Mapping[str, "Telemetry"]], object]
 """Called with a brain, the time, and the drones as they are then."""
 
@@ -41,9 +38,9 @@ class Sampling:
     look: Look
 
 
-def has_traffic(app: App, fleet: FleetFile) -> bool:
+def has_traffic(fleet: FleetFile) -> bool:
     """Return whether drones are kept apart in a simulation: else each has the air to itself."""
-    return bool(fleet.apart) or app.seam < _LEGS
+    return bool(fleet.apart)
 
 
 def simulate(
@@ -66,7 +63,7 @@ def simulate(
     `around` wraps the drones' controls for the gateway. `stands` says where each drone stands at first;
     without it all are in their docks, fully charged.
     """
-    if not has_traffic(app, fleet) and around is None:
+    if not has_traffic(fleet) and around is None:
 
         def prepare(world: Alone) -> Run:
             drones = world.drones.drones

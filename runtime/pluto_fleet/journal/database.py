@@ -23,7 +23,7 @@ APPLICATION = 0x506C7574
 """`Plut`, as SQLite's application id."""
 
 VERSION = 1
-"""The version of the format; a reader refuses newer ones."""
+"""The version of the format, and of what its events mean; a reader refuses any other."""
 
 TABLES = {
     "journal": """CREATE TABLE journal (
@@ -147,8 +147,8 @@ def look_at(path: Path) -> None:
     version, application = struct.unpack_from(">60xI4xI", start)
     if application != APPLICATION and TABLES["journal"].encode() not in start:
         raise errors.no_journal(path)
-    if VERSION < version < _SANE:
-        raise errors.newer(path, version, VERSION)
+    if version != VERSION and 0 < version < _SANE:
+        raise errors.of_another_version(path, version, VERSION)
     if not start.startswith(_MAGIC) or version != VERSION or application != APPLICATION:
         raise errors.damaged(path, errors.no_beginning())
 

@@ -6,6 +6,7 @@ import sqlite3
 from errno import EDQUOT, EFBIG, ENOSPC
 from pathlib import Path
 
+from .. import __version__
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted
 
@@ -58,11 +59,11 @@ def no_journal(path: Path) -> JournalError:
     return JournalError(f"{path}: it is no journal of an app: nothing in it was read or changed")
 
 
-def newer(path: Path, version: int, known: int) -> JournalError:
-    """The journal was written by a later version."""
+def of_another_version(path: Path, version: int, known: int) -> JournalError:
+    """The journal was written by a version of the library that writes another format."""
     return JournalError(
-        f"{path}: its format is {version}, and this app reads {known} at most: use the app as it was"
-        " compiled by a newer plutoc"
+        f"{path}: its format is {version}, and pluto-fleet {__version__} reads {known}: install the"
+        " pluto-fleet that wrote it"
     )
 
 

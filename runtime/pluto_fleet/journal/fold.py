@@ -41,8 +41,6 @@ class Records:
             "stopped": None,
         }
         self.missions: dict[str, Record] = self.data["missions"]
-        for name, record in self.missions.items():  # an older snapshot may have fewer keys
-            self.missions[name] = {**_new(), **record}
         self.results: list[list[Any]] = self.data["results"]
         """[mission, trip, round, attempt, value] of every action that was done."""
         self.flown: dict[str, int] = self.data["flown"]

@@ -9,24 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import __version__
-from ..seam import written
 from . import errors
-from .errors import JournalError
 
 if TYPE_CHECKING:
     from ..app import App
 
 Header = Mapping[str, Any]
-
-LANGUAGE = 1
-"""The version of Pluto's language."""
-
-EVENTS = 3
-"""The version of the events' meaning: a later runtime reads all earlier ones.
-
-2: drones' commands are measured, in events that nothing follows from.
-3: a person changes trips that have not flown, and drones join, while missions are under way.
-"""
 
 
 def header(
@@ -51,9 +39,7 @@ def header(
         "event": "journal.begun",
         "app": app.name,
         "app_hash": fingerprint(app),
-        "language": LANGUAGE,
-        "events": EVENTS,
-        "seam": written(app.seam),
+        "seam": app.seam,
         "library": __version__,
         "missions": missions,
         "fleet": fleet,
@@ -70,9 +56,6 @@ def check(path: Path, header: Header, app: App) -> None:
     """Raise a `JournalError` if this app cannot resume a journal with this header."""
     if header.get("app") != app.name:
         raise errors.of_another_app(path, str(header.get("app")), app.name)
-    version = header.get("events")
-    if not isinstance(version, int) or version > EVENTS:
-        raise newer_events(path, version)
 
 
 def fingerprint(app: App) -> str:
@@ -83,11 +66,3 @@ def fingerprint(app: App) -> str:
         if file is not None and Path(file).is_file():
             sums.update(Path(file).read_bytes())
     return sums.hexdigest()
-
-
-def newer_events(path: Path, version: object) -> JournalError:
-    """The events are of a newer version than this runtime reads."""
-    return JournalError(
-        f"{path}: it was begun by an app of a newer plutoc (events {version}, and this app knows"
-        f" {EVENTS}): go on with that one, or compile this app by a newer plutoc"
-    )

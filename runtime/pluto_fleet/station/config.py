@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..flight.changing import FROM as CHANGES_SINCE
 from ..shared.domain.actions import PICK, RELEASE
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.own_fields import OwnField
@@ -94,7 +93,6 @@ def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> 
             "no_fly": [[list(corner) for corner in area] for area in space.no_fly],
             "image": drawn.address if drawn.image is not None else None,
         },
-        "replans": app.brain.SEAM >= CHANGES_SINCE,
         "retries": _retries(graph),
         "rounds": any(field.type is FieldType.ROUNDS for field in app.fields),
         "graph": laid_out(graph) if graph is not None else None,

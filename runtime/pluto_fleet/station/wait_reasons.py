@@ -89,7 +89,7 @@ class WaitReasons:
         """Return why a free drone is not ready; empty: it is."""
         if drone["status"] != _FREE:
             return ""
-        if drone.get("aside"):  # older brains do not say so
+        if drone["aside"]:
             return "its battery is too low for every trip that waits"
         return "its battery has little more than its reserve" if drone["low"] else ""
 

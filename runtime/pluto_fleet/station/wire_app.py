@@ -139,8 +139,6 @@ class AppData(TypedDict):
     layers: list[Layer]
     """How results are shown on the map."""
     map: MapShape
-    replans: bool
-    """Whether what has not flown can be changed while its mission is under way."""
     retries: bool
     """Whether the graph flies a failed trip again."""
     rounds: bool

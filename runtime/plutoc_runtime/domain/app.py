@@ -16,9 +16,8 @@ if TYPE_CHECKING:
 
 A = TypeVar("A", bound="App")
 
-SEAM = (3, 3)
-"""The seam to the library: the first number changes when earlier data would be misread, the second
-when more is said."""
+SEAM = 1
+"""The seam to the library: it changes with whatever crosses, and both sides must have the same one."""
 
 Flow = Callable[[Any], Coroutine[Any, Any, Status]]
 """The coroutine function that takes one mission from start to end."""
@@ -47,9 +46,15 @@ class App:
 
 def needs_library(what: str, extra: str = "") -> str:
     """Say how to install what a package alone cannot do."""
-    said = f'needs pluto-fleet, the library that flies: pip install "pluto-fleet{extra}>='
+    library = f'"pluto-fleet{extra}{library_for(SEAM)}"'
+    said = f"needs pluto-fleet, the library that flies: pip install {library}"
     sources = f'Pluto\'s sources: pip install "PLUTO/runtime{extra}")'
-    return f'{what} {said}{".".join(map(str, SEAM))}" (without an index, from {sources}'
+    return f"{what} {said} (without an index, from {sources}"
+
+
+def library_for(seam: int) -> str:
+    """Return which versions of the library speak a seam, as a requirement writes it."""
+    return f"==0.{seam}.*"
 
 
 def moving(app: A, motion: Motion) -> A:

@@ -212,7 +212,7 @@ class _Writer:
             "sees": [self._text(str(what)) for what in photo.sees],
             "sharpness": float(photo.sharpness),
         }
-        if photo.file is not None:  # older journals have no such key
+        if photo.file is not None:
             data["file"] = self._text(str(photo.file))
         return data
 

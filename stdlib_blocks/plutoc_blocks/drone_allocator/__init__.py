@@ -34,7 +34,6 @@ DRONE_ALLOCATOR = Block(
                 "earliest_deadline": earliest_deadline,
             },
             default="least_makespan",
-            earlier=("nearest", (3, 2)),
             doc="How one of several drones is chosen. The first three choose for trip after trip. The "
             "others look at all that wait: `batch_optimal` for the least way in total, "
             "`least_makespan` plans ahead, so that the last trip ends soonest, and "

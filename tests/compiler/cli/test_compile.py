@@ -288,7 +288,7 @@ def test_a_damaged_lock_is_refused_with_3(
 def test_what_a_newer_plutoc_made_is_not_overwritten(
     plutoc: Call, app: Path, monkeypatch: pytest.MonkeyPatch, made_by: str, code: int, other: str
 ) -> None:
-    """The order of versions is that of PEP 440; a package without one is older than any."""
+    """The order of versions is that of PEP 440; a lock that says none stops no compile."""
     for module in (lock, write):
         monkeypatch.setattr(module, "__version__", "0.1.0")
     plutoc("compile", app)

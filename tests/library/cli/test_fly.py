@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.journal.header import EVENTS, header
+from pluto_fleet.journal.header import header
 from pluto_fleet.journal.store import Store
 from tests.library.cli.conftest import MISSIONS, Command
 from tests.library.files.an_app import APP
@@ -109,7 +109,6 @@ def test_where_all_missions_have_ended_there_is_nothing_to_resume(
     ("facts", "said"),
     [
         ({"app": "wards"}, "this is a journal of wards, and this app is alfalfa"),
-        ({"events": EVENTS + 1}, "it was begun by an app of a newer plutoc"),
         ({"fleet": '[[drone]]\nid = "a"\ncategory = "gone"\nhome = [1, 1]'}, "(its fleet):3: "),
     ],
 )

@@ -12,7 +12,7 @@ import pytest
 
 from pluto_fleet.app import App
 from pluto_fleet.cli import start
-from pluto_fleet.seam import NEWEST
+from pluto_fleet.shared.domain.app import SEAM
 
 
 @pytest.fixture
@@ -27,7 +27,7 @@ def load_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Calla
     def start_it(text: str) -> int:
         (folder / "hooks.py").write_text(text)
         invalidate_caches()
-        return start("tried", load, "tried", NEWEST)
+        return start("tried", load, "tried", SEAM)
 
     def load() -> App:
         app: App = import_module("tried.flow").APP
@@ -106,5 +106,5 @@ def test_a_mistake_of_ours_is_not_blamed_on_the_hooks(
     def load() -> App:
         raise KeyError("ours")
 
-    assert start("tried", load, "tried", NEWEST) == 70
+    assert start("tried", load, "tried", SEAM) == 70
     assert "internal error" in capsys.readouterr().err

@@ -12,7 +12,7 @@ import pytest
 import pluto_fleet
 from pluto_fleet import extras
 from pluto_fleet.__main__ import main
-from pluto_fleet.seam import spoken
+from pluto_fleet.shared.domain.app import SEAM
 
 PROJECT = Path(pluto_fleet.__path__[0]).parent / "pyproject.toml"
 APPS = "an app is flown by its own program, such as: greenhouse fly missions.toml"
@@ -23,7 +23,7 @@ def test_the_version_names_library_seams_and_extras(capsys: pytest.CaptureFixtur
     assert main(["--version"]) == 0
     out, err = capsys.readouterr()
     first, second = out.splitlines()
-    assert first == f"pluto-fleet {pluto_fleet.__version__}, speaks seam {spoken()}"
+    assert first == f"pluto-fleet {pluto_fleet.__version__}, speaks seam {SEAM}"
     assert second == f"extras: {extras.installed()}"
     assert err == ""
 

@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp import process as crtp
-from pluto_fleet.gateway.process import LOCK, LOG, SETTINGS
-from pluto_fleet.gateway.settings import data_of
+from pluto_fleet.gateway.process import LOG
 from pluto_fleet.gateway.starting import connect
 from pluto_fleet.process import respawn
 from tests.kit.apps import compiled
@@ -127,28 +126,3 @@ def test_a_navigation_in_an_app_s_own_package_is_found(tmp_path: Path) -> None:
         check=False,
     )
     assert (done.returncode, "w1 has no action measure" in done.stderr) == (2, True), done.stderr
-
-
-def test_a_gateway_that_an_earlier_library_has_started_is_found(tmp_path: Path) -> None:
-    """By the app's own program, which is still called so; it goes on, and no second one is started."""
-    package = compiled(APP, tmp_path)
-    folder = tmp_path / "gateway"
-    folder.mkdir()
-    (folder / SETTINGS).write_text(json.dumps(data_of(settings(idle=20.0))), encoding="utf-8")
-    with subprocess.Popen(
-        [sys.executable, "-m", APP, "gateway", str(folder)],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(package / "src"), *sys.path])},
-        stderr=subprocess.DEVNULL,
-    ) as process:
-
-        async def play(brain: Brain) -> None:
-            await brain.until(lambda: (folder / "gateway").exists())
-            link = await brain.linked()
-            assert await brain.flown(link, Task()) is None
-            assert int((folder / LOCK).read_text()) == process.pid
-            await brain.told(link.land("cf1"))
-            await link.goodbye()
-            await brain.until(lambda: process.poll() is not None)
-
-        played(folder, play)
-        assert process.returncode == 0

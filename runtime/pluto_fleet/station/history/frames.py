@@ -8,7 +8,7 @@ from typing import Any
 from .recording import changed
 
 Frame = dict[str, Any]
-"""A `Frame` of `wire.py`; its rows are whatever pages were shown, also by an earlier version."""
+"""A `Frame` of `wire.py`; its rows are whatever pages were shown."""
 
 NAMED_BY = {"missions": "name", "drones": "id", "alerts": "id"}
 """The kinds of rows, and the field by which one is known."""

@@ -53,8 +53,6 @@ export interface AppData {
   /** How results are shown on the map. */
   layers: Layer[];
   map: MapShape;
-  /** Whether what has not flown can be changed while its mission is under way. */
-  replans: boolean;
   /** Whether the graph flies a failed trip again. */
   retries: boolean;
   /** Whether missions may be flown in rounds. */

@@ -61,7 +61,7 @@ def forecast(
     return {
         "revision": question.revision,
         "runs": len(runs),
-        "world": "traffic" if has_traffic(question.app, question.fleet) else "alone",
+        "world": "traffic" if has_traffic(question.fleet) else "alone",
         "median": median(times) if ends else None,
         "high": percentile(times, HIGH) if ends else None,
         "missions": [

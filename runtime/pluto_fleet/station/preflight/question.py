@@ -45,10 +45,10 @@ class Question:
     @property
     def simpler(self) -> Question | None:
         """The same in a world in which each drone has the air to itself; None: it is that already."""
-        if self.is_simpler or not has_traffic(self.app, self.fleet):
+        if self.is_simpler or not has_traffic(self.fleet):
             return None
         fleet = replace(self.fleet, apart=0.0)
-        return None if has_traffic(self.app, fleet) else replace(self, fleet=fleet, is_simpler=True)
+        return None if has_traffic(fleet) else replace(self, fleet=fleet, is_simpler=True)
 
     @property
     def all(self) -> Sequence[Mission[Any]]:

@@ -99,7 +99,7 @@ class ResultRows:
     def _completed(self, event: Event) -> tuple[Result, Any]:
         did: Any = event["did"]
         name, row = str(did["action"]), self._row(event)
-        action = self._actions.get(name)  # none: an older app had it
+        action = self._actions.get(name)  # none: the app had it when it flew
         usual = {one.name: one.default for one in action.parameters} if action else {}
         given = {**usual, **did.get("parameters", {})}
         data, quantity = event.get("result"), None

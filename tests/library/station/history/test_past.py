@@ -1,4 +1,4 @@
-"""Flights of the past by their journals alone: of every version, damaged, or of something else."""
+"""Flights of the past by their journals alone: whole, damaged, or of something else."""
 
 from __future__ import annotations
 
@@ -24,7 +24,6 @@ from pluto_fleet.station.history.folder import recording_of, rehearsals_in
 from pluto_fleet.station.history.past import PastFlights
 from pluto_fleet.station.history.recording import Recording
 from tests.library.files.an_app import APP, POLLINATE
-from tests.library.journal.keeping import GOLDEN, JOURNAL
 from tests.library.station.plan.drawing import FLEET
 
 FARM = replace(
@@ -32,11 +31,20 @@ FARM = replace(
 )
 OLD, NEW = "2026-01-01-120000", "2026-01-02-120000"
 
+ROWS = Path(__file__).with_name("a_flight.jsonl")
+"""A flight of the app `farm` that was stopped: of each row its time, and its events."""
 
-def kept(folder: Path, version: int, id: str) -> Path:
-    """Put a journal there that was written by this version of the events."""
+
+def kept(folder: Path, id: str, *, measured: bool = True) -> Path:
+    """Put the journal of that flight there, with or without what was measured."""
     path = folder / f"{id}.journal"
-    shutil.copyfile(GOLDEN / f"1-0.1.0-{version}" / JOURNAL, path)
+    (began, header), *rows = map(json.loads, ROWS.read_text("utf-8").splitlines())
+    times = iter([began, *(time for time, *_ in rows)])
+    store = Store.create(path, header, times.__next__)
+    for _, *events in rows:
+        if left := [one for one in events if measured or one["event"] != "drone.flew"]:
+            store.append([json.dumps(left)])
+    store.close()
     return path
 
 
@@ -67,7 +75,7 @@ def events_of(path: Path) -> Iterator[dict[str, Any]]:
 
 
 def test_flights_are_listed_by_what_their_journals_tell(tmp_path: Path) -> None:
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     [flight] = past_of(tmp_path).flights()
     counts = Counter(event["event"] for event in events_of(journal))
     assert (flight["id"], flight["said"], flight["end"]) == (NEW, "", "stopped")
@@ -84,7 +92,7 @@ def test_flights_are_listed_by_what_their_journals_tell(tmp_path: Path) -> None:
 
 def test_a_journal_is_read_once_and_again_when_it_has_grown(tmp_path: Path) -> None:
     """Also by the next station: it is read from a file what was read before."""
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     [before] = past_of(tmp_path).flights()
     kept_file = tmp_path / "station" / "flights.json"
     told = json.loads(kept_file.read_text())
@@ -102,7 +110,7 @@ def test_a_journal_is_read_once_and_again_when_it_has_grown(tmp_path: Path) -> N
     "text", ["", "no JSON", "[]", '{"format": 1, "app": "farm", "flights": 3}']
 )
 def test_a_file_that_is_not_as_expected_is_made_anew(tmp_path: Path, text: str) -> None:
-    kept(tmp_path, 2, NEW)
+    kept(tmp_path, NEW)
     first = past_of(tmp_path).flights()
     (tmp_path / "station" / "flights.json").write_text(text)
     assert past_of(tmp_path).flights() == first
@@ -110,9 +118,9 @@ def test_a_file_that_is_not_as_expected_is_made_anew(tmp_path: Path, text: str) 
 
 def test_a_journal_that_cannot_be_read_is_listed_with_what_is_wrong(tmp_path: Path) -> None:
     """The others are listed all the same, and hours are counted by them."""
-    kept(tmp_path, 2, NEW)
+    kept(tmp_path, NEW)
     (tmp_path / "none.journal").write_bytes(b"no journal at all")
-    damaged = kept(tmp_path, 2, "damaged")
+    damaged = kept(tmp_path, "damaged")
     whole = bytearray(damaged.read_bytes())
     whole[len(whole) // 2 :] = b"\0" * (len(whole) - len(whole) // 2)
     damaged.write_bytes(whole)
@@ -128,7 +136,7 @@ def test_a_journal_that_cannot_be_read_is_listed_with_what_is_wrong(tmp_path: Pa
 
 
 def test_another_apps_journal_is_listed_as_such(tmp_path: Path) -> None:
-    kept(tmp_path, 2, NEW)
+    kept(tmp_path, NEW)
     config = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
     config.own_folder.mkdir()
     [flight] = PastFlights(APP, config, lambda: None).flights()
@@ -138,7 +146,7 @@ def test_another_apps_journal_is_listed_as_such(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("id", ["", "..", "../x", NEW + ".journal", "/etc/passwd", "\0", "x" * 999])
 def test_an_id_is_looked_up_and_never_made_into_a_path(tmp_path: Path, id: str) -> None:
-    kept(tmp_path, 2, NEW)
+    kept(tmp_path, NEW)
     shutil.copyfile(tmp_path / f"{NEW}.journal", tmp_path.parent / "x.journal")
     past = past_of(tmp_path)
     for ask in (past.report, past.console, past.results, past.mcap):
@@ -148,12 +156,12 @@ def test_an_id_is_looked_up_and_never_made_into_a_path(tmp_path: Path, id: str) 
         past.replay(id, 0.0)
 
 
-@pytest.mark.parametrize("version", [1, 2])
+@pytest.mark.parametrize("measured", [False, True])
 def test_a_flight_that_was_not_recorded_is_replayed_by_its_events(
-    tmp_path: Path, version: int
+    tmp_path: Path, measured: bool
 ) -> None:
     """The last frame has each mission as the journal has it; what it does not tell is not known."""
-    journal = kept(tmp_path, version, OLD)
+    journal = kept(tmp_path, OLD, measured=measured)
     past = past_of(tmp_path)
     frames = frames_of(past, OLD)
     assert [frame["t"] for frame in frames] == sorted(frame["t"] for frame in frames)
@@ -172,7 +180,7 @@ def test_a_flight_that_was_not_recorded_is_replayed_by_its_events(
 
 
 def test_measured_drones_are_between_the_ends_of_their_commands(tmp_path: Path) -> None:
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     past = past_of(tmp_path)
     flown = [e for e in events_of(journal) if e["event"] == "drone.flew" and e["ended"] == "done"]
     leg = next(e for e in flown if e["what"] == "leg" and e["seconds"] > 1.0)
@@ -185,9 +193,9 @@ def test_measured_drones_are_between_the_ends_of_their_commands(tmp_path: Path) 
 
 def test_hours_are_those_between_take_off_and_landing(tmp_path: Path) -> None:
     """Of a journal without measurements they are not known, and that is said."""
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     flown = [event for event in events_of(journal) if event["event"] == "drone.flew"]
-    kept(tmp_path, 1, OLD)
+    kept(tmp_path, OLD, measured=False)
     rows = {row["id"]: row for row in past_of(tmp_path).hours()}
     for drone, row in rows.items():
         commands = [event for event in flown if event["drone"] == drone]
@@ -200,7 +208,7 @@ def test_hours_are_those_between_take_off_and_landing(tmp_path: Path) -> None:
 
 
 def test_a_report_says_what_became_of_each_mission_and_why(tmp_path: Path) -> None:
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     report = past_of(tmp_path).report(NEW)
     events = list(events_of(journal))
     failed = [event for event in events if event["event"] == "trip.failed"]
@@ -219,7 +227,7 @@ def test_a_report_says_what_became_of_each_mission_and_why(tmp_path: Path) -> No
 
 def test_who_commanded_what_is_told_by_journal_and_log(tmp_path: Path) -> None:
     """What only the journal has came from another program; edits of the plan are no commands."""
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     past = past_of(tmp_path)
     begun_at = past.flights()[0]["begun_at"]
     assert begun_at is not None
@@ -253,7 +261,7 @@ def _utc(at: int) -> str:
 
 def test_an_mcap_file_is_read_by_its_own_library(tmp_path: Path) -> None:
     """With as many poses, results and lines as the replay has."""
-    kept(tmp_path, 2, NEW)
+    kept(tmp_path, NEW)
     past = past_of(tmp_path)
     frames = frames_of(past, NEW)
     counts: Counter[str] = Counter()
@@ -284,7 +292,7 @@ def test_a_recording_that_begins_later_is_preceded_by_what_the_journal_tells(
     tmp_path: Path,
 ) -> None:
     """As of a flight that `fly` began, and a station went on with."""
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     end = past_of(tmp_path).flights()[0]["seconds"]
     recording = Recording(recording_of(journal), begun_at=0)
     row = {"id": "scout1", "x": 1.0, "y": 1.0, "z": 1.0, "status": "BUSY"}
@@ -301,7 +309,7 @@ def test_a_recording_that_begins_later_is_preceded_by_what_the_journal_tells(
 
 
 def test_a_damaged_recording_leaves_the_journal(tmp_path: Path) -> None:
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     recording_of(journal).write_bytes(os.urandom(1000))
     part = past_of(tmp_path).replay(NEW, 0.0)
     assert part["recorded"] is False
@@ -331,7 +339,7 @@ def test_a_rehearsal_is_replayed_by_its_name(tmp_path: Path) -> None:
 
 def test_a_part_of_a_long_replay_is_no_larger_than_it_may_be(tmp_path: Path) -> None:
     """And the parts together are all of it."""
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     recording = Recording(recording_of(journal), begun_at=0)
     for t in range(600):
         rows = [{"id": f"cf{n}", "x": t / 7 + n, "why": "x" * 100} for n in range(50)]
@@ -353,7 +361,7 @@ def test_a_part_of_a_long_replay_is_no_larger_than_it_may_be(tmp_path: Path) -> 
 
 def test_the_journal_that_is_being_written_is_read_beside_its_writer(tmp_path: Path) -> None:
     """By no other way than SQLite, whose locks would be gone otherwise: the writer goes on."""
-    journal = kept(tmp_path, 2, NEW)
+    journal = kept(tmp_path, NEW)
     store = Store.open(journal)
     past = past_of(tmp_path, ours=store.path)
     try:

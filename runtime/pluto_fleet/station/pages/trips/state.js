@@ -40,7 +40,7 @@ export const { marked, markOne, markAll, toggle, extendTo } = marking(
 export const places = computed(() => landmarks.value?.places ?? []);
 
 /** Whether what has not flown of missions that are under way can be changed now. */
-const canReplan = computed(() => app.value?.replans === true && world.state.value.phase === "flying");
+const canReplan = computed(() => world.state.value.phase === "flying");
 
 /** The selected mission in the flight, if it is under way. */
 const row = computed(() => (selected.value?.launched ? world.missions.get(selected.value.name) : undefined));
