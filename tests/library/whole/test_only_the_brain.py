@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.flying import compiled_file
+from tests.kit.apps import compiled_file
 
 HERE = Path(__file__).parent
 NAME = "watered_garden"
