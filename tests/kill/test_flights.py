@@ -71,7 +71,7 @@ def test_a_flight_stopped_on_its_way_home_goes_on_where_it_was(new_flight: NewFl
     assert set(done_by_the_world(flight.journal).values()) == {1}
 
 
-@pytest.mark.long  # a whole flight; tests/brain/test_recovery.py has it in virtual time
+@pytest.mark.long  # a whole flight; tests/library/flight/test_recovery.py has it in virtual time
 def test_a_delay_keeps_its_rest_over_a_stop(new_flight: NewFlight) -> None:
     """A person who has waited for a part of it waits for the rest."""
     flight = new_flight(20.0)

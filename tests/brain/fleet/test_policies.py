@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pluto_fleet.shared.domain.model import Drone
 from pluto_fleet.shared.fleet.policies import nearest
-from tests.brain.policies.fleets import anyone, fleet, trip
+from tests.brain.fleet.standing import anyone, fleet, trip
 
 
 def test_the_closest_gets_the_trip_and_it_is_said_why() -> None:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from pluto_fleet.shared.domain.model import Drone, Point
 from pluto_fleet.shared.fleet.batch_optimal import batch_optimal as asked
 from pluto_fleet.shared.fleet.policies import Able
-from tests.brain.policies.fleets import fleet, offer
+from tests.brain.fleet.standing import fleet, offer
 
 
 def batch_optimal(offers: Any, drones: Sequence[Drone]) -> Any:
