@@ -6,7 +6,6 @@ A block holds 26 bytes, a drone 16 blocks. cflib's object for a block is valid f
 from __future__ import annotations
 
 import asyncio
-import time
 from collections.abc import Callable, Mapping
 from statistics import fmean
 from typing import TYPE_CHECKING
@@ -29,11 +28,11 @@ def begin(session: CrazyflieSession) -> None:
     cf = session.cf
 
     def state(sent: int, values: Mapping[str, float], _: object) -> None:
-        session.tell(session.hear, state_of(values, time.monotonic(), sent / 1000.0))
+        session.tell(session.hear, state_of(values, session.loop.time(), sent / 1000.0))
 
     def variances(_: int, values: Mapping[str, float], __: object) -> None:
         told = tuple(values[name] for name in VARIANCES if name in values)
-        session.tell(session.hear_variances, told, time.monotonic())
+        session.tell(session.hear_variances, told, session.loop.time())
 
     wanted = (
         ("state", STATE, _STATE_MS, state),

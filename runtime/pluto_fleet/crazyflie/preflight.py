@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Mapping
 from math import ceil
 from typing import TYPE_CHECKING
@@ -92,7 +91,7 @@ async def _sure(session: CrazyflieSession, options: CrazyflieOptions, end: float
 
 
 def _knows_where(session: CrazyflieSession, options: CrazyflieOptions) -> bool:
-    now, confidence = time.monotonic(), session.confidence
+    now, confidence = session.loop.time(), session.confidence
     if options.starts_at_home:
         return confidence.steady(now)
     return confidence.sure(now, options.sure_within)

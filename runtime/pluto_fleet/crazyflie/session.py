@@ -8,7 +8,6 @@ commands, which cflib itself ignores.
 from __future__ import annotations
 
 import asyncio
-import time
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
@@ -136,7 +135,7 @@ class CrazyflieSession:
         self.lacks: tuple[str, ...] = ()
         """Missing log variables of its firmware."""
         self._observer = observer
-        self._since = time.monotonic()
+        self._since = self.loop.time()
         self._silent = False
         self._next = asyncio.Event()
         self._cf: Cf | None = None
@@ -218,7 +217,7 @@ class CrazyflieSession:
     @property
     def silent_for(self) -> float:
         """Seconds since its last state."""
-        return time.monotonic() - (self._since if self.state is None else self.state.time)
+        return self.loop.time() - (self._since if self.state is None else self.state.time)
 
     @property
     def alive(self) -> bool:

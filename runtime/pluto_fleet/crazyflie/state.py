@@ -38,7 +38,7 @@ class State:
     """Its state at one moment."""
 
     time: float
-    """When it was received, by `time.monotonic()`."""
+    """When it was received, by the event loop's clock."""
     sent: float
     """When it was sent, by the drone's own clock."""
     position: Point

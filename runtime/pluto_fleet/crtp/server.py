@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
 from math import dist
 from random import Random
-from time import monotonic
 from typing import Any
 
 from .drone import Build, SimulatedCrazyflie
@@ -30,7 +29,7 @@ class Endpoint(asyncio.DatagramProtocol):
     def __init__(self, build: Build, log: FlightLog) -> None:
         self.drone = SimulatedCrazyflie(build, log, self._send)
         self.air = LossyChannel(Random(f"air/{build.seed}/{build.id}"))
-        self.talked = monotonic()
+        self.talked = 0.0
         self._client: Address | None = None
         self._transport: asyncio.DatagramTransport | None = None
         self.port = 0
@@ -44,6 +43,7 @@ class Endpoint(asyncio.DatagramProtocol):
     async def listen(self, port: int) -> None:
         """Listen at a port; at any free one for 0 or one that is taken."""
         loop = asyncio.get_running_loop()
+        self.talked = loop.time()
         try:
             made = await loop.create_datagram_endpoint(lambda: self, local_addr=(HOST, port))
         except OSError:
@@ -59,11 +59,12 @@ class Endpoint(asyncio.DatagramProtocol):
 
     def datagram_received(self, data: bytes, addr: Address) -> None:
         """Process a packet, unless it is lost."""
-        self.talked = monotonic()
+        loop = asyncio.get_running_loop()
+        self.talked = loop.time()
         if self.air.loses():
             return
         if self.air.latency > 0.0:
-            asyncio.get_running_loop().call_later(self.air.latency, self._receive, data, addr)
+            loop.call_later(self.air.latency, self._receive, data, addr)
         else:
             self._receive(data, addr)
 
@@ -73,7 +74,7 @@ class Endpoint(asyncio.DatagramProtocol):
                 self._sendto(NULL, addr)
             return
         self._client = addr
-        self.drone.receive(data, monotonic())
+        self.drone.receive(data, asyncio.get_running_loop().time())
 
     def _send(self, raw: bytes) -> None:
         if self._client is None or self.air.loses():
@@ -129,7 +130,7 @@ class Server:
     @property
     def quiet(self) -> float:
         """Seconds since the last packet to any of them."""
-        return monotonic() - max(one.talked for one in self.endpoints.values())
+        return asyncio.get_running_loop().time() - max(one.talked for one in self.endpoints.values())
 
     async def let(self, id: str, name: str, value: Value = True) -> None:
         """Set a fault of a drone; `gone` closes its port, or opens it again."""
@@ -150,8 +151,9 @@ class Server:
             endpoint.close()
 
     async def _tick(self) -> None:
+        loop = asyncio.get_running_loop()
         while True:
-            now = monotonic()
+            now = loop.time()
             for endpoint in self.endpoints.values():
                 endpoint.drone.step(now)
             collide(self.drones.values())

@@ -1,41 +1,51 @@
-"""Async tests with a `folder` are flights in real time: all of them are flown at once, by the first."""
+"""Flights of Crazyflies take no time: cflib runs in their own thread, on a loop whose clock jumps."""
 
 from __future__ import annotations
 
-import inspect
+import asyncio
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from tests.library.crazyflie.hangar import Outcomes, all_at_once
-
-
-@pytest.fixture(scope="session")
-def outcomes(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Outcomes:
-    """Fly all flights that were collected, each with a drone and a folder of its own."""
-    flights = [test.function for test in map(flight, request.session.items) if test is not None]
-    return all_at_once(flights, lambda: tmp_path_factory.mktemp("flight"))
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from tests.kit.unthreaded import AirLoop, one_thread
+from tests.library.crazyflie.hangar import Hangar, hangar
+from tests.loops import run_async
 
 
 @pytest.fixture
-def folder(outcomes: Outcomes) -> None:
-    """Ask for the flights: each has had its folder there."""
+def runner() -> Iterator[asyncio.Runner]:
+    """The loop in which a test flies; no task may be left in it."""
+    pytest.importorskip("cflib")
+    with one_thread(), asyncio.Runner(loop_factory=AirLoop) as runner:
+        yield runner
+        assert not asyncio.all_tasks(runner.get_loop())
 
 
-def flight(item: pytest.Item) -> pytest.Function | None:
-    """Return the test if it is one of these flights."""
-    if not isinstance(item, pytest.Function) or "folder" not in item.fixturenames:
-        return None
-    here = item.path.parent == Path(__file__).parent
-    return item if here and inspect.iscoroutinefunction(item.function) else None
+@pytest.fixture
+def one(request: pytest.FixtureRequest, runner: asyncio.Runner, tmp_path: Path) -> Iterator[Hangar]:
+    """A drone that nobody has connected to yet; `drone` says what is special of it."""
+    made = hangar(tmp_path, **getattr(request, "param", {}))
+    yield runner.run(made.__aenter__())
+    runner.run(made.__aexit__(None, None, None))
+
+
+@pytest.fixture
+def cf(runner: asyncio.Runner, one: Hangar) -> Crazyflie:
+    """What flies it, connected."""
+    return runner.run(one.connected())
+
+
+@pytest.fixture
+def folder(runner: asyncio.Runner, tmp_path: Path) -> Path:
+    """A folder of a flight's own."""
+    return tmp_path
 
 
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
-    """Say what came of a flight that was flown with all others."""
-    if flight(pyfuncitem) is None:
+    """Fly an async test."""
+    if "runner" not in pyfuncitem.fixturenames:
         return None
-    outcomes: Outcomes = pyfuncitem.funcargs["outcomes"]  # type: ignore[assignment]
-    outcome = outcomes[pyfuncitem.function]
-    if outcome is not None:
-        raise outcome
-    return True
+    runner: asyncio.Runner = pyfuncitem.funcargs["runner"]  # type: ignore[assignment]
+    return run_async(pyfuncitem, runner.run)

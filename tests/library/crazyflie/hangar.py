@@ -3,31 +3,24 @@
 from __future__ import annotations
 
 import asyncio
-import threading
-from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
+from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+
+import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones.errors import LinkLost
 from pluto_fleet.drones.protocol import DroneEvent, DroneSetup
 from pluto_fleet.shared.domain.model import Point
 
 FAST = 1.0
 """Metres per second: tests must not wait, and no course is followed faster."""
 PATIENCE = 30.0
-"""Seconds until what does not end is said to hang: the machine may be busy."""
-LONGEST = 90.0
-"""Seconds that no flight takes."""
-AT_ONCE = 20
-
-Flight = Callable[[Path], Awaitable[None]]
-Outcomes = Mapping[Flight, BaseException | None]
-"""What each of many flights has come to; None: all was well."""
+"""Seconds until what does not end is said to hang."""
 
 
 @dataclass(slots=True)
@@ -137,30 +130,6 @@ async def hangar(
         await server.close()
 
 
-def all_at_once(flights: Sequence[Flight], new_folder: Callable[[], Path]) -> Outcomes:
-    """Fly all of these, as many at a time as a machine bears, each with a folder of its own.
-
-    A machine that stands still for a second makes drones silent, which is no fault of theirs: what
-    ended so, or did not end, is flown again.
-    """
-
-    async def fly(these: Sequence[Flight], at_once: int) -> Outcomes:
-        free = asyncio.Semaphore(at_once)
-
-        async def one(flight: Flight) -> None:
-            async with free, asyncio.timeout(LONGEST):
-                await flight(new_folder())
-
-        found = await asyncio.gather(*map(one, these), return_exceptions=True)
-        return dict(zip(these, found, strict=True))
-
-    outcomes = asyncio.run(fly(flights, AT_ONCE))
-    silent = [one for one, error in outcomes.items() if isinstance(error, LinkLost | TimeoutError)]
-    return {**outcomes, **asyncio.run(fly(silent, AT_ONCE // 4))}
-
-
-def threads_left() -> list[str]:
-    """Return the threads that were started and not ended."""
-    fine = ("MainThread", "pytest", "execnet", "Shared Radio")  # cflib never lets go of a dongle
-    names = [thread.name for thread in threading.enumerate()]
-    return [name for name in names if not name.startswith(fine)]
+def drone(**given: object) -> pytest.MarkDecorator:
+    """Say what is told to `hangar` of the drone that a test has as `one`."""
+    return pytest.mark.parametrize("one", [given], indirect=True, ids=["given"])

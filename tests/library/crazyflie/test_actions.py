@@ -8,61 +8,57 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.equipment import camera, picture, port_of
 from pluto_fleet.drones.errors import ActionNotDone, Rejected
 from pluto_fleet.shared.domain.model import Item, Photo
-from tests.library.crazyflie.hangar import FAST, hangar
-
-pytest.importorskip("cflib")
+from tests.library.crazyflie.hangar import FAST, Hangar, drone, hangar
 
 PILLS = Item(name="pills", mass=0.004)
 GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": 0.1}
 
 
-async def test_it_measures_what_the_fleet_file_names(folder: Path) -> None:
-    options = {"measure": {"temperature": "bme.temp", "dust": "dust.pm25"}, "measure_seconds": 0.3}
-    async with hangar(folder, options) as one:
-        cf = await one.connected()
-        for _ in range(3):  # its block of the log comes and goes
-            assert await cf.act("measure", {}, None) == pytest.approx(20.5, abs=0.05)
-        assert cf.why_not("measure", {"quantity": "temperature"}) is None
-        reason = 'cf1 has no log variable "dust.pm25"'
-        assert cf.why_not("measure", {"quantity": "dust"}) == reason
-        with pytest.raises(ActionNotDone, match="no log variable"):
-            await cf.act("measure", {"quantity": "dust"}, None)
-        unknown = cf.why_not("measure", {"quantity": "light"})
-        assert unknown is not None and 'measure = { light = "group.name" }' in unknown
+@drone(
+    options={"measure": {"temperature": "bme.temp", "dust": "dust.pm25"}, "measure_seconds": 0.3}
+)
+async def test_it_measures_what_the_fleet_file_names(cf: Crazyflie) -> None:
+    for _ in range(3):  # its block of the log comes and goes
+        assert await cf.act("measure", {}, None) == pytest.approx(20.5, abs=0.05)
+    assert cf.why_not("measure", {"quantity": "temperature"}) is None
+    reason = 'cf1 has no log variable "dust.pm25"'
+    assert cf.why_not("measure", {"quantity": "dust"}) == reason
+    with pytest.raises(ActionNotDone, match="no log variable"):
+        await cf.act("measure", {"quantity": "dust"}, None)
+    unknown = cf.why_not("measure", {"quantity": "light"})
+    assert unknown is not None and 'measure = { light = "group.name" }' in unknown
 
 
-async def test_it_picks_and_releases_by_a_parameter(folder: Path) -> None:
-    async with hangar(folder, {"grip": GRIP}) as one:
-        cf = await one.connected()
-        await cf.act("pick_item", {}, PILLS)
-        assert one.drone.parameters["gripper.closed"] == 1
-        await cf.act("release_item", {}, PILLS)
-        assert one.drone.parameters["gripper.closed"] == 0
+@drone(options={"grip": GRIP})
+async def test_it_picks_and_releases_by_a_parameter(one: Hangar, cf: Crazyflie) -> None:
+    await cf.act("pick_item", {}, PILLS)
+    assert one.drone.parameters["gripper.closed"] == 1
+    await cf.act("release_item", {}, PILLS)
+    assert one.drone.parameters["gripper.closed"] == 0
 
 
-async def test_what_it_has_not_it_says_before_it_flies(folder: Path) -> None:
-    async with hangar(folder, {"grip": {**GRIP, "parameter": "hook.open"}}) as one:
-        cf = one.navigation
-        assert cf.why_not("release_item", {}) is None  # it is not connected: that is not known
-        await cf.connect()
-        assert cf.why_not("release_item", {}) == 'cf1 has no parameter "hook.open"'
-        camera = cf.why_not("take_photo", {})
-        assert camera == (
-            "cf1 has no camera: name its AI-deck's streamer in the fleet file:"
-            ' camera = "192.168.4.1:5000"'
-        )
-        with pytest.raises(ActionNotDone, match="has no camera"):
-            await cf.act("take_photo", {}, None)
+@drone(options={"grip": {**GRIP, "parameter": "hook.open"}})
+async def test_what_it_has_not_it_says_before_it_flies(one: Hangar) -> None:
+    cf = one.navigation
+    assert cf.why_not("release_item", {}) is None  # it is not connected: that is not known
+    await cf.connect()
+    assert cf.why_not("release_item", {}) == 'cf1 has no parameter "hook.open"'
+    camera = cf.why_not("take_photo", {})
+    assert camera == (
+        "cf1 has no camera: name its AI-deck's streamer in the fleet file:"
+        ' camera = "192.168.4.1:5000"'
+    )
+    with pytest.raises(ActionNotDone, match="has no camera"):
+        await cf.act("take_photo", {}, None)
 
 
-async def test_without_a_grip_it_does_not_pretend(folder: Path) -> None:
-    async with hangar(folder) as one:
-        await one.navigation.connect()
-        reason = one.navigation.why_not("pick_item", {})
-        assert reason is not None and "name the parameter of its gripper" in reason
+async def test_without_a_grip_it_does_not_pretend(cf: Crazyflie) -> None:
+    reason = cf.why_not("pick_item", {})
+    assert reason is not None and "name the parameter of its gripper" in reason
 
 
 async def test_its_camera_s_picture_is_kept_and_covers_ground(folder: Path) -> None:
@@ -72,7 +68,6 @@ async def test_its_camera_s_picture_is_kept_and_covers_ground(folder: Path) -> N
         cf = await one.connected()
         await cf.takeoff(1.0, FAST)
         photos = [await cf.act("take_photo", {}, None) for _ in range(2)]
-        await cf.land(FAST)
     streaming.close()
     await streaming.wait_closed()
     for number, photo in enumerate(photos, 1):
@@ -85,55 +80,49 @@ async def test_its_camera_s_picture_is_kept_and_covers_ground(folder: Path) -> N
         assert data[15:] in (picture(number) for number in range(10))
 
 
-async def test_a_camera_that_is_not_there_fails_the_action(folder: Path) -> None:
-    async with hangar(folder, {"camera": "127.0.0.1:9"}) as one:
-        await one.navigation.connect()
-        with pytest.raises(ActionNotDone, match=r"cf1 gives no photo at 127\.0\.0\.1:9"):
-            await one.navigation.act("take_photo", {}, None)
+@drone(options={"camera": "127.0.0.1:9"})
+async def test_a_camera_that_is_not_there_fails_the_action(cf: Crazyflie) -> None:
+    with pytest.raises(ActionNotDone, match=r"cf1 gives no photo at 127\.0\.0\.1:9"):
+        await cf.act("take_photo", {}, None)
 
 
-async def test_a_quantity_is_read_from_the_variable_that_the_fleet_file_names(folder: Path) -> None:
+@drone(options={"measure": {"breaths": "bme.humidity", "lost": "no.such"}})
+async def test_a_quantity_is_read_from_the_variable_that_the_fleet_file_names(
+    cf: Crazyflie,
+) -> None:
     """So a hook reads by one name from simulated drones and from real ones, and in any world."""
-    async with hangar(folder, {"measure": {"breaths": "bme.humidity", "lost": "no.such"}}) as one:
-        cf = await one.connected()
-        assert await cf.read("breaths") == pytest.approx(40.0)
-        for name in ("lost", "light"):
-            with pytest.raises(Rejected, match=f'measure = {{ {name} = "group.name" }}'):
-                await cf.read(name)
+    assert await cf.read("breaths") == pytest.approx(40.0)
+    for name in ("lost", "light"):
+        with pytest.raises(Rejected, match=f'measure = {{ {name} = "group.name" }}'):
+            await cf.read(name)
 
 
-async def test_variables_are_read_and_parameters_set(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        assert await cf.read("bme.humidity") == pytest.approx(40.0)
-        assert await cf.read("hlCommander.vtoff") == pytest.approx(0.5)
-        await cf.write("hlCommander.vtoff", 0.7)
-        assert await cf.read("hlCommander.vtoff") == pytest.approx(0.7)
-        with pytest.raises(Rejected, match=r'neither a log variable nor a parameter "no\.such"$'):
-            await cf.read("no.such")
-        with pytest.raises(Rejected, match=r'no parameter "bme\.humidity"'):
-            await cf.write("bme.humidity", 1.0)
-        for name, value in (("sound.effect", 300.0), ("sound.effect", 0.5), ("cpu.flash", 1.0)):
-            with pytest.raises(Rejected, match="is no value for"):
-                await cf.write(name, value)
-        together = await asyncio.gather(*(cf.read("bme.temp") for _ in range(3)))
-        assert together == [pytest.approx(20.5)] * 3
+async def test_variables_are_read_and_parameters_set(cf: Crazyflie) -> None:
+    assert await cf.read("bme.humidity") == pytest.approx(40.0)
+    assert await cf.read("hlCommander.vtoff") == pytest.approx(0.5)
+    await cf.write("hlCommander.vtoff", 0.7)
+    assert await cf.read("hlCommander.vtoff") == pytest.approx(0.7)
+    with pytest.raises(Rejected, match=r'neither a log variable nor a parameter "no\.such"$'):
+        await cf.read("no.such")
+    with pytest.raises(Rejected, match=r'no parameter "bme\.humidity"'):
+        await cf.write("bme.humidity", 1.0)
+    for name, value in (("sound.effect", 300.0), ("sound.effect", 0.5), ("cpu.flash", 1.0)):
+        with pytest.raises(Rejected, match="is no value for"):
+            await cf.write(name, value)
+    together = await asyncio.gather(*(cf.read("bme.temp") for _ in range(3)))
+    assert together == [pytest.approx(20.5)] * 3
 
 
-async def test_it_blinks_and_has_its_lights_back(folder: Path) -> None:
-    async with hangar(folder) as one:
-        await one.navigation.connect()
-        await one.navigation.identify()
-        told = [command.values["value"] for command in one.did("set led.bitmask")]
-        values = [value for value, _ in groupby(told)]  # cflib may say something twice
-        assert values == [191.0, 128.0] * 8 + [0.0]
-        assert {command.what for command in one.commands} == {"set led.bitmask"}
+async def test_it_blinks_and_has_its_lights_back(one: Hangar, cf: Crazyflie) -> None:
+    await cf.identify()
+    told = [command.values["value"] for command in one.did("set led.bitmask")]
+    values = [value for value, _ in groupby(told)]  # cflib may say something twice
+    assert values == [191.0, 128.0] * 8 + [0.0]
+    assert {command.what for command in one.commands} == {"set led.bitmask"}
 
 
-async def test_it_says_what_it_is(folder: Path) -> None:
-    async with hangar(folder) as one:
-        await one.navigation.connect()
-        facts = await one.navigation.facts()
-        assert facts["protocol"] == "12" and facts["firmware"] == "2025c0de0ace"
-        assert "bcLighthouse4" in facts["decks"] and "bcFlow2" not in facts["decks"]
-        assert one.commands == []
+async def test_it_says_what_it_is(one: Hangar, cf: Crazyflie) -> None:
+    facts = await cf.facts()
+    assert facts["protocol"] == "12" and facts["firmware"] == "2025c0de0ace"
+    assert "bcLighthouse4" in facts["decks"] and "bcFlow2" not in facts["decks"]
+    assert one.commands == []

@@ -4,171 +4,160 @@ from __future__ import annotations
 
 import asyncio
 from math import dist, hypot, inf, nan
-from pathlib import Path
 
 import pytest
 
+from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.drones.errors import Crashed, Locked, NotReady, OutsideArea, Rejected
 from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
-from tests.library.crazyflie.hangar import FAST, hangar
-
-pytest.importorskip("cflib")
-
-
-async def test_it_takes_off_flies_and_lands_where_it_says(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        assert await cf.preflight() == []
-        await cf.takeoff(0.8, FAST)
-        assert dist(one.position, (1.0, 2.0, 0.8)) < 0.12
-        await cf.go_to((1.5, 2.0, 0.8), FAST)
-        assert dist(one.position, (1.5, 2.0, 0.8)) < 0.12
-        assert cf.telemetry.flying and cf.telemetry.battery_level > 0.9
-        await cf.land(FAST)
-        assert not one.flies and not cf.telemetry.flying
-        assert not one.did("setpoint")
+from tests.kit.unthreaded import passes
+from tests.library.crazyflie.hangar import FAST, Hangar, drone
 
 
-async def test_closing_in_the_air_lands_first_and_cuts_nothing(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.up()
-        await cf.close()
-        assert not one.flies and not one.drone.supervisor.locked
-        assert one.did("land") and not one.did("setpoint") and not one.did("emergency stop")
+async def test_it_takes_off_flies_and_lands_where_it_says(one: Hangar, cf: Crazyflie) -> None:
+    assert await cf.preflight() == []
+    await cf.takeoff(0.8, FAST)
+    assert dist(one.position, (1.0, 2.0, 0.8)) < 0.12
+    await cf.go_to((1.5, 2.0, 0.8), FAST)
+    assert dist(one.position, (1.5, 2.0, 0.8)) < 0.12
+    assert cf.telemetry.flying and cf.telemetry.battery_level > 0.9
+    await cf.land(FAST)
+    assert not one.flies and not cf.telemetry.flying
+    assert not one.did("setpoint")
 
 
-async def test_a_course_that_is_broken_off_ends_in_a_hover_nearby(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.up()
-        flying = asyncio.create_task(cf.go_to((4.0, 2.0, 0.5), 1.0))
-        while one.position[0] < 2.0:
-            await asyncio.sleep(0.02)
-        flying.cancel()
-        await asyncio.wait({flying})
-        await cf.hold()
-        assert 2.0 < one.position[0] < 2.8
-        assert hypot(*one.drone.body.velocity) < 0.25
+async def test_closing_in_the_air_lands_first_and_cuts_nothing(one: Hangar) -> None:
+    cf = await one.up()
+    await cf.close()
+    assert not one.flies and not one.drone.supervisor.locked
+    assert one.did("land") and not one.did("setpoint") and not one.did("emergency stop")
 
 
-async def test_hold_and_land_do_nothing_on_the_ground(folder: Path) -> None:
-    async with hangar(folder) as one:
-        await one.navigation.connect()
-        await one.navigation.hold()
-        await one.navigation.land(FAST)
-        assert one.commands == []
+async def test_a_course_that_is_broken_off_ends_in_a_hover_nearby(one: Hangar) -> None:
+    cf = await one.up()
+    flying = asyncio.create_task(cf.go_to((4.0, 2.0, 0.5), 1.0))
+    while one.position[0] < 2.0:
+        await asyncio.sleep(0.02)
+    flying.cancel()
+    await asyncio.wait({flying})
+    await cf.hold()
+    assert 2.0 < one.position[0] < 2.8
+    assert hypot(*one.drone.body.velocity) < 0.25
 
 
-async def test_what_cannot_be_flown_is_refused_before_anything_moves(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        with pytest.raises(Rejected, match="must take off first"):
-            await cf.go_to((1.0, 2.0, 1.0), 1.0)
-        for target in ((nan, 2.0, 1.0), (inf, 2.0, 1.0), (1.0, 2.0, -0.1)):
-            with pytest.raises(OutsideArea):
-                await cf.go_to(target, 1.0)
-        for speed in (0.0, -1.0, nan):
-            with pytest.raises(Rejected, match="above 0"):
-                await cf.takeoff(1.0, speed)
+async def test_hold_and_land_do_nothing_on_the_ground(one: Hangar, cf: Crazyflie) -> None:
+    await cf.hold()
+    await cf.land(FAST)
+    assert one.commands == []
+
+
+async def test_what_cannot_be_flown_is_refused_before_anything_moves(
+    one: Hangar, cf: Crazyflie
+) -> None:
+    with pytest.raises(Rejected, match="must take off first"):
+        await cf.go_to((1.0, 2.0, 1.0), 1.0)
+    for target in ((nan, 2.0, 1.0), (inf, 2.0, 1.0), (1.0, 2.0, -0.1)):
         with pytest.raises(OutsideArea):
-            await cf.takeoff(-1.0, 1.0)
-        assert one.commands == []
+            await cf.go_to(target, 1.0)
+    for speed in (0.0, -1.0, nan):
+        with pytest.raises(Rejected, match="above 0"):
+            await cf.takeoff(1.0, speed)
+    with pytest.raises(OutsideArea):
+        await cf.takeoff(-1.0, 1.0)
+    assert one.commands == []
 
 
-async def test_lost_packets_are_sent_again(folder: Path) -> None:
-    async with hangar(folder) as one:
-        await one.let("loss", 0.05)
-        cf = await one.up()
-        for x in (1.5, 1.0):
-            await cf.go_to((x, 2.0, 0.5), FAST)
-            assert dist(one.position, (x, 2.0, 0.5)) < 0.12
-        await cf.land(FAST)
-        assert not one.flies
+async def test_lost_packets_are_sent_again(one: Hangar) -> None:
+    await one.let("loss", 0.05)
+    cf = await one.up()
+    for x in (1.5, 1.0):
+        await cf.go_to((x, 2.0, 0.5), FAST)
+        assert dist(one.position, (x, 2.0, 0.5)) < 0.12
+    await cf.land(FAST)
+    assert not one.flies
 
 
-async def test_a_drone_that_is_busy_is_a_refusal_and_is_disarmed(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await one.let("busy")
-        with pytest.raises(Rejected, match="refuses the command takeoff"):
-            await cf.takeoff(0.5, FAST)
-        assert not one.flies and not one.drone.supervisor.armed
+async def test_a_drone_that_is_busy_is_a_refusal_and_is_disarmed(
+    one: Hangar, cf: Crazyflie
+) -> None:
+    await one.let("busy")
+    with pytest.raises(Rejected, match="refuses the command takeoff"):
+        await cf.takeoff(0.5, FAST)
+    assert not one.flies and not one.drone.supervisor.armed
 
 
-async def test_a_drone_that_tumbles_has_crashed(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.up()
-        flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
-        await asyncio.sleep(0.5)
-        await one.let("tumble")
-        with pytest.raises(Crashed, match="cf1 has tumbled or crashed"):
-            await flying
-        assert (await one.hears(CRASHED)).reason == "it lies on its back or has crashed"
-        assert await cf.preflight() == ["it lies on its back or has crashed"]
-        with pytest.raises(Crashed):
-            await cf.takeoff(0.5, FAST)
+async def test_a_drone_that_tumbles_has_crashed(one: Hangar) -> None:
+    cf = await one.up()
+    flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
+    await passes(0.5)
+    await one.let("tumble")
+    with pytest.raises(Crashed, match="cf1 has tumbled or crashed"):
+        await flying
+    assert (await one.hears(CRASHED)).reason == "it lies on its back or has crashed"
+    assert await cf.preflight() == ["it lies on its back or has crashed"]
+    with pytest.raises(Crashed):
+        await cf.takeoff(0.5, FAST)
 
 
-async def test_a_drone_that_is_locked_says_so_and_what_to_do(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await one.let("lock")
-        assert (await one.hears(LOCKED)).reason.endswith("switch it off and on")
-        assert await cf.preflight() == ["it has locked its motors: switch it off and on"]
-        with pytest.raises(Locked):
-            await cf.takeoff(0.5, FAST)
+async def test_a_drone_that_is_locked_says_so_and_what_to_do(one: Hangar, cf: Crazyflie) -> None:
+    await one.let("lock")
+    assert (await one.hears(LOCKED)).reason.endswith("switch it off and on")
+    assert await cf.preflight() == ["it has locked its motors: switch it off and on"]
+    with pytest.raises(Locked):
+        await cf.takeoff(0.5, FAST)
 
 
-async def test_a_battery_that_is_low_for_three_seconds_is_told_once(folder: Path) -> None:
-    async with hangar(folder, {"least_voltage": 3.0}) as one:
-        cf = await one.up()
-        await one.let("volts", 3.15)
-        event = await one.hears(BATTERY_LOW)
-        assert event.reason.startswith("its battery is down to 3.1")
-        assert 0.0 < cf.telemetry.battery_level < 0.1
-        await cf.land(FAST)
-        assert [event.kind for event in one.events] == [BATTERY_LOW]
+@drone(options={"least_voltage": 3.0})
+async def test_a_battery_that_is_low_for_three_seconds_is_told_once(one: Hangar) -> None:
+    cf = await one.up()
+    await one.let("volts", 3.15)
+    event = await one.hears(BATTERY_LOW)
+    assert event.reason.startswith("its battery is down to 3.1")
+    assert 0.0 < cf.telemetry.battery_level < 0.1
+    await cf.land(FAST)
+    assert [event.kind for event in one.events] == [BATTERY_LOW]
 
 
-async def test_preflight_says_all_that_is_wrong(folder: Path) -> None:
-    options = {"decks": ["bcLighthouse4", "bcLoco"]}
-    build = Build(id="cf1", home=(1.0, 2.0, 0.0), level=0.05)
-    async with hangar(folder, options, build) as one:
-        cf = one.navigation
-        await one.let("unsure")
-        await cf.connect()
-        empty, deck, unsure = await cf.preflight()
-        assert empty.startswith("its battery has 3.") and empty.endswith("charge it")
-        assert unsure.startswith("it is not sure where it is: to 0.71 m (a variance of 0.5000 m²)")
-        assert deck.startswith('it has no deck "bcLoco": it has bc')
-        with pytest.raises(NotReady, match="cf1 is not ready: its battery"):
-            await cf.takeoff(0.5, FAST)
-        assert not one.did("arm")
+@drone(
+    options={"decks": ["bcLighthouse4", "bcLoco"]},
+    build=Build(id="cf1", home=(1.0, 2.0, 0.0), level=0.05),
+)
+async def test_preflight_says_all_that_is_wrong(one: Hangar) -> None:
+    cf = one.navigation
+    await one.let("unsure")
+    await cf.connect()
+    empty, deck, unsure = await cf.preflight()
+    assert empty.startswith("its battery has 3.") and empty.endswith("charge it")
+    assert unsure.startswith("it is not sure where it is: to 0.71 m (a variance of 0.5000 m²)")
+    assert deck.startswith('it has no deck "bcLoco": it has bc')
+    with pytest.raises(NotReady, match="cf1 is not ready: its battery"):
+        await cf.takeoff(0.5, FAST)
+    assert not one.did("arm")
 
 
-async def test_the_emergency_stop_stops_in_the_air(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.up()
-        flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
-        await asyncio.sleep(0.5)
-        await cf.emergency_stop()
-        assert one.drone.supervisor.locked
-        with pytest.raises((Locked, Crashed)):
-            await flying
+async def test_the_emergency_stop_stops_in_the_air(one: Hangar) -> None:
+    cf = await one.up()
+    flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
+    await passes(0.5)
+    await cf.emergency_stop()
+    assert one.drone.supervisor.locked
+    with pytest.raises((Locked, Crashed)):
+        await flying
 
 
-async def test_a_drone_that_cannot_find_itself_flies_by_what_others_see(folder: Path) -> None:
-    build = Build(id="cf1", home=(1.0, 2.0, 0.0), knows_where=False)
-    async with hangar(folder, build=build) as one:
-        cf = await one.connected()
+@drone(build=Build(id="cf1", home=(1.0, 2.0, 0.0), knows_where=False))
+async def test_a_drone_that_cannot_find_itself_flies_by_what_others_see(
+    one: Hangar, cf: Crazyflie
+) -> None:
 
-        async def see() -> None:
-            while True:
-                await cf.locate(one.position)
-                await asyncio.sleep(0.05)
+    async def see() -> None:
+        while True:
+            await cf.locate(one.position)
+            await asyncio.sleep(0.05)
 
-        seeing = asyncio.create_task(see())
-        await asyncio.sleep(1.5)
-        assert await cf.preflight() == []
-        seeing.cancel()
-        await asyncio.wait({seeing})
+    seeing = asyncio.create_task(see())
+    await passes(1.5)
+    assert await cf.preflight() == []
+    seeing.cancel()
+    await asyncio.wait({seeing})

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
+from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.drones.errors import Locked, NotReady
 from pluto_fleet.drones.protocol import BATTERY_LOW, LOCKED
 from pluto_fleet.lithium import volts_at
-from tests.library.crazyflie.hangar import FAST, hangar
-
-pytest.importorskip("cflib")
+from tests.library.crazyflie.hangar import FAST, Hangar, drone
 
 FULL = volts_at(1.0)
 TWO_CELLS = Build(id="cf1", home=(1.0, 2.0, 0.0), cells=2)
@@ -21,84 +18,76 @@ CRASHED = (
 )
 
 
-async def test_one_that_crashed_and_stands_flies_again_once_a_person_says_so(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await cf.takeoff(0.3, FAST)
-        await one.let("tumble")
-        while one.flies or not cf.telemetry.position[2] < 0.1:
-            await one.drone_tells()
-        with pytest.raises(NotReady, match="does not forget that it has crashed: set it upright"):
-            await cf.looked_after()
-        await one.let("upright")
+async def test_one_that_crashed_and_stands_flies_again_once_a_person_says_so(
+    one: Hangar, cf: Crazyflie
+) -> None:
+    await cf.takeoff(0.3, FAST)
+    await one.let("tumble")
+    while one.flies or not cf.telemetry.position[2] < 0.1:
         await one.drone_tells()
-        assert await cf.preflight() == [CRASHED] and not one.did("recover")[1:]
+    with pytest.raises(NotReady, match="does not forget that it has crashed: set it upright"):
         await cf.looked_after()
-        assert await cf.preflight() == []
-        await cf.takeoff(0.3, FAST)
-        assert one.flies
+    await one.let("upright")
+    await one.drone_tells()
+    assert await cf.preflight() == [CRASHED] and not one.did("recover")[1:]
+    await cf.looked_after()
+    assert await cf.preflight() == []
+    await cf.takeoff(0.3, FAST)
+    assert one.flies
 
 
-async def test_one_that_has_not_crashed_is_told_nothing(folder: Path) -> None:
-    async with hangar(folder) as one:
-        await one.navigation.connect()
-        await one.navigation.looked_after()
-        assert one.commands == []
+async def test_one_that_has_not_crashed_is_told_nothing(one: Hangar, cf: Crazyflie) -> None:
+    await cf.looked_after()
+    assert one.commands == []
 
 
-async def test_a_deck_that_fails_is_said_by_name(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await one.let("deck")
-        await one.drone_tells()
-        reason = "one of its decks reports a fault: see that all sit well, and switch it off and on"
-        assert await cf.preflight() == [reason]
-        with pytest.raises(NotReady, match="one of its decks reports a fault"):
-            await cf.takeoff(0.5, FAST)
-        assert not one.did("arm")
-
-
-async def test_a_deck_that_fails_in_the_air_is_why_it_locked(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.up()
-        await one.let("deck")
-        assert (await one.hears(LOCKED)).reason.startswith("one of its decks reports a fault, and")
-        with pytest.raises(Locked, match="as one of its decks reports a fault"):
-            await cf.hold()
-
-
-async def test_one_with_more_cells_than_the_fleet_file_says_does_not_fly(folder: Path) -> None:
-    async with hangar(folder, build=TWO_CELLS) as one:
-        cf = await one.connected()
-        (reason,) = await cf.preflight()
-        assert reason == (
-            f"its battery has {2 * FULL:.2f} V, more than one cell has: say in the fleet file how"
-            " many it has, such as cells = 2"
-        )
-        with pytest.raises(NotReady, match="more than one cell has"):
-            await cf.takeoff(0.5, FAST)
-
-
-async def test_how_many_cells_it_may_have_is_said_from_its_volts(folder: Path) -> None:
-    build = Build(id="cf1", home=(1.0, 2.0, 0.0), cells=3)
-    async with hangar(folder, {"cells": 2}, build) as one:
-        cf = await one.connected()
-        (reason,) = await cf.preflight()
-        assert (
-            f"has {3 * FULL:.2f} V, more than 2 cells have" in reason
-            and "such as cells = 3" in reason
-        )
-
-
-async def test_one_with_two_cells_is_as_full_as_each_of_them(folder: Path) -> None:
-    async with hangar(folder, {"cells": 2, "least_voltage": 3.0}, TWO_CELLS) as one:
-        cf = await one.connected()
-        assert cf.telemetry.voltage == pytest.approx(2 * FULL, abs=0.01)
-        await one.let("volts", 7.6)
-        await one.drone_tells()
-        assert 0.35 < cf.telemetry.battery_level < 0.45
+async def test_a_deck_that_fails_is_said_by_name(one: Hangar, cf: Crazyflie) -> None:
+    await one.let("deck")
+    await one.drone_tells()
+    reason = "one of its decks reports a fault: see that all sit well, and switch it off and on"
+    assert await cf.preflight() == [reason]
+    with pytest.raises(NotReady, match="one of its decks reports a fault"):
         await cf.takeoff(0.5, FAST)
-        await one.let("volts", 6.3)
-        assert (await one.hears(BATTERY_LOW)).reason.startswith("its battery is down to 6.")
-        await cf.land(FAST)
-        assert [event.kind for event in one.events] == [BATTERY_LOW]
+    assert not one.did("arm")
+
+
+async def test_a_deck_that_fails_in_the_air_is_why_it_locked(one: Hangar) -> None:
+    cf = await one.up()
+    await one.let("deck")
+    assert (await one.hears(LOCKED)).reason.startswith("one of its decks reports a fault, and")
+    with pytest.raises(Locked, match="as one of its decks reports a fault"):
+        await cf.hold()
+
+
+@drone(build=TWO_CELLS)
+async def test_one_with_more_cells_than_the_fleet_file_says_does_not_fly(
+    one: Hangar, cf: Crazyflie
+) -> None:
+    (reason,) = await cf.preflight()
+    assert reason == (
+        f"its battery has {2 * FULL:.2f} V, more than one cell has: say in the fleet file how"
+        " many it has, such as cells = 2"
+    )
+    with pytest.raises(NotReady, match="more than one cell has"):
+        await cf.takeoff(0.5, FAST)
+
+
+@drone(options={"cells": 2}, build=Build(id="cf1", home=(1.0, 2.0, 0.0), cells=3))
+async def test_how_many_cells_it_may_have_is_said_from_its_volts(cf: Crazyflie) -> None:
+    (reason,) = await cf.preflight()
+    assert (
+        f"has {3 * FULL:.2f} V, more than 2 cells have" in reason and "such as cells = 3" in reason
+    )
+
+
+@drone(options={"cells": 2, "least_voltage": 3.0}, build=TWO_CELLS)
+async def test_one_with_two_cells_is_as_full_as_each_of_them(one: Hangar, cf: Crazyflie) -> None:
+    assert cf.telemetry.voltage == pytest.approx(2 * FULL, abs=0.01)
+    await one.let("volts", 7.6)
+    await one.drone_tells()
+    assert 0.35 < cf.telemetry.battery_level < 0.45
+    await cf.takeoff(0.5, FAST)
+    await one.let("volts", 6.3)
+    assert (await one.hears(BATTERY_LOW)).reason.startswith("its battery is down to 6.")
+    await cf.land(FAST)
+    assert [event.kind for event in one.events] == [BATTERY_LOW]

@@ -3,36 +3,33 @@
 from __future__ import annotations
 
 import asyncio
-from pathlib import Path
 
 import pytest
 
+from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.packets import Port, unpacked
 from pluto_fleet.crtp.supervisor import Supervisor
 from pluto_fleet.drones.errors import NotReady, Rejected
-from tests.library.crazyflie.hangar import FAST, Hangar, hangar
+from tests.kit.unthreaded import the_air
+from tests.library.crazyflie.hangar import FAST, Hangar, drone
 
-pytest.importorskip("cflib")
 
-
-async def test_one_that_has_landed_is_disarmed_and_armed_anew(folder: Path) -> None:
+async def test_one_that_has_landed_is_disarmed_and_armed_anew(one: Hangar, cf: Crazyflie) -> None:
     """It would disarm itself some seconds after the landing, in the midst of a take-off."""
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        for _ in range(2):
-            await cf.takeoff(0.5, FAST)
-            await cf.land(FAST)
-        told = [command.what for command in one.commands if command.what != "setpoints end"]
-        assert told[:4] == ["arm", "takeoff", "land", "down"]
-        assert told[4:] == ["disarm", "arm", "takeoff", "land", "down"]
-
-
-async def test_one_that_arms_itself_is_waited_for_until_it_has(folder: Path) -> None:
-    async with hangar(folder, build=Build(id="cf1", home=(1.0, 2.0, 0.0), auto_arm=True)) as one:
-        cf = await one.up()
-        assert one.flies and not one.did("arm")
+    for _ in range(2):
+        await cf.takeoff(0.5, FAST)
         await cf.land(FAST)
+    told = [command.what for command in one.commands if command.what != "setpoints end"]
+    assert told[:4] == ["arm", "takeoff", "land", "down"]
+    assert told[4:] == ["disarm", "arm", "takeoff", "land", "down"]
+
+
+@drone(build=Build(id="cf1", home=(1.0, 2.0, 0.0), auto_arm=True))
+async def test_one_that_arms_itself_is_waited_for_until_it_has(one: Hangar) -> None:
+    cf = await one.up()
+    assert one.flies and not one.did("arm")
+    await cf.land(FAST)
 
 
 class OnRequest(Supervisor):
@@ -43,13 +40,12 @@ class OnRequest(Supervisor):
         return bits | 1 << 2
 
 
-async def test_one_that_says_that_it_arms_itself_and_does_not_is_asked_to(folder: Path) -> None:
-    async with hangar(folder) as one:
-        one.drone.supervisor = OnRequest(armed=True)
-        cf = await one.connected()
-        await cf.takeoff(0.4, FAST)
-        assert one.flies and len(one.did("arm")) == 1
-        await cf.land(FAST)
+async def test_one_that_says_that_it_arms_itself_and_does_not_is_asked_to(one: Hangar) -> None:
+    one.drone.supervisor = OnRequest(armed=True)
+    cf = await one.connected()
+    await cf.takeoff(0.4, FAST)
+    assert one.flies and len(one.did("arm")) == 1
+    await cf.land(FAST)
 
 
 class Slow(Supervisor):
@@ -58,114 +54,93 @@ class Slow(Supervisor):
     can_fly = False
 
 
-async def test_one_that_is_slow_to_arm_is_not_left_armed(folder: Path) -> None:
-    async with hangar(folder) as one:
-        one.drone.supervisor = Slow()
-        cf = await one.connected()
-        with pytest.raises(NotReady, match="will not arm"):
-            await cf.takeoff(0.4, FAST)
-        assert len(one.did("arm")) == 1
-        assert not one.drone.supervisor.armed and not one.did("takeoff")
+async def test_one_that_is_slow_to_arm_is_not_left_armed(one: Hangar) -> None:
+    one.drone.supervisor = Slow()
+    cf = await one.connected()
+    with pytest.raises(NotReady, match="will not arm"):
+        await cf.takeoff(0.4, FAST)
+    assert len(one.did("arm")) == 1
+    assert not one.drone.supervisor.armed and not one.did("takeoff")
 
 
-async def test_one_that_is_let_go_of_as_it_takes_off_is_landed_first(folder: Path) -> None:
+async def test_one_that_is_let_go_of_as_it_takes_off_is_landed_first(
+    one: Hangar, cf: Crazyflie
+) -> None:
     """What it tells in that moment is from before."""
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await one.let("latency", 0.1)
-        rising = asyncio.create_task(cf.takeoff(0.4, FAST))
-        while not one.did("takeoff"):
-            await asyncio.sleep(0.002)
-        rising.cancel()
-        await cf.close()
-        assert one.did("land") and not one.flies
+    await one.let("latency", 0.1)
+    rising = asyncio.create_task(cf.takeoff(0.4, FAST))
+    while not one.did("takeoff"):
+        await asyncio.sleep(0.002)
+    rising.cancel()
+    await cf.close()
+    assert one.did("land") and not one.flies
 
 
-async def test_one_that_is_down_is_not_told_to_land_again(folder: Path) -> None:
+async def test_one_that_is_down_is_not_told_to_land_again(one: Hangar, cf: Crazyflie) -> None:
     """The answers are lost: on the ground, the command would start its motors once more."""
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await cf.takeoff(0.3, FAST)
-        _loses_answers(one, Port.HIGH_LEVEL)
-        await cf.land(FAST)
-        told = [command.what for command in one.commands]
-        assert told.count("land") > 2 and told[-1] == "down" and told.count("down") == 1
+    await cf.takeoff(0.3, FAST)
+    the_air().loses = lambda raw: unpacked(raw).port == Port.HIGH_LEVEL
+    await cf.land(FAST)
+    told = [command.what for command in one.commands]
+    assert told.count("land") > 2 and told[-1] == "down" and told.count("down") == 1
 
 
-def _loses_answers(one: Hangar, port: Port) -> None:
-    """Let nothing more come from a port."""
-    send = one.drone._send
-
-    def without(raw: bytes) -> None:
-        if unpacked(raw).port != port:
-            send(raw)
-
-    one.drone._send = without
+async def test_a_take_off_that_a_disarming_cancels_is_commanded_once_more(
+    one: Hangar, cf: Crazyflie
+) -> None:
+    await asyncio.gather(cf.takeoff(0.5, FAST), _disarmed_once(one, 1))
+    assert one.flies and len(one.did("takeoff")) == 2
+    await cf.land(FAST)
 
 
-async def test_a_take_off_that_a_disarming_cancels_is_commanded_once_more(folder: Path) -> None:
-    async with hangar(folder) as one:
-        await one.navigation.connect()
-        await asyncio.gather(one.navigation.takeoff(0.5, FAST), _disarmed_once(one, 1))
-        assert one.flies and len(one.did("takeoff")) == 2
-        await one.navigation.land(FAST)
-
-
-async def test_twice_cancelled_it_is_a_refusal(folder: Path) -> None:
-    async with hangar(folder) as one:
-        await one.navigation.connect()
-        disarming = asyncio.create_task(_disarmed_once(one, 2))
-        with pytest.raises(Rejected, match="accepted the take-off, and was disarmed at once"):
-            await one.navigation.takeoff(0.5, FAST)
-        await disarming
-        assert not one.flies and len(one.did("takeoff")) == 2
-
-
-async def test_nothing_is_above_its_commander_when_it_takes_off(folder: Path) -> None:
-    """A set-point of a gamepad's, or of a script's that has ended, would stay above it for ever."""
-    async with hangar(folder) as one:
-        cf = await one.up()
-        await cf.go_to((1.3, 2.0, 0.5), FAST)
-        await cf.land(FAST)
-        told = [command.what for command in one.commands]
-        before, after = told[: told.index("takeoff")], told[told.index("takeoff") :]
-        assert "setpoints end" in before and "setpoints end" not in after
-
-
-async def test_one_that_another_program_has_steered_takes_off(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await one.let("setpoint")
+async def test_twice_cancelled_it_is_a_refusal(one: Hangar, cf: Crazyflie) -> None:
+    disarming = asyncio.create_task(_disarmed_once(one, 2))
+    with pytest.raises(Rejected, match="accepted the take-off, and was disarmed at once"):
         await cf.takeoff(0.5, FAST)
-        assert one.position[2] > 0.4
-        await cf.land(FAST)
+    await disarming
+    assert not one.flies and len(one.did("takeoff")) == 2
 
 
-async def test_one_that_another_program_steers_while_it_is_armed_takes_off(folder: Path) -> None:
+async def test_nothing_is_above_its_commander_when_it_takes_off(one: Hangar) -> None:
+    """A set-point of a gamepad's, or of a script's that has ended, would stay above it for ever."""
+    cf = await one.up()
+    await cf.go_to((1.3, 2.0, 0.5), FAST)
+    await cf.land(FAST)
+    told = [command.what for command in one.commands]
+    before, after = told[: told.index("takeoff")], told[told.index("takeoff") :]
+    assert "setpoints end" in before and "setpoints end" not in after
+
+
+async def test_one_that_another_program_has_steered_takes_off(one: Hangar, cf: Crazyflie) -> None:
+    await one.let("setpoint")
+    await cf.takeoff(0.5, FAST)
+    assert one.position[2] > 0.4
+    await cf.land(FAST)
+
+
+async def test_one_that_another_program_steers_while_it_is_armed_takes_off(
+    one: Hangar, cf: Crazyflie
+) -> None:
     """Arming takes its time, some seconds after a landing."""
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        taking_off = asyncio.create_task(cf.takeoff(0.5, FAST))
-        while not one.did("arm"):
-            await asyncio.sleep(0.002)
-        await one.let("setpoint")
-        await taking_off
-        assert one.position[2] > 0.4
-        await cf.land(FAST)
+    taking_off = asyncio.create_task(cf.takeoff(0.5, FAST))
+    while not one.did("arm"):
+        await asyncio.sleep(0.002)
+    await one.let("setpoint")
+    await taking_off
+    assert one.position[2] > 0.4
+    await cf.land(FAST)
 
 
-async def test_one_that_disarms_itself_just_now_is_waited_for(folder: Path) -> None:
+async def test_one_that_disarms_itself_just_now_is_waited_for(one: Hangar, cf: Crazyflie) -> None:
     """Some three seconds after a landing it is neither armed nor can be, for a tenth of a second."""
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await cf.takeoff(0.4, FAST)
-        await cf.land(FAST)
-        while one.drone.supervisor.armed:
-            await asyncio.sleep(0.005)
-        assert await cf.preflight() == []
-        await cf.takeoff(0.4, FAST)
-        assert one.flies
-        await cf.land(FAST)
+    await cf.takeoff(0.4, FAST)
+    await cf.land(FAST)
+    while one.drone.supervisor.armed:
+        await asyncio.sleep(0.005)
+    assert await cf.preflight() == []
+    await cf.takeoff(0.4, FAST)
+    assert one.flies
+    await cf.land(FAST)
 
 
 async def _disarmed_once(one: Hangar, times: int) -> None:

@@ -3,117 +3,107 @@
 from __future__ import annotations
 
 import asyncio
-from pathlib import Path
 
 import pytest
 
+from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.drones.errors import NotReady, PositionLost
 from pluto_fleet.drones.protocol import POSITION_LOST
-from tests.library.crazyflie.hangar import FAST, hangar
+from tests.kit.unthreaded import passes
+from tests.library.crazyflie.hangar import FAST, Hangar, drone
 
-pytest.importorskip("cflib")
 
-
-async def test_one_that_is_unsure_for_a_moment_is_waited_for(folder: Path) -> None:
+async def test_one_that_is_unsure_for_a_moment_is_waited_for(one: Hangar, cf: Crazyflie) -> None:
     """A person may just pass between it and its beacons."""
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await one.let("unsure")
-        taking_off = asyncio.create_task(cf.takeoff(0.5, FAST))
-        await asyncio.sleep(2.0)
-        assert not one.did("arm")
-        await one.let("unsure", False)
-        await taking_off
-        assert one.flies
+    await one.let("unsure")
+    taking_off = asyncio.create_task(cf.takeoff(0.5, FAST))
+    await passes(2.0)
+    assert not one.did("arm")
+    await one.let("unsure", False)
+    await taking_off
+    assert one.flies
 
 
-async def test_one_that_stays_unsure_does_not_fly_and_says_how_unsure_it_is(folder: Path) -> None:
-    async with hangar(folder) as one:
-        cf = await one.connected()
-        await one.let("unsure")
-        with pytest.raises(NotReady, match=r"is not sure where it is: to 0\.71 m .* 0\.07 m for"):
-            await cf.takeoff(0.5, FAST)
-        assert not one.did("arm")
+async def test_one_that_stays_unsure_does_not_fly_and_says_how_unsure_it_is(
+    one: Hangar, cf: Crazyflie
+) -> None:
+    await one.let("unsure")
+    with pytest.raises(NotReady, match=r"is not sure where it is: to 0\.71 m .* 0\.07 m for"):
+        await cf.takeoff(0.5, FAST)
+    assert not one.did("arm")
 
 
-async def test_how_sure_it_must_be_is_said_by_the_fleet_file(folder: Path) -> None:
-    async with hangar(folder, {"sure_within": 0.8}) as one:
-        await one.navigation.connect()
-        await one.let("unsure")
-        assert await one.navigation.preflight() == []
+@drone(options={"sure_within": 0.8})
+async def test_how_sure_it_must_be_is_said_by_the_fleet_file(one: Hangar, cf: Crazyflie) -> None:
+    await one.let("unsure")
+    assert await cf.preflight() == []
 
 
+@drone(options={"measure": {"temperature": "bme.temp"}})
 async def test_one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_nothing_there(
-    folder: Path,
+    one: Hangar,
 ) -> None:
-    async with hangar(folder, {"measure": {"temperature": "bme.temp"}}) as one:
-        cf = await one.up()
-        await one.let("unsure")
-        with pytest.raises(PositionLost, match=r"cf1 does not know where it is: it may be 0\.71 m"):
-            await cf.go_to((1.3, 2.0, 0.5), FAST)
-        assert (await one.hears(POSITION_LOST)).reason.startswith("it may be 0.71 m from where")
-        with pytest.raises(PositionLost):
-            await cf.act("measure", {}, None)
-        await cf.hold()  # as well as it can
-        await cf.land(FAST)
-        assert not one.flies and [event.kind for event in one.events] == [POSITION_LOST]
-
-
-async def test_one_that_doubts_its_place_for_a_moment_does_there_what_it_came_for(
-    folder: Path,
-) -> None:
-    options = {"measure": {"temperature": "bme.temp"}, "measure_seconds": 0.2}
-    async with hangar(folder, options) as one:
-        cf = await one.up()
-        await one.let("unsure")
-        while not cf._linked().doubts:
-            await one.drone_tells()
-        measuring = asyncio.create_task(cf.act("measure", {}, None))
-        await asyncio.sleep(0.2)
-        assert not measuring.done()
-        await one.let("unsure", False)
-        assert await measuring == pytest.approx(20.6, abs=0.1)
-        await cf.land(FAST)
-        assert one.events == []
-
-
-async def test_one_that_goes_by_radio_beacons_is_sure_enough(folder: Path) -> None:
-    build = Build(id="cf1", home=(1.0, 2.0, 0.0), noise=0.15)
-    async with hangar(folder, build=build) as one:
-        cf = await one.connected()
-        assert one.drone.variance > 0.0025
-        await cf.takeoff(0.5, FAST)
+    cf = await one.up()
+    await one.let("unsure")
+    with pytest.raises(PositionLost, match=r"cf1 does not know where it is: it may be 0\.71 m"):
         await cf.go_to((1.3, 2.0, 0.5), FAST)
-        await cf.land(FAST)
-        assert one.events == []
+    assert (await one.hears(POSITION_LOST)).reason.startswith("it may be 0.71 m from where")
+    with pytest.raises(PositionLost):
+        await cf.act("measure", {}, None)
+    await cf.hold()  # as well as it can
+    await cf.land(FAST)
+    assert not one.flies and [event.kind for event in one.events] == [POSITION_LOST]
 
 
-async def test_one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive(folder: Path) -> None:
-    """Its firmware flies on, reports no fault, and would be there by its own word."""
-    async with hangar(folder) as one:
-        cf = await one.up()
-        flying = asyncio.create_task(cf.go_to((4.0, 2.0, 0.5), FAST))
-        while one.position[0] < 1.5:
-            await asyncio.sleep(0.02)
-        await one.let("fixes", False)
-        with pytest.raises(PositionLost, match="does not see its beacons any more"):
-            await flying
-        await one.hears(POSITION_LOST)
-        await cf.hold()
-        await cf.land(FAST)
-        assert not one.flies
-
-
-async def test_one_that_goes_by_the_ground_alone_never_knows_its_place_and_flies(
-    folder: Path,
+@drone(options={"measure": {"temperature": "bme.temp"}, "measure_seconds": 0.2})
+async def test_one_that_doubts_its_place_for_a_moment_does_there_what_it_came_for(
+    one: Hangar,
 ) -> None:
-    build = Build(id="cf1", home=(0.1, 0.0, 0.0))
-    async with hangar(folder, {"starts_at_home": True}, build) as one:
-        cf = one.navigation
-        await one.let("unsure")
-        await cf.connect()
-        await cf.takeoff(0.5, FAST)
-        await cf.go_to((0.4, 0.0, 0.5), FAST)
-        await cf.land(FAST)
-        assert one.events == []
+    cf = await one.up()
+    await one.let("unsure")
+    await passes(0.6)  # until it has told so
+    measuring = asyncio.create_task(cf.act("measure", {}, None))
+    await passes(0.2)
+    assert not measuring.done()
+    await one.let("unsure", False)
+    assert await measuring == pytest.approx(20.6, abs=0.1)
+    await cf.land(FAST)
+    assert one.events == []
+
+
+@drone(build=Build(id="cf1", home=(1.0, 2.0, 0.0), noise=0.15))
+async def test_one_that_goes_by_radio_beacons_is_sure_enough(one: Hangar, cf: Crazyflie) -> None:
+    assert one.drone.variance > 0.0025
+    await cf.takeoff(0.5, FAST)
+    await cf.go_to((1.3, 2.0, 0.5), FAST)
+    await cf.land(FAST)
+    assert one.events == []
+
+
+async def test_one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive(one: Hangar) -> None:
+    """Its firmware flies on, reports no fault, and would be there by its own word."""
+    cf = await one.up()
+    flying = asyncio.create_task(cf.go_to((4.0, 2.0, 0.5), FAST))
+    while one.position[0] < 1.5:
+        await asyncio.sleep(0.02)
+    await one.let("fixes", False)
+    with pytest.raises(PositionLost, match="does not see its beacons any more"):
+        await flying
+    await one.hears(POSITION_LOST)
+    await cf.hold()
+    await cf.land(FAST)
+    assert not one.flies
+
+
+@drone(options={"starts_at_home": True}, build=Build(id="cf1", home=(0.1, 0.0, 0.0)))
+async def test_one_that_goes_by_the_ground_alone_never_knows_its_place_and_flies(
+    one: Hangar,
+) -> None:
+    cf = one.navigation
+    await one.let("unsure")
+    await cf.connect()
+    await cf.takeoff(0.5, FAST)
+    await cf.go_to((0.4, 0.0, 0.5), FAST)
+    await cf.land(FAST)
+    assert one.events == []
