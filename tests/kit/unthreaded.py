@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 
 import pytest
 
-from tests.library.drones.jumping import JumpingLoop
+from tests.kit.drones import JumpingLoop
 
 T = TypeVar("T")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.library.drones.jumping import run
+from tests.kit.drones import run
 from tests.loops import run_async
 
 

@@ -20,8 +20,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.time.kernel import FLEET, Task
-from tests.library.drones.fakes import FakeDrone
-from tests.library.drones.jumping import the_loop
+from tests.kit.drones import FakeDrone, the_loop
 
 T = TypeVar("T")
 

@@ -13,8 +13,7 @@ from pluto_fleet.drones.errors import NavigationError
 from pluto_fleet.drones.protocol import BATTERY_LOW, LINK_LOST, LOCKED
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.jobs.reports import Down
-from tests.library.drones.fakes import FakeDrone
-from tests.library.drones.jumping import the_loop
+from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import Flown
 from tests.library.drones.test_under_a_gateway import commanded, measuring
 

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.library.drones.fakes import FakeDrone
-from tests.library.drones.jumping import run, the_loop
+from tests.kit.drones import FakeDrone, run, the_loop
 from tests.library.drones.teams import flying
 
 

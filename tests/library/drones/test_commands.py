@@ -10,8 +10,7 @@ from pluto_fleet.drones.errors import Rejected
 from pluto_fleet.drones.real_fleet import RequiredAction
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item
-from tests.library.drones.fakes import FakeDrone
-from tests.library.drones.jumping import the_loop
+from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import flying
 
 PILLS = Item(name="pills", mass=0.004)

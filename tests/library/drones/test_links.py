@@ -7,8 +7,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.shared.domain.errors import Failure
-from tests.library.drones.fakes import FakeDrone
-from tests.library.drones.jumping import the_loop
+from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import flying
 
 

@@ -16,8 +16,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput, Failure
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.simulation.body import SimulatedDrone
-from tests.library.drones.fakes import FakeDrone
-from tests.library.drones.jumping import run, the_loop
+from tests.kit.drones import FakeDrone, run, the_loop
 from tests.library.drones.teams import SCOUT, flying
 
 

@@ -12,8 +12,7 @@ import pytest
 from pluto_fleet.drones.errors import NavigationError
 from pluto_fleet.drones.protocol import BATTERY_LOW, DroneEvent
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
-from tests.library.drones.fakes import FakeDrone
-from tests.library.drones.jumping import the_loop
+from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import Flown, flying
 
 METHODS = (

@@ -21,8 +21,7 @@ from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.future import Future
-from tests.library.drones.fakes import FakeDrone
-from tests.library.drones.jumping import the_loop
+from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import FIELD, Flown, flying
 from tests.library.gateway.flights import Task
 from tests.library.gateway.processes import settings

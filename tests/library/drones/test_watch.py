@@ -14,8 +14,7 @@ from pluto_fleet.drones.safety import outside_area
 from pluto_fleet.drones.team import Team
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure
-from tests.library.drones.fakes import FakeDrone
-from tests.library.drones.jumping import the_loop
+from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import FIELD, Flown, flying
 
 

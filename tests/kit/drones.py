@@ -1,16 +1,82 @@
-"""A drone that exists only here, flown by a navigation in which anything can go wrong."""
+"""A drone that exists only here, in which anything can go wrong, and a loop on which it takes no time to fly.
+
+`run` runs a coroutine on a `JumpingLoop`, whose clock jumps to what comes next: ten minutes take a moment.
+`FakeDrone` is the drone and its navigation in one: what it was `told`, where it is, and what befalls it.
+"""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Mapping, Sequence
-from math import dist, inf
+import selectors
+from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequence
+from math import dist, inf, isfinite
+from typing import Any, TypeVar
 
-from pluto_fleet.drones.errors import Crashed, LinkLost, Rejected
+from pluto_fleet.drones.errors import Crashed, LinkLost, OutsideArea, Rejected
 from pluto_fleet.drones.protocol import CRASHED, DroneEvent, DroneTelemetry
 from pluto_fleet.shared.domain.actions import Plain
 from pluto_fleet.shared.domain.model import Item, Point
-from tests.library.drones.jumping import the_loop
+
+T = TypeVar("T")
+
+# Time
+
+
+class _Selector(selectors.DefaultSelector):
+    """Instead of waiting, lets the time pass."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.passes: Callable[[float], None] | None = None
+
+    def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
+        """Return what can be read now."""
+        ready = super().select(0)
+        if not ready and timeout is None:
+            raise RuntimeError("nothing will ever happen again, and a task still waits")
+        if not ready and timeout and self.passes is not None:
+            self.passes(timeout)
+        return ready
+
+
+class JumpingLoop(asyncio.SelectorEventLoop):
+    """A loop whose clock jumps: whoever it talks to must run on it, too, and it waits for no thread."""
+
+    def __init__(self) -> None:
+        self.now = 1000.0
+        selector = _Selector()
+        selector.passes = self.advance
+        super().__init__(selector)
+
+    def time(self) -> float:
+        """Return the time as all here know it."""
+        return self.now
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass: within a step of a task, that is as if it blocked."""
+        self.now += seconds
+
+
+def run(flight: Coroutine[Any, Any, T]) -> T:
+    """Run this to its end; nothing may be left of it."""
+    with asyncio.Runner(loop_factory=JumpingLoop) as runner:
+        value = runner.run(flight)
+        left = asyncio.all_tasks(runner.get_loop())
+    assert not left
+    return value
+
+
+def the_loop() -> JumpingLoop:
+    """Return the loop that runs."""
+    loop = asyncio.get_running_loop()
+    assert isinstance(loop, JumpingLoop)
+    return loop
+
+
+# The drone
+
+YAW = 1.0
+"""Radians: it never turns."""
 
 
 class FakeDrone:
@@ -115,6 +181,12 @@ class FakeDrone:
     async def go_to(self, target: Point, speed: float) -> None:
         """Fly straight to a point."""
         await self._does("go_to")
+        if not all(map(isfinite, target)) or target[2] < 0:
+            raise OutsideArea(f"{self.id} cannot fly to {target}")
+        if not 0 < speed < inf:
+            raise Rejected(f"{self.id} cannot fly at {speed} m/s")
+        if not self.motors:
+            raise Rejected(f"{self.id} must take off first")
         self.told.append("go to {:g} {:g} {:g}".format(*target))
         await self._move(target, speed)
 
@@ -190,7 +262,7 @@ class FakeDrone:
             last = DroneTelemetry(
                 time=now,
                 position=self.place,
-                yaw=0.0,
+                yaw=YAW,
                 voltage=4.0,
                 battery_level=self.level,
                 flying=self.motors,
@@ -198,7 +270,7 @@ class FakeDrone:
             self.track.append((now, last.position))
         elif last is None:
             last = DroneTelemetry(
-                time=-inf, position=self.home, yaw=0.0, voltage=0.0, battery_level=1.0, flying=False
+                time=-inf, position=self.home, yaw=YAW, voltage=0.0, battery_level=1.0, flying=False
             )
         self._told_last = last
         return last
