@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import signal
-from collections.abc import Iterator
+import sys
+from collections.abc import Generator, Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -38,6 +39,33 @@ def own_locks() -> Iterator[None]:
     """Take no drone's lock that other tests on this machine take, those of another checkout."""
     with apart():
         yield
+
+
+_STARTS = ("subprocess.Popen", "os.fork", "os.forkpty", "os.posix_spawn")
+"""What the interpreter calls the start of a process."""
+_running: list[pytest.Item] = []
+"""The test that runs, if processes are no matter of course for it."""
+
+
+def _refuse_processes(event: str, _: tuple[object, ...]) -> None:
+    if _running and event in _STARTS:
+        raise AssertionError(
+            f"{_running[0].nodeid} starts a process: mark it `process`, `browser` or `long`"
+        )
+
+
+sys.addaudithook(_refuse_processes)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
+    """Hold that only those tests start a process that say so: few do, in the default run."""
+    if not any(map(item.get_closest_marker, ("process", "browser", "long"))):
+        _running.append(item)
+    try:
+        return (yield)
+    finally:
+        _running.clear()
 
 
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
