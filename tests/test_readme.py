@@ -24,12 +24,12 @@ def test_the_readmes_python_and_picture_are_what_its_source_becomes() -> None:
     assert picture.strip() == mermaid(compiled.checked).strip()
 
 
-def test_ci_sees_to_a_browser_and_runs_the_readmes_test_command_and_then_the_long_tests() -> None:
+def test_ci_runs_the_readmes_test_command_between_lint_and_the_long_tests() -> None:
     (command,) = (text.strip() for _, text in BLOCKS if "pytest" in text)
     lines = (ROOT / ".ci/run").read_text().splitlines()
     said = [line for line in lines if line and not line.startswith(("#", "set ", "cd ", "export "))]
     install, tests = command.rsplit(" && ", 1)
-    assert said == [".ci/browser &", install, "wait $!", tests, f"{tests} -m long"]
+    assert said == [".ci/browser &", install, "wait $!", ".ci/lint", tests, f"{tests} -m long"]
 
 
 def test_every_page_that_the_readme_names_exists() -> None:
