@@ -13,8 +13,8 @@ sentence and what is typed after it; it has a new folder of its own:
     = 1
 
 `= 1` is the exit code, where it is not 0. Programs are called in this process; `$ FORCE_COLOR=1 plutoc ...`,
-`> FILE`, `< FILE` and `| grep TEXT`, `| head N`, `| wc` do what a shell does by them, and so do the commands
-in `BUILT_IN`. `pytest FOLDER --update` writes what comes out as what must come out: read the difference.
+`> FILE`, `< FILE`, `2>&1` and `| grep TEXT` do what a shell does by them, and so do the commands in `BUILT_IN`
+of `tests/kit/shell.py`. `pytest FOLDER --update` writes what comes out as what must come out: read the difference.
 """
 
 from __future__ import annotations
@@ -36,10 +36,19 @@ Mask = Callable[[str], str]
 
 
 def sessions(folder: Path) -> list[Any]:
-    """Return the sessions of a folder and of those in it, to parametrize a test with."""
-    found = sorted(path for path in folder.rglob("*.txt") if "$ " in path.read_text("utf-8"))
+    """Return the sessions of a folder and of those in it, to parametrize a test with.
+
+    The marks of one are named in brackets at the end of its first line: `[process, long]`.
+    """
+    found = []
+    for path in sorted(folder.rglob("*.txt")):
+        title = path.read_text("utf-8").partition("\n")[0]
+        named = re.search(r"\[([a-z, ]+)\]$", title)
+        marks = [getattr(pytest.mark, name) for name in named[1].split(", ")] if named else []
+        name = str(path.relative_to(folder).with_suffix(""))
+        found.append(pytest.param(path, id=name, marks=marks))
     assert found, folder
-    return [pytest.param(path, id=str(path.relative_to(folder).with_suffix(""))) for path in found]
+    return found
 
 
 def check_session(
@@ -98,7 +107,13 @@ def _shown(ran: Ran, mask: Mask) -> Iterator[str]:
         yield f"= {ran.code}"
 
 
+_USAGE = re.compile(r"^usage: .*\n( +.*\n)*(?=\S)", re.MULTILINE)
+_CHOICES = re.compile(r"\(choose from .*?\)")
+"""What argparse words otherwise in other versions of Python."""
+
+
 def _same(text: str, here: Path) -> str:
-    """Leave out of a text which folder and which version this is; show what commands a terminal."""
+    """Leave out of a text which folder and which versions these are; show what commands a terminal."""
+    text = _CHOICES.sub("(choose from …)", _USAGE.sub("usage: …\n", text))
     text = text.replace(str(here), "HERE").replace(__version__, "VERSION")
     return re.sub(r"[\x00-\x09\x0b-\x1f\x7f-\x9f]", lambda found: repr(found[0])[1:-1], text)

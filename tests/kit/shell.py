@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import shutil
 from collections.abc import Callable, Mapping, Sequence
@@ -9,11 +10,29 @@ from pathlib import Path
 
 import pytest
 
+from plutoc import __version__
 from tests.kit.command import Program, Ran, run
+
+_ESCAPE = re.compile(r"\\u([0-9a-f]{4})")
+"""A character that a session cannot show."""
+
+
+_ESCAPED = re.compile(r"\\[nt]")
+
+
+def _white(found: re.Match[str]) -> str:
+    return {"\\n": "\n", "\\t": "\t"}[found[0]]
+
+
+def _character(found: re.Match[str]) -> str:
+    return chr(int(found[1], 16))
 
 
 class Shell:
-    """Runs lines in the current folder, which is a scene's own."""
+    """Runs lines in the current folder, which is a scene's own.
+
+    The exit code of commands between `|` is the first one that is not 0.
+    """
 
     def __init__(
         self, programs: Mapping[str, Program], here: Path, patch: pytest.MonkeyPatch
@@ -24,19 +43,24 @@ class Shell:
 
     def typed(self, line: str, given: str = "") -> Ran:
         """Run a line: commands between `|`, with `< FILE` and `> FILE`."""
-        *first, last = _split(shlex.split(line, comments=True), "|")
-        err = ""
+        words = [
+            _ESCAPE.sub(_character, word)
+            for word in shlex.split(line.replace("VERSION", __version__))
+        ]
+        *first, last = _split(words, "|")
+        code, err = 0, ""
         for words in first:
             ran = self._command(words, given)
-            given, err = ran.out, err + ran.err
+            code, given, err = code or ran.code, ran.out, err + ran.err
         ran = self._command(last, given)
-        return Ran(ran.code, ran.out, err + ran.err)
+        return Ran(code or ran.code, ran.out, err + ran.err)
 
-    def _command(self, words: Sequence[str], given: str) -> Ran:
+    def _command(self, words: Sequence[str], text: str) -> Ran:
         words, source = _without(words, "<")
         words, target = _without(words, ">")
-        if source is not None:
-            given = Path(source).read_text("utf-8")
+        both = "2>&1" in words
+        words = [word for word in words if word != "2>&1"]
+        given = text.encode() if source is None else Path(source).read_bytes()
         env: dict[str, str] = {}
         while words[0].partition("=")[0].isupper():
             variable, _, value = words.pop(0).partition("=")
@@ -48,7 +72,9 @@ class Shell:
         if name in self._programs:
             ran = run(self._programs[name], *rest, given=given, env=env)
         else:
-            ran = Ran(0, BUILT_IN[name](rest, given) or "", "")
+            ran = Ran(0, BUILT_IN[name](rest, given.decode()) or "", "")
+        if both:
+            ran = Ran(ran.code, ran.out + ran.err, "")
         if target is not None:
             Path(target).write_bytes(ran.out.encode())
             ran = ran._replace(out="")
@@ -83,7 +109,7 @@ def _sed(words: Sequence[str], _: str) -> None:
     It is no pattern; the character after the s is what stands between, and `\\n` is a new line.
     """
     script, *files = words
-    _, old, new, _ = (part.replace("\\n", "\n") for part in script.split(script[1]))
+    _, old, new, _ = (_ESCAPED.sub(_white, part) for part in script.split(script[1]))
     for file in files:
         text = Path(file).read_text("utf-8")
         assert old in text, f"{file} has no {old!r}"
@@ -116,6 +142,16 @@ def _echo(words: Sequence[str], _: str) -> str:
     return " ".join(words).encode("latin-1", "backslashreplace").decode("unicode-escape") + "\n"
 
 
+def _latin(words: Sequence[str], _: str) -> None:
+    """`latin FILE`: an app that is not in UTF-8."""
+    Path(words[0]).write_bytes(b"pluto 1\n# caf\xe9\n")
+
+
+def _large(words: Sequence[str], _: str) -> None:
+    """`large FILE`: an app that is larger than one may be."""
+    Path(words[0]).write_bytes(b"#" * ((1 << 20) + 1))
+
+
 def _touch(words: Sequence[str], _: str) -> None:
     for word in words:
         Path(word).touch()
@@ -139,8 +175,22 @@ def _chmod(words: Sequence[str], _: str) -> None:
 
 
 def _grep(words: Sequence[str], given: str) -> str:
-    """`| grep TEXT`: the lines with a text, which is no pattern."""
-    return "".join(line for line in given.splitlines(keepends=True) if words[0] in line)
+    """`| grep [-v] TEXT`: the lines with, or without, a text, which is no pattern."""
+    wanted = words[0] != "-v"
+    lines = given.splitlines(keepends=True)
+    return "".join(line for line in lines if (words[-1] in line) is wanted)
+
+
+def _compare(words: Sequence[str], _: str) -> str:
+    """`cmp FILE FILE`: whether they are the same, also when they are folders."""
+    one, other = (_tree(Path(word)) for word in words)
+    different = sorted(str(path) for path in {*one, *other} if one.get(path) != other.get(path))
+    return "".join(f"{path} differs\n" for path in different)
+
+
+def _tree(path: Path) -> dict[Path, bytes]:
+    files = [path] if path.is_file() else [each for each in path.rglob("*") if each.is_file()]
+    return {each.relative_to(path): each.read_bytes() for each in files}
 
 
 def _head(words: Sequence[str], given: str) -> str:
@@ -157,10 +207,13 @@ def _wc(_: Sequence[str], given: str) -> str:
 BUILT_IN: dict[str, Callable[[Sequence[str], str], str | None]] = {
     "cat": _cat,
     "chmod": _chmod,
+    "cmp": _compare,
     "cp": _copy,
     "echo": _echo,
     "grep": _grep,
     "head": _head,
+    "large": _large,
+    "latin": _latin,
     "ln": _link,
     "ls": _ls,
     "mkdir": _mkdir,

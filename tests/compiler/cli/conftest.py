@@ -1,83 +1,27 @@
-"""An app in a folder of its own, and the command line as a person would call it."""
+"""An app in a folder of its own, and a package of blocks that is not there."""
 
 from __future__ import annotations
 
+import shutil
 import sys
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from plutoc import registry
-from plutoc.cli import main
 from plutoc.emit import modules
 
-APP = """pluto 1
+CROP = Path(__file__).parent / "sessions" / "crop"
+"""An app with two hooks, and its missions."""
 
-app crop "Crop watch" {
-  category scout can take_photo, pollinate
-
-  action pollinate(dose: mass = 50 mg)
-  evaluator find_blooms
-
-  create = MissionCreator
-  allocate = DroneAllocator
-  launch = TripLauncher
-  watch = TripMonitor
-  retry = PriorityManager(max_attempts: 3)
-  judge = MissionEvaluator(hook: find_blooms)
-
-  start -> create -> allocate -> launch -> watch
-  watch -> allocate when STANDBY
-  watch -> retry when FAILED
-  watch -> judge when COMPLETED
-  retry -> allocate when STANDBY
-  judge -> allocate when STANDBY
-  judge -> end otherwise
-  retry -> end otherwise
-}
-"""
+APP = (CROP / "crop.pluto").read_text("utf-8")
 
 FIELD_APP = APP.replace("pluto 1\n", "pluto 1\nuse field_kit\n").replace(
     "  start -> create -> allocate",
     "  chime = field_kit.Chime\n  start -> create -> chime -> allocate",
 )
 """With a block of a package that `installed` pretends to be."""
-
-MISSIONS = """
-[[mission]]
-name = "North"
-  [[mission.trip]]
-  action = "take_photo"
-  target = [2, 3]
-"""
-
-
-@dataclass(frozen=True, slots=True)
-class Said:
-    """What a command ended with, and what it printed."""
-
-    code: int
-    out: str
-    err: str
-
-
-Call = Callable[..., Said]
-
-
-@pytest.fixture
-def plutoc(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Call:
-    """Call the command line in this process."""
-    for name in ("NO_COLOR", "FORCE_COLOR", "PLUTO_DEBUG"):
-        monkeypatch.delenv(name, raising=False)
-
-    def call(*arguments: str | Path) -> Said:
-        capfd.readouterr()
-        code = main([str(argument) for argument in arguments])
-        return Said(code, *capfd.readouterr())
-
-    return call
 
 
 @pytest.fixture
@@ -92,8 +36,8 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def app(here: Path) -> Path:
     """An app with two hooks and a missions file, in a folder that we are in."""
-    (here / "crop.pluto").write_text(APP)
-    (here / "missions.toml").write_text(MISSIONS)
+    for name in ("crop.pluto", "missions.toml"):
+        shutil.copy(CROP / name, here)
     return Path("crop.pluto")
 
 

@@ -1,4 +1,4 @@
-"""`plutoc check --fix`, as a person calls it, and each fix that there is."""
+"""`plutoc check --fix`: what becomes of the file, and each fix that there is."""
 
 from __future__ import annotations
 
@@ -14,63 +14,16 @@ from plutoc.compile import analyse
 from plutoc.diagnostic import Diagnostic, Fix, Rejected, Severity, error
 from plutoc.edits import applied
 from plutoc.source import Source, Span
-from tests.compiler.cli.conftest import APP, Call, tree
+from tests.compiler.cli.conftest import APP, tree
+from tests.kit.command import plutoc
 from tests.test_cases import FOLDERS, diagnostics_of, read
 
 SPARE = APP.replace("when COMPLETED", "when COMPLETED, COMPLETED").replace(
     "can take_photo", "can measure, measure, take_photo"
 )
-MISTAKE = SPARE.replace("find_blooms)", "find_bloom)")
 
 
-def test_what_is_certain_is_mended_and_the_rest_is_reported(plutoc: Call, app: Path) -> None:
-    """What was done stands on standard output, what is left on standard error."""
-    app.write_text(MISTAKE)
-    said = plutoc("check", app, "--fix")
-    assert said.code == 1
-    assert said.out == "crop.pluto: fixed 2 of 3: P1025 in line 4, P1025 in line 19\n"
-    assert "error[P1022]" in said.err and "P1025" not in said.err
-    assert app.read_text() == APP.replace("find_blooms)", "find_bloom)").replace(
-        "can take_photo", "can measure, take_photo"
-    )
-
-
-def test_the_exit_code_is_that_of_what_is_left(plutoc: Call, app: Path) -> None:
-    """Nothing is left: 0; and a second time there is nothing to do."""
-    app.write_text(SPARE)
-    said = plutoc("check", app, "--fix")
-    assert (said.code, said.err) == (0, "")
-    assert said.out.splitlines() == [
-        "crop.pluto: fixed 2 of 2: P1025 in line 4, P1025 in line 19",
-        "crop.pluto: no errors, in all 15 states of a mission",
-    ]
-    written = app.stat().st_mtime_ns
-    assert (
-        plutoc("check", app, "--fix").out
-        == "crop.pluto: no errors, in all 15 states of a mission\n"
-    )
-    assert app.stat().st_mtime_ns == written
-
-
-def test_without_fix_nothing_is_written(plutoc: Call, app: Path, here: Path) -> None:
-    """However certain it is."""
-    app.write_text(SPARE)
-    before = tree(here)
-    assert plutoc("check", app).code == 0
-    assert tree(here) == before
-
-
-@pytest.mark.parametrize("name", ["json", "github", "sarif"])
-def test_programs_get_what_is_left_and_nothing_else(plutoc: Call, app: Path, name: str) -> None:
-    """What was done is told on standard error."""
-    app.write_text(MISTAKE)
-    said = plutoc("check", app, "--fix", "--format", name)
-    assert said.code == 1
-    assert said.err.startswith("crop.pluto: fixed 2 of 3: ")
-    assert "P1025" not in said.out and "P1022" in said.out
-
-
-def test_line_ends_marks_and_permissions_stay(plutoc: Call, app: Path) -> None:
+def test_line_ends_marks_and_permissions_stay(app: Path) -> None:
     """Only what is mended changes; a new line ends as the others do."""
     text = "\ufeff" + SPARE.removeprefix("pluto 1\n")
     app.write_bytes(text.replace("\n", "\r\n").encode())
@@ -84,7 +37,7 @@ def test_line_ends_marks_and_permissions_stay(plutoc: Call, app: Path) -> None:
     assert app.stat().st_mode & 0o777 == 0o640
 
 
-def test_a_link_stays_and_what_it_leads_to_is_mended(plutoc: Call, app: Path) -> None:
+def test_a_link_stays_and_what_it_leads_to_is_mended(app: Path) -> None:
     """As an editor would do it."""
     app.write_text(SPARE)
     Path("link.pluto").symlink_to(app)
@@ -93,22 +46,8 @@ def test_a_link_stays_and_what_it_leads_to_is_mended(plutoc: Call, app: Path) ->
     assert "measure, measure" not in app.read_text()
 
 
-@pytest.mark.parametrize("name", ["text", "json", "github", "sarif"])
-def test_a_file_that_cannot_be_written_ends_with_2(plutoc: Call, app: Path, name: str) -> None:
-    """It stays as it was; it and the other files are checked all the same."""
-    app.write_text(SPARE)
-    app.chmod(0o444)
-    Path("other.pluto").write_text(SPARE.replace("app crop", "app other"))
-    said = plutoc("check", app, "other.pluto", "--fix", "--format", name)
-    assert said.code == 2
-    assert "plutoc: crop.pluto is read-only and was not changed\n" in said.err
-    assert "P1025" in said.out + said.err
-    assert app.read_text() == SPARE
-    assert "measure, measure" not in Path("other.pluto").read_text()
-
-
 def test_a_full_disk_leaves_the_source_as_it_was(
-    plutoc: Call, app: Path, here: Path, monkeypatch: pytest.MonkeyPatch
+    app: Path, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Nothing of what was begun is left beside it."""
     app.write_text(SPARE)
@@ -122,18 +61,6 @@ def test_a_full_disk_leaves_the_source_as_it_was(
     assert said.code == 2
     assert "No space left on device" in said.err
     assert tree(here) == before
-
-
-def test_hooks_are_never_changed(plutoc: Call, app: Path) -> None:
-    """What is wrong with them is for who wrote them, even where one word would mend it."""
-    app.write_text(SPARE)
-    hooks = "async def rinse(): ...\nasync def pollinate(): rinse()\n"
-    Path("hooks.py").write_text(hooks)
-    said = plutoc("check", app, "--fix")
-    assert said.code == 1
-    assert "P3003" in said.err
-    assert "P3018" in said.err
-    assert Path("hooks.py").read_text() == hooks
 
 
 def test_a_fix_that_brings_an_error_is_not_made() -> None:
@@ -210,25 +137,3 @@ def test_there_are_fixes() -> None:
     every = (found for folder in FOLDERS for found in diagnostics_of(*_sources(folder)))
     codes = {found.code for found in every if found.fix}
     assert {"P0009", "P0016", "P1025", "P1035", "P2052", "P2053"} <= codes
-
-
-def test_a_status_that_only_a_stopped_mission_has_is_needed(plutoc: Call, app: Path) -> None:
-    """It goes on STANDBY where it is given a drone anew, though no other mission comes there so."""
-    text = """pluto 1
-app crop "Crop" {
-  modifier over emits FAILED
-  create = MissionCreator
-  allocate = DroneAllocator
-  launch = TripLauncher
-  watch = TripMonitor
-  note = MissionModifier(hook: over)
-  start -> create -> allocate
-  allocate -> launch when UNEXECUTED, STANDBY
-  launch -> watch -> note when STANDBY
-  watch -> end
-  note -> end
-}
-"""
-    app.write_text(text)
-    assert plutoc("check", app, "--fix").code == 0
-    assert app.read_text() == text

@@ -1,72 +1,71 @@
-"""Two branches that both compiled, merged by Git: who has merged the app has only to compile."""
+"""Two branches that both compiled, merged: who has merged the app has only to compile."""
 
 from __future__ import annotations
 
-import subprocess
-from collections.abc import Callable
+from difflib import SequenceMatcher
 from pathlib import Path
 
 import pytest
 
-from tests.compiler.cli.conftest import APP, Call, tree
+from tests.compiler.cli.conftest import APP, tree
+from tests.kit.command import command, plutoc
 
 FLOW, LOCK = Path("crop/src/crop/flow.py"), Path("crop/pluto.lock")
+Edit = tuple[str, str]
 OURS = ("max_attempts: 3", "max_attempts: 5")
 THEIRS = ("dose: mass = 50 mg", "dose: mass = 70 mg")
 NEAR = ("max_attempts: 3", "max_attempts: 9")
 """In the same line as `OURS`: so in the app itself both sides collide."""
 MORE = ("  start -> create -> allocate", "  rest = Clock\n\n  start -> create -> rest -> allocate")
-AS_TEXT = "* merge\n"
-"""Attributes with which Git merges every file line by line, as in packages of before."""
-
-Merge = Callable[..., None]
-
-
-def git(*arguments: str, code: int = 0) -> str:
-    """Run a command of Git; an author is needed, and nothing of the user's own settings."""
-    settings = ("user.name=a", "user.email=a@b", "core.autocrlf=false", "commit.gpgsign=false")
-    given = [part for setting in settings for part in ("-c", setting)]
-    done = subprocess.run(["git", *given, *arguments], capture_output=True, text=True, check=False)
-    assert done.returncode == code, done.stdout + done.stderr
-    return done.stdout
+EACH_MERGE = pytest.mark.parametrize(
+    ("ours", "theirs"), [(OURS, THEIRS), (OURS, NEAR), (THEIRS, MORE)], ids=["far", "near", "graph"]
+)
 
 
-def changed(text: str, *edits: tuple[str, str]) -> str:
-    """Return a text with some words in place of others."""
+def changed(*edits: Edit) -> str:
+    """Return the app with some words in place of others."""
+    text = APP
     for old, new in edits:
         assert old in text
         text = text.replace(old, new)
     return text
 
 
-@pytest.fixture
-def merge(plutoc: Call, app: Path) -> Merge:
-    """Compile an app on two branches, merge them, and merge the app by hand."""
-
-    def merge(
-        ours: tuple[str, str], theirs: tuple[str, str], *, style: str = "merge", info: str = ""
-    ) -> None:
-        git("init", "-q", "-b", "main")
-        git("config", "merge.conflictStyle", style)
-        Path(".git/info").mkdir(exist_ok=True)
-        Path(".git/info/attributes").write_text(info)
-        assert plutoc("compile", app).code == 0
-        git("add", "-A")
-        git("commit", "-qm", "base")
-        for branch, edit in (("theirs", theirs), ("ours", ours)):
-            git("checkout", "-q", "-b", branch, "main")
-            app.write_text(changed(APP, edit))
-            assert plutoc("compile", app).code == 0
-            git("commit", "-qam", branch)
-        git("merge", "theirs", code=1)
-        assert "<<<<<<< " in LOCK.read_text()
-        both = (ours, theirs) if ours[0] != theirs[0] else (ours,)
-        app.write_text(changed(APP, *both))
-
-    return merge
+def conflict(base: list[str], ours: list[str], theirs: list[str], style: str) -> str:
+    """Return the lines of two sides with the marks of Git around those that differ."""
+    middle = ["||||||| base\n", *base] if style == "diff3" else []
+    merged: list[str] = []
+    for what, a, b, c, d in SequenceMatcher(None, ours, theirs, autojunk=False).get_opcodes():
+        if what == "equal":
+            merged += ours[a:b]
+        else:
+            side = [*middle, "=======\n", *theirs[c:d], ">>>>>>> theirs\n"]
+            merged += ["<<<<<<< HEAD\n", *ours[a:b], *side]
+    return "".join(merged)
 
 
-def assert_is_as_new(plutoc: Call, app: Path) -> None:
+def merge(
+    app: Path, ours: Edit, theirs: Edit, style: str = "merge", alone: Path | None = None
+) -> None:
+    """Compile an app on two branches, merge its package line by line, and the app by hand.
+
+    The file `alone` is left as it is on our side.
+    """
+    for name, edits in (("base", ()), ("theirs", (theirs,)), ("crop", (ours,))):
+        app.write_text(changed(*edits))
+        assert plutoc("compile", app, "-o", name).code == 0
+    sides = [tree(Path(name)) for name in ("base", "crop", "theirs")]
+    for name in sides[1].keys() & sides[2].keys():
+        texts = [side.get(name, b"").decode().splitlines(keepends=True) for side in sides]
+        if texts[1] != texts[2] and Path("crop", name) != alone:
+            Path("crop", name).write_text(conflict(*texts, style))
+    for name in sides[2].keys() - sides[1].keys():
+        Path("crop", name).write_bytes(sides[2][name])
+    assert "<<<<<<< " in LOCK.read_text() or alone == LOCK
+    app.write_text(changed(*((ours, theirs) if ours[0] != theirs[0] else (ours,))))
+
+
+def assert_is_as_new(app: Path) -> None:
     """Compare the package with one that is compiled anew, but for what is the developer's."""
     assert plutoc("compile", app, "-o", "fresh").code == 0
     found, wanted = tree(Path("crop")), tree(Path("fresh"))
@@ -75,22 +74,11 @@ def assert_is_as_new(plutoc: Call, app: Path) -> None:
     assert found == wanted
 
 
-@pytest.mark.parametrize("style", ["merge", "diff3", "zdiff3"])
-@pytest.mark.parametrize("info", ["", AS_TEXT], ids=["our attributes", "as text"])
-@pytest.mark.parametrize(
-    ("ours", "theirs"), [(OURS, THEIRS), (OURS, NEAR), (THEIRS, MORE)], ids=["far", "near", "graph"]
-)
-def test_compile_settles_a_merge(
-    plutoc: Call,
-    app: Path,
-    merge: Merge,
-    style: str,
-    info: str,
-    ours: tuple[str, str],
-    theirs: tuple[str, str],
-) -> None:
+@pytest.mark.parametrize("style", ["merge", "diff3"])
+@EACH_MERGE
+def test_compile_settles_a_merge(app: Path, style: str, ours: Edit, theirs: Edit) -> None:
     """Only the app was merged by hand; `--check` says before that it is not done yet."""
-    merge(ours, theirs, style=style, info=info)
+    merge(app, ours, theirs, style)
     before = tree(Path("crop"))
     said = plutoc("compile", app, "--check")
     assert said.code == 1
@@ -101,22 +89,52 @@ def test_compile_settles_a_merge(
     assert (said.code, said.err) == (0, "")
     assert " changed, and a merge is settled\n" in said.out
     assert plutoc("compile", app, "--check").code == 0
-    assert_is_as_new(plutoc, app)
+    assert_is_as_new(app)
 
 
-def test_a_merge_of_lines_mixes_no_generated_file(app: Path, merge: Merge) -> None:
-    """What was changed on both sides is left as ours, and Git says so: no attribute is set up."""
-    merge(OURS, THEIRS)
-    assert git("diff", "--name-only", "--diff-filter=U").split() == [str(LOCK), str(FLOW)]
-    assert FLOW.read_text() == git("show", f"ours:{FLOW}")
+def git(*words: str, code: int = 0) -> str:
+    """Run a command of Git; an author is needed, and nothing of the user's own settings."""
+    settings = ("user.name=a", "user.email=a@b", "core.autocrlf=false", "commit.gpgsign=false")
+    done = command("git", *(part for one in settings for part in ("-c", one)), *words)
+    assert done.code == code, done.out + done.err
+    return done.out
 
 
-def test_every_file_that_hangs_on_the_graph_is_kept_from_being_mixed(
-    plutoc: Call, app: Path
+@pytest.mark.long
+@pytest.mark.process
+@pytest.mark.parametrize("style", ["merge", "diff3", "zdiff3"])
+@pytest.mark.parametrize("info", ["", "* merge\n"], ids=["our attributes", "as text"])
+@EACH_MERGE
+def test_what_git_merges_is_settled(
+    app: Path, style: str, info: str, ours: Edit, theirs: Edit
 ) -> None:
+    """By our attributes, which keep it from mixing generated files, and by others."""
+    git("init", "-q", "-b", "main")
+    git("config", "merge.conflictStyle", style)
+    Path(".git/info").mkdir(exist_ok=True)
+    Path(".git/info/attributes").write_text(info)
+    assert plutoc("compile", app).code == 0
+    git("add", "-A")
+    git("commit", "-qm", "base")
+    for branch, edit in (("theirs", theirs), ("ours", ours)):
+        git("checkout", "-q", "-b", branch, "main")
+        app.write_text(changed(edit))
+        assert plutoc("compile", app).code == 0
+        git("commit", "-qam", branch)
+    git("merge", "theirs", code=1)
+    if not info:
+        assert FLOW.read_text() == git("show", f"ours:{FLOW}")
+    app.write_text(changed(*((ours, theirs) if ours[0] != theirs[0] else (ours,))))
+    assert plutoc("compile", app).code == 0
+    assert_is_as_new(app)
+
+
+@pytest.mark.long
+@pytest.mark.process
+def test_every_file_that_hangs_on_the_graph_is_kept_from_being_mixed(app: Path) -> None:
     """But for the lock, whose two sides are needed, and for what is the developer's own."""
     plutoc("compile", app)
-    app.write_text(changed(APP, OURS, THEIRS, MORE, ("Crop watch", "Crops")))
+    app.write_text(changed(OURS, THEIRS, MORE, ("Crop watch", "Crops")))
     plutoc("compile", app, "-o", "other")
     git("init", "-q", "crop")
     first, second = tree(Path("crop")), tree(Path("other"))
@@ -133,12 +151,9 @@ def test_every_file_that_hangs_on_the_graph_is_kept_from_being_mixed(
     assert "src/crop/flow.py" in paths
 
 
-@pytest.mark.parametrize("info", ["", AS_TEXT], ids=["our attributes", "as text"])
-def test_an_edit_by_hand_is_not_lost_in_a_merge(
-    plutoc: Call, app: Path, merge: Merge, info: str
-) -> None:
+def test_an_edit_by_hand_is_not_lost_in_a_merge(app: Path) -> None:
     """Neither outside of the marks, nor in one of the sides, nor in a file without any."""
-    merge(OURS, NEAR, info=info)
+    merge(app, OURS, NEAR)
     for path in (FLOW, Path("crop/README.md")):
         whole = path.read_text()
         path.write_text(whole + "# mine\n")
@@ -152,37 +167,28 @@ def test_an_edit_by_hand_is_not_lost_in_a_merge(
     assert plutoc("compile", app).code == 0
 
 
-def test_a_lock_of_one_side_only_is_told_how_to_get_both(
-    plutoc: Call, app: Path, merge: Merge
-) -> None:
-    """The marks in the file are pointed at; what the message says does help."""
-    merge(OURS, NEAR, info=AS_TEXT)
-    git("checkout", "--ours", str(LOCK))
-    git("add", str(LOCK))
+def test_a_lock_of_one_side_only_is_told_how_to_get_both(app: Path) -> None:
+    """The marks in the file are pointed at."""
+    merge(app, OURS, NEAR, alone=LOCK)
     said = plutoc("compile", app)
     assert said.code == 3
     assert "[P4001]: `crop/src/crop/flow.py` has the marks of a merge in it" in said.err
     assert "<<<<<<< HEAD" in said.err
     assert "`git checkout --merge crop/pluto.lock` brings both sides" in said.err
-    git("checkout", "--merge", str(LOCK))
-    assert plutoc("compile", app).code == 0
-    assert_is_as_new(plutoc, app)
 
 
-def test_a_lock_with_the_lines_of_both_sides_is_read_as_both(
-    plutoc: Call, app: Path, merge: Merge
-) -> None:
+def test_a_lock_with_the_lines_of_both_sides_is_read_as_both(app: Path) -> None:
     """Only the marks were taken out, as Git does by itself where it is told `merge=union`."""
-    merge(OURS, NEAR, info=AS_TEXT)
+    merge(app, OURS, NEAR)
     lines = LOCK.read_text().splitlines(keepends=True)
     marks = ("<<<<<<<", "=======", ">>>>>>>")
     LOCK.write_text("".join(line for line in lines if not line.startswith(marks)))
     assert plutoc("compile", app, "--check").code == 1
     assert plutoc("compile", app).code == 0
-    assert_is_as_new(plutoc, app)
+    assert_is_as_new(app)
 
 
-def test_marks_in_a_file_are_settled_where_the_lock_is_whole(plutoc: Call, app: Path) -> None:
+def test_marks_in_a_file_are_settled_where_the_lock_is_whole(app: Path) -> None:
     """Both sides of it are one text that was written, as where two branches say the same."""
     plutoc("compile", app)
     text = FLOW.read_text()
@@ -193,7 +199,7 @@ def test_marks_in_a_file_are_settled_where_the_lock_is_whole(plutoc: Call, app: 
     assert FLOW.read_text() == text
 
 
-def test_a_file_that_only_one_side_has_is_ours(plutoc: Call, app: Path) -> None:
+def test_a_file_that_only_one_side_has_is_ours(app: Path) -> None:
     """It goes where the merged app does not need it."""
     plutoc("compile", app)
     module = Path("crop/src/crop/_runtime/blocks/priority_manager.py")
@@ -203,4 +209,4 @@ def test_a_file_that_only_one_side_has_is_ours(plutoc: Call, app: Path) -> None:
     app.write_text("".join(line for line in APP.splitlines(True) if "retry" not in line))
     assert plutoc("compile", app).code == 0
     assert not module.exists()
-    assert_is_as_new(plutoc, app)
+    assert_is_as_new(app)

@@ -9,56 +9,57 @@ from pathlib import Path
 
 import pytest
 
-from plutoc.cli import main
 from tests.kit.apps import EXAMPLES
+from tests.kit.command import plutoc
 
-Said = pytest.CaptureFixture[str]
-
-
-@pytest.fixture
-def app(tmp_path: Path) -> Path:
-    """An example with hooks, in a folder of its own, and without missions of its own."""
-    folder = tmp_path / "alfalfa"
-    shutil.copytree(EXAMPLES / "alfalfa", folder, ignore=shutil.ignore_patterns("missions.toml"))
-    return folder / "app.pluto"
+pytestmark = pytest.mark.process
 
 
 @pytest.fixture
-def broken(app: Path) -> Path:
-    """The same app, whose evaluator does not expect what its own action gives."""
-    hooks = app.with_name("hooks.py")
+def app(here: Path) -> Path:
+    """An example with hooks, in a folder that we are in, and without missions of its own."""
+    without = shutil.ignore_patterns("missions.toml")
+    shutil.copytree(EXAMPLES / "alfalfa", here, ignore=without, dirs_exist_ok=True)
+    return Path("app.pluto")
+
+
+def edit(old: str, new: str) -> None:
+    """Change the app's hooks."""
+    hooks = Path("hooks.py")
     text = hooks.read_text(encoding="utf-8")
-    guard = "if not isinstance(result.value, Photo):"
-    assert guard in text
-    hooks.write_text(text.replace(guard, "if result.value.sees is None:"), encoding="utf-8")
-    return app
+    assert old in text
+    hooks.write_text(text.replace(old, new), encoding="utf-8")
 
 
-def test_a_sound_app_is_sound(capfd: Said) -> None:
+def broken() -> None:
+    """Let the evaluator not expect what the app's own action gives."""
+    edit("if not isinstance(result.value, Photo):", "if result.value.sees is None:")
+
+
+@pytest.mark.long
+def test_a_sound_app_is_sound() -> None:
     """It says how often what has struck, and what came of all runs."""
     app = EXAMPLES / "drugs_distribution" / "app.pluto"  # a fourth of the runs that others need
-    assert main(["test", str(app), "--seeds", "1"]) == 0
-    out = capfd.readouterr().out
+    said = plutoc("test", app, "--seeds", "1")
     died = (
         r"the app died before it had written down what it was about to do +\d+  --strike crash-lost"
     )
-    assert re.search(rf"^{died}$", out, re.MULTILINE)
-    assert re.search(r"^\d+ missions ended: \d+ were completed", out, re.MULTILINE)
-    assert out.endswith("No run did what no run may do.\n")
+    assert said.code == 0
+    assert re.search(rf"^{died}$", said.out, re.MULTILINE)
+    assert re.search(r"^\d+ missions ended: \d+ were completed", said.out, re.MULTILINE)
+    assert said.out.endswith("No run did what no run may do.\n")
 
 
-def test_a_mistake_in_a_hook_is_found_and_shown_small(
-    broken: Path, capfd: Said, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_mistake_in_a_hook_is_found_and_shown_small(app: Path) -> None:
     """With the files and the command that show it again; they do."""
-    monkeypatch.chdir(broken.parent)
-    assert main(["test", "app.pluto", "--seeds", "3"]) == 1
-    out = capfd.readouterr().out
+    broken()
+    said = plutoc("test", "app.pluto", "--seeds", "3")
+    assert said.code == 1
     sentence = "hook find_blooms raised AttributeError: 'float' object has no attribute 'sees'"
-    first, small = out.split("The smallest case that shows the same:")
+    first, small = said.out.split("The smallest case that shows the same:")
     assert sentence in first.partition("What was found first:")[2]
     assert sentence in small
-    files, _, command = out.partition("# failing.toml\n")[2].partition("\nSave that")
+    files, _, command = said.out.partition("# failing.toml\n")[2].partition("\nSave that")
     missions, fleet = files.split("# failing-fleet.toml\n")
     assert missions.count("[[mission.trip]]") == 1
     assert fleet.count("[[drone]]") == 1
@@ -68,95 +69,62 @@ def test_a_mistake_in_a_hook_is_found_and_shown_small(
     found = re.findall(r"^  (plutoc test .*)$", first, re.MULTILINE)[0].split()
     for one in (words, found):
         assert one[:2] == ["plutoc", "test"]
-        assert main(one[1:]) == 1
-        again = capfd.readouterr().out
-        assert "trip" in again and " launched" in again
-        assert sentence in again
+        again = plutoc(*one[1:])
+        assert again.code == 1
+        assert "trip" in again.out and " launched" in again.out
+        assert sentence in again.out
 
 
-def test_a_hook_that_raises_keyboard_interrupt_interrupts_nothing(app: Path, capfd: Said) -> None:
+@pytest.mark.long
+def test_a_hook_that_raises_keyboard_interrupt_interrupts_nothing(app: Path) -> None:
     """It is found as anything else that a hook raises: only a person interrupts."""
-    hooks = app.with_name("hooks.py")
-    text = hooks.read_text(encoding="utf-8")
     begins = "    for result in results.new:"
-    assert begins in text
-    hooks.write_text(
-        text.replace(begins, f"    raise KeyboardInterrupt\n{begins}"), encoding="utf-8"
-    )
-    assert main(["test", str(app), "--seeds", "1"]) == 1
-    said = capfd.readouterr()
+    edit(begins, f"    raise KeyboardInterrupt\n{begins}")
+    said = plutoc("test", app, "--seeds", "1")
+    assert said.code == 1
     assert "it may not raise KeyboardInterrupt" in said.out
     assert "interrupted" not in said.err
 
 
-def test_a_case_is_said_to_show_it_only_if_its_command_does(app: Path, capfd: Said) -> None:
+@pytest.mark.long
+def test_a_case_is_said_to_show_it_only_if_its_command_does(app: Path) -> None:
     """What hooks.py keeps from run to run is not there when the command is typed."""
-    hooks = app.with_name("hooks.py")
-    text = hooks.read_text(encoding="utf-8")
     begins = "    done = {result.trip.target"
-    assert begins in text
     counted = (
-        "    CALLS.append(1)\n    if len(CALLS) > 30:\n        raise LookupError('too many')\n"
+        "    global CALLS\n    CALLS += 1\n    if CALLS > 30:\n        raise LookupError('many')\n"
     )
-    text = text.replace(begins, counted + begins)
-    hooks.write_text(text + "\n\nCALLS = []\n", encoding="utf-8")
-    assert main(["test", str(app), "--seeds", "1"]) == 1
-    out = capfd.readouterr().out
-    assert "LookupError: too many" in out.partition("What was found first:")[2]
-    assert "flown once more by itself, the case did not show it" in out
-    assert "The smallest case" not in out
+    edit(begins, counted + begins)
+    edit(
+        "from __future__ import annotations\n", "from __future__ import annotations\n\nCALLS = 0\n"
+    )
+    said = plutoc("test", app, "--seeds", "1")
+    assert said.code == 1
+    assert "LookupError: many" in said.out.partition("What was found first:")[2]
+    assert "flown once more by itself, the case did not show it" in said.out
+    assert "The smallest case" not in said.out
 
 
-def test_a_program_gets_one_object(broken: Path, capfd: Said) -> None:
+@pytest.mark.long
+def test_a_program_gets_one_object(app: Path) -> None:
     """With every finding, and the smallest case as text."""
-    assert main(["test", str(broken), "--seeds", "1", "--json"]) == 1
-    data = json.loads(capfd.readouterr().out)
-    assert list(data) == [
-        "app",
-        "runs",
-        "lives",
-        "rows",
-        "missions",
-        "struck",
-        "findings",
-        "smallest",
-    ]
+    broken()
+    said = plutoc("test", app, "--seeds", "1", "--json")
+    data = json.loads(said.out)
+    assert said.code == 1
+    keys = "app runs lives rows missions struck findings smallest"
+    assert list(data) == keys.split()
     assert data["findings"][0]["seed"] == 0
     assert list(data["findings"][0]) == ["seed", "what", "strike", "weather"]
     assert list(data["smallest"]) == ["what", "seed", "strike", "weather", "missions", "fleet"]
 
 
-def test_its_own_missions_are_tried_when_asked_for(app: Path, capfd: Said) -> None:
+@pytest.mark.long
+def test_its_own_missions_are_tried_when_asked_for(app: Path) -> None:
     """What would repeat for ever repeats once."""
-    missions = app.with_name("mine.toml")
-    missions.write_text(
-        "[[mission]]\nrepeat = true\n[[mission.trip]]\n" 'action = "take_photo"\ntarget = [3, 3]\n'
+    Path("mine.toml").write_text(
+        '[[mission]]\nrepeat = true\n[[mission.trip]]\naction = "take_photo"\ntarget = [3, 3]\n'
     )
-    code = main(["test", str(app), "--missions", str(missions), "--seeds", "1", "--json"])
-    data = json.loads(capfd.readouterr().out)
-    assert (code, data["findings"]) == (0, [])
+    said = plutoc("test", app, "--missions", "mine.toml", "--seeds", "1", "--json")
+    data = json.loads(said.out)
+    assert (said.code, data["findings"]) == (0, [])
     assert data["missions"]["COMPLETED"] > 20
-
-
-@pytest.mark.parametrize(
-    ("words", "why"),
-    [
-        (["--strike", "fire@3"], "fire is nothing that can strike"),
-        (["--weather", "rain=1"], "rain is no weather"),
-        (["--seeds", "0"], "less than 1"),
-        (["--missions", "none.toml"], "there is no such file"),
-    ],
-)
-def test_what_cannot_be_tried_is_exit_2(app: Path, capfd: Said, words: list[str], why: str) -> None:
-    """And says why."""
-    assert main(["test", str(app), *words]) == 2
-    said = capfd.readouterr().err
-    assert why in said
-    assert "--file" not in said  # which is only between plutoc and the package
-
-
-def test_a_broken_source_is_exit_1(app: Path, capfd: Said) -> None:
-    """As with every command; nothing is tried."""
-    app.write_text("pluto 1\napp x {\n", encoding="utf-8")
-    assert main(["test", str(app)]) == 1
-    assert "error" in capfd.readouterr().err

@@ -1,13 +1,13 @@
-"""An app with a block of another package that cannot be copied into its package."""
+"""Blocks of another package: what is wrong with them is told with its name, and never in silence."""
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
 
-from tests.compiler.cli.conftest import FIELD_APP, Call, tree
+from tests.compiler.cli.conftest import FIELD_APP, declare, tree
+from tests.kit.command import plutoc
 
 STEP_BESIDE = """
 from plutoc.block import ANY_SAME, Block
@@ -17,7 +17,7 @@ BLOCKS = [Block(name="Chime", doc="Chimes.", step=chime, transitions=ANY_SAME)]
 
 
 def test_a_block_that_cannot_be_carried_along_ends_with_1(
-    plutoc: Call, app: Path, here: Path, installed: Path
+    app: Path, here: Path, installed: Path
 ) -> None:
     """The report says where in that package, and what to change. Nothing is written."""
     module = installed / "field_kit.py"
@@ -93,20 +93,19 @@ BLOCKS = [Block(**{{"name": "Chime", "doc": "Chimes.", "step": chime, "transitio
     ],
 )  # fmt: skip
 def test_a_block_is_declared_as_blocks_are(
-    fact: str, says: str, plutoc: Call, app: Path, here: Path, installed: Path
+    fact: str, says: str, app: Path, here: Path, installed: Path
 ) -> None:
     """What is not is told with the package and the block; and no word of it commands a terminal."""
     (installed / "field_kit.py").write_text(DECLARED.format(fact))
     app.write_text(FIELD_APP)
-    for command in ("check", "compile"):
-        said = plutoc(command, app)
-        assert said.code == 1
-        assert says in said.err
-        assert "field_kit" in said.err
-        assert all(char.isprintable() or char == "\n" for char in said.err + said.out)
+    said = plutoc("check", app)
+    assert said.code == 1
+    assert says in said.err
+    assert "field_kit" in said.err
+    assert all(char.isprintable() or char == "\n" for char in said.err + said.out)
 
 
-def test_a_block_that_was_never_made_is_none(plutoc: Call, app: Path, installed: Path) -> None:
+def test_a_block_that_was_never_made_is_none(app: Path, installed: Path) -> None:
     """It has not even a name."""
     (installed / "field_kit.py").write_text(
         "from plutoc.block import Block\nBLOCKS = [object.__new__(Block)]\n"
@@ -117,24 +116,99 @@ def test_a_block_that_was_never_made_is_none(plutoc: Call, app: Path, installed:
     assert "one of its blocks of field_kit is not declared as a block is" in said.err
 
 
-@pytest.mark.parametrize("name", ["a" * 300, "/".join(["a" * 300] * 20), "in/" + "b" * 300])
-def test_a_place_that_cannot_be_is_told_in_a_sentence(name: str, plutoc: Call, app: Path) -> None:
-    said = plutoc("compile", app, "-o", name)
-    assert said.code == 2
-    assert "File name too long" in said.err
-    assert not Path("in").exists()
+SIMPLE = "def chime(run, status):\n    {}\n"
 
 
-def test_a_pipe_in_the_place_of_the_hooks_is_not_waited_for(
-    plutoc: Call, app: Path, here: Path
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import sys; sys.exit(0)",
+        "import os; os._exit(0)",
+        "raise GeneratorExit",
+        "raise KeyboardInterrupt",
+        "class Odd(BaseException): pass\nraise Odd('gone')",
+        "def blocks():\n    raise SystemExit(0)\n    yield\nBLOCKS = blocks()",
+    ],
+)
+def test_a_package_that_ends_python_as_it_is_imported_is_named(
+    app: Path, here: Path, installed: Path, code: str
 ) -> None:
-    """Nor taken for nothing, as a folder is not."""
-    hooks = app.parent / "hooks.py"
-    hooks.unlink(missing_ok=True)
-    for make, what in ((os.mkfifo, "a pipe, a socket or a device"), (os.mkdir, "a folder")):
-        make(hooks)
-        for command, code in (("check", 1), ("compile", 3)):
-            said = plutoc(command, app)
-            assert said.code == code
-            assert f"`hooks.py` is {what}" in said.err
-        (hooks.rmdir if hooks.is_dir() else hooks.unlink)()
+    """`sys.exit(0)` would pass for a compile that went well, and there would be no package."""
+    (installed / "field_kit.py").write_text(code)
+    app.write_text(FIELD_APP)
+    said = plutoc("compile", app)
+    assert said.code == 1
+    assert "the blocks of field_kit cannot be loaded from field_kit:BLOCKS" in said.err
+    assert not (here / "crop").exists()
+
+
+@pytest.mark.long
+@pytest.mark.process
+@pytest.mark.parametrize(
+    "error",
+    [
+        "SystemExit(0)",
+        "GeneratorExit()",
+        "__import__('asyncio').CancelledError()",
+        "__import__('os')._exit(0)",
+    ],
+)
+def test_a_step_that_ends_python_is_its_blocks_fault(
+    app: Path, installed: Path, error: str
+) -> None:
+    """The simulation does not end as if all were well, or by a traceback."""
+    declare(installed, SIMPLE.format(f"raise {error}"))
+    app.write_text(FIELD_APP)
+    said = plutoc("run", app)
+    assert said.code == 70
+    assert "in block chime = field_kit.Chime" in said.err
+    assert "Traceback" not in said.err
+
+
+@pytest.mark.long
+@pytest.mark.process
+@pytest.mark.parametrize(
+    ("gives", "what"),
+    [
+        ("Status.COMPLETED", "gave COMPLETED, and it declares UNEXECUTED"),
+        ("Status.PAUSED", "gave PAUSED, and it declares UNEXECUTED"),
+        ("'UNEXECUTED'", "gave a str, and it declares UNEXECUTED"),
+        ("None", "gave a NoneType, and it declares UNEXECUTED"),
+    ],
+)
+def test_a_step_that_gives_what_it_does_not_declare_fails_its_mission(
+    app: Path, installed: Path, gives: str, what: str
+) -> None:
+    """All that was checked of the graph rests on the declaration: the mission goes no further."""
+    step = f"from plutoc_runtime.domain.status import Status\n{SIMPLE.format(f'return {gives}')}"
+    declare(installed, step)
+    app.write_text(FIELD_APP)
+    said = plutoc("run", app)
+    assert said.code == 1
+    assert f"North: FAILED: block chime {what}\n" in said.out
+
+
+def test_a_step_is_asked_by_the_status_that_came(app: Path, installed: Path) -> None:
+    """STANDBY and FAILED may both come and both be given; but not the one for the other."""
+    step = """
+from plutoc_runtime.domain.status import Status
+
+async def chime(run, status):
+    if status is Status.FAILED:
+        return Status.STANDBY
+    return status
+"""
+    declare(installed, step)
+    app.write_text(
+        FIELD_APP.replace("create -> chime -> allocate", "create -> allocate")
+        .replace("watch -> allocate when STANDBY", "watch -> chime when STANDBY")
+        .replace("watch -> retry when FAILED", "watch -> chime when FAILED")
+        .replace(
+            "retry -> allocate when STANDBY",
+            "chime -> allocate when STANDBY\n  chime -> retry when FAILED\n"
+            "  retry -> allocate when STANDBY",
+        )
+    )
+    assert plutoc("compile", app).code == 0
+    flow = Path("crop/src/crop/flow.py").read_text()
+    assert "{STANDBY: (STANDBY,), FAILED: (FAILED,)}[status]" in "".join(flow.split("\n"))
