@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -92,7 +93,7 @@ def test_fixes_that_undo_each_other_come_to_an_end() -> None:
 def test_each_fix_mends_what_it_is_for_and_breaks_nothing(folder: Path) -> None:
     """One finding fewer, none more; of a warning, what passes along each edge stays the same."""
     source, hooks = _sources(folder)
-    every = diagnostics_of(source, hooks)
+    every = _found(folder)
     for found in every:
         if found.fix is None:
             continue
@@ -115,6 +116,11 @@ def _sources(folder: Path) -> tuple[Source, Source | None]:
     return source, read(folder / "hooks.py")
 
 
+@cache
+def _found(folder: Path) -> tuple[Diagnostic, ...]:
+    return diagnostics_of(*_sources(folder))
+
+
 def _facts(found: tuple[Diagnostic, ...]) -> Counter[tuple[str, str]]:
     return Counter((d.code, d.message) for d in found)
 
@@ -134,6 +140,6 @@ def _carried(source: Source) -> dict[tuple[str, str], list[str]] | None:
 
 def test_there_are_fixes() -> None:
     """The cases have some of each kind."""
-    every = (found for folder in FOLDERS for found in diagnostics_of(*_sources(folder)))
+    every = (found for folder in FOLDERS for found in _found(folder))
     codes = {found.code for found in every if found.fix}
     assert {"P0009", "P0016", "P1025", "P1035", "P2052", "P2053"} <= codes

@@ -11,15 +11,14 @@ from tests.compiler.cli.conftest import APP, tree
 from tests.kit.command import command, plutoc
 
 FLOW, LOCK = Path("crop/src/crop/flow.py"), Path("crop/pluto.lock")
+OWN = ("src/crop/hooks.py", "tests/test_hooks.py")
+"""What is made once, and the developer's from then on."""
 Edit = tuple[str, str]
 OURS = ("max_attempts: 3", "max_attempts: 5")
 THEIRS = ("dose: mass = 50 mg", "dose: mass = 70 mg")
 NEAR = ("max_attempts: 3", "max_attempts: 9")
 """In the same line as `OURS`: so in the app itself both sides collide."""
 MORE = ("  start -> create -> allocate", "  rest = Clock\n\n  start -> create -> rest -> allocate")
-EACH_MERGE = pytest.mark.parametrize(
-    ("ours", "theirs"), [(OURS, THEIRS), (OURS, NEAR), (THEIRS, MORE)], ids=["far", "near", "graph"]
-)
 
 
 def changed(*edits: Edit) -> str:
@@ -55,6 +54,9 @@ def merge(
         app.write_text(changed(*edits))
         assert plutoc("compile", app, "-o", name).code == 0
     sides = [tree(Path(name)) for name in ("base", "crop", "theirs")]
+    for side in sides:
+        for own in OWN:
+            del side[own]
     for name in sides[1].keys() & sides[2].keys():
         texts = [side.get(name, b"").decode().splitlines(keepends=True) for side in sides]
         if texts[1] != texts[2] and Path("crop", name) != alone:
@@ -69,13 +71,16 @@ def assert_is_as_new(app: Path) -> None:
     """Compare the package with one that is compiled anew, but for what is the developer's."""
     assert plutoc("compile", app, "-o", "fresh").code == 0
     found, wanted = tree(Path("crop")), tree(Path("fresh"))
-    for own in ("src/crop/hooks.py", "tests/test_hooks.py"):
+    for own in OWN:
         assert found.pop(own).startswith(wanted.pop(own).partition(b"\n")[0])
     assert found == wanted
 
 
-@pytest.mark.parametrize("style", ["merge", "diff3"])
-@EACH_MERGE
+@pytest.mark.parametrize(
+    ("style", "ours", "theirs"),
+    [("merge", OURS, THEIRS), ("diff3", OURS, NEAR), ("merge", THEIRS, MORE)],
+    ids=["far", "near", "graph"],
+)
 def test_compile_settles_a_merge(app: Path, style: str, ours: Edit, theirs: Edit) -> None:
     """Only the app was merged by hand; `--check` says before that it is not done yet."""
     merge(app, ours, theirs, style)
@@ -104,7 +109,9 @@ def git(*words: str, code: int = 0) -> str:
 @pytest.mark.process
 @pytest.mark.parametrize("style", ["merge", "diff3", "zdiff3"])
 @pytest.mark.parametrize("info", ["", "* merge\n"], ids=["our attributes", "as text"])
-@EACH_MERGE
+@pytest.mark.parametrize(
+    ("ours", "theirs"), [(OURS, THEIRS), (OURS, NEAR), (THEIRS, MORE)], ids=["far", "near", "graph"]
+)
 def test_what_git_merges_is_settled(
     app: Path, style: str, info: str, ours: Edit, theirs: Edit
 ) -> None:

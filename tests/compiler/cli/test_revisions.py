@@ -85,8 +85,10 @@ def test_what_is_no_version_of_a_file_is_told(repository: Path) -> None:
         said = refused("HEAD", name)
         assert said.startswith(f"plutoc: {name} is outside of the Git repository {repository}")
     for option in ("--output=taken", "-p"):
-        assert refused("--", option, "field").endswith("and no revision begins with `-`\n")
-    assert "no revision of that name" in refused("HEAD; touch taken", "field")
+        assert refused("--", option, "field/crop.pluto").endswith(
+            "and no revision begins with `-`\n"
+        )
+    assert "no revision of that name" in refused("HEAD; touch taken", "field/crop.pluto")
     assert not (repository / "taken").exists()
 
 
