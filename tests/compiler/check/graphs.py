@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import re
+from pathlib import Path
 
 from plutoc.block import IN_GRAPH, Block, HookKind, Param
 from plutoc.check.model import Checked
@@ -17,6 +18,7 @@ from plutoc.graph.model import END, START, Edge, Graph, Hook, Node
 from plutoc.source import Source, Span
 from plutoc_blocks import BLOCKS
 from plutoc_runtime.domain.status import Status
+from tests.kit.sections import given
 
 KINDS: dict[str, Block] = {block.name: block for block in BLOCKS}
 
@@ -37,6 +39,9 @@ GATED = f"""{BASIC}
     first = GateFIFO
     start -> create -> allocate -> launch -> [watch, timer] -> first
 """
+SOUND = given(Path(__file__).parent / "cases/sound.txt")
+"""Graphs that must pass: the thesis's, and shapes that look like mistakes but are none."""
+ALFALFA = SOUND["alfalfa"]
 
 
 def build(text: str, title: str = "") -> Graph:
@@ -99,11 +104,6 @@ def findings(text: str) -> list[Diagnostic]:
         return list(check(build(text))[1])
     except Rejected as rejected:
         return list(rejected.diagnostics)
-
-
-def codes(text: str) -> list[str]:
-    """Return the codes of everything that the checks say, sorted."""
-    return sorted(diagnostic.code for diagnostic in findings(text))
 
 
 def _accepted(nodes: dict[str, Node], name: str) -> frozenset[Status]:

@@ -18,8 +18,7 @@ from plutoc.check.run import check
 from plutoc.diagnostic import Rejected
 from plutoc.graph.model import END, START
 from plutoc_runtime.domain.status import WORST_FIRST, Status
-from tests.compiler.check.graphs import build
-from tests.compiler.check.test_sound_graphs import SOUND
+from tests.compiler.check.graphs import SOUND, build
 
 STEPS = 60
 
@@ -92,7 +91,7 @@ def walk(checked: Checked, seed: int) -> None:
 def test_a_sound_graph_keeps_its_promises(name: str) -> None:
     """Statuses stay on the edges that carry them, and every branch comes to its gate."""
     checked, _ = check(build(SOUND[name]))
-    for seed in range(50):
+    for seed in range(25):
         walk(checked, seed)
 
 
@@ -122,7 +121,7 @@ def edited(draw: st.DrawFn) -> str:
     return "\n".join(lines)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(text=edited(), seed=st.integers(0, 1000))
 def test_an_edited_graph_is_refused_or_keeps_its_promises(text: str, seed: int) -> None:
     """All that the checks let through can be walked; and they say the same each time."""
@@ -138,25 +137,12 @@ def test_an_edited_graph_is_refused_or_keeps_its_promises(text: str, seed: int) 
         walk(checked, seed + step)
 
 
-def row_of_forks(number: int, *, gates: bool) -> str:
-    """Return a graph of so many forks, one behind the other."""
-    lines = ["make = MissionCreator", "start -> make -> m0"]
-    for i in range(number):
-        lines += [f"{letter}{i} = MissionModifier" for letter in "mab"]
-        if gates:
-            lines.append(f"g{i} = GateFunnel")
-        lines.append(f"m{i} -> [a{i}, b{i}] -> {f'g{i} -> ' if gates else ''}m{i + 1}")
-    return "\n".join([*lines, f"m{number} = MissionModifier emits COMPLETED", f"m{number} -> end"])
-
-
-def test_a_long_graph_is_checked_in_one_go() -> None:
-    """A thousand blocks in a row with a fork at every other one: no recursion, no blow-up."""
-    checked, warnings = check(build(row_of_forks(250, gates=True)))
-    assert len(checked.forks) == 250
-    assert warnings == ()
-
-
 def test_forks_without_gates_do_not_blow_up() -> None:
     """Forty forks, one behind the other, none of which closes: two to the forty clones."""
-    with pytest.raises(Rejected):
-        check(build(row_of_forks(40, gates=False)))
+    lines = ["make = MissionCreator", "start -> make -> m0"]
+    for i in range(40):
+        lines += [f"{letter}{i} = MissionModifier" for letter in "mab"]
+        lines.append(f"m{i} -> [a{i}, b{i}] -> m{i + 1}")
+    lines += ["m40 = MissionModifier emits COMPLETED", "m40 -> end"]
+    with pytest.raises(Rejected, match="P2011"):
+        check(build("\n".join(lines)))

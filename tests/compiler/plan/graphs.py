@@ -1,4 +1,4 @@
-"""Graphs for plans: the sound ones of the checks, some with a shape of their own, and random ones.
+"""Graphs for plans: the sound ones of the checks, those of `shapes.txt`, and random ones.
 
 A modifier that emits what it likes makes any shape: `route("a", "STANDBY > b, FAILED > end")`.
 """
@@ -6,11 +6,12 @@ A modifier that emits what it likes makes any shape: `route("a", "STANDBY > b, F
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from hypothesis import strategies as st
 
-from tests.compiler.check.graphs import BASIC
-from tests.compiler.check.test_sound_graphs import SOUND
+from tests.compiler.check.graphs import SOUND
+from tests.kit.sections import given
 
 STATUSES = ("STANDBY", "COMPLETED", "FAILED")
 
@@ -31,119 +32,9 @@ def routes(**ways: str) -> str:
     return "\n".join(["create = MissionCreator", f"start -> create -> {first}", *lines])
 
 
-NESTED_LOOPS = f"""{BASIC}
-    wait = Clock
-    retry = PriorityManager
-    start -> create -> wait -> allocate -> launch -> watch
-    watch -> wait when STANDBY
-    watch -> retry when FAILED
-    retry -> allocate when STANDBY
-    retry -> end otherwise
-    watch -> end when COMPLETED
-"""
-TWO_ENTRIES = routes(
-    a="COMPLETED > b, FAILED > c",
-    b="STANDBY > c, COMPLETED > end",
-    c="STANDBY > b, FAILED > end",
-)
-MAZE = routes(
-    a="STANDBY > b, COMPLETED > c, FAILED > d",
-    b="STANDBY > c, COMPLETED > d, FAILED > e",
-    c="STANDBY > d, COMPLETED > b, FAILED > e",
-    d="STANDBY > e, COMPLETED > c, FAILED > b",
-    e="STANDBY > b, COMPLETED > d, FAILED > end",
-)
-GRAPHS = {
-    **SOUND,
-    "nested loops": NESTED_LOOPS,
-    "a loop with two entries": TWO_ENTRIES,
-    "a maze": MAZE,
-    "loops left to each loop around them": routes(
-        a="STANDBY > b, FAILED > end",
-        b="STANDBY > c, COMPLETED > a",
-        c="STANDBY > d, COMPLETED > b, FAILED > a",
-        d="STANDBY > c, COMPLETED > b, FAILED > a",
-    ),
-    "ways that meet again": routes(
-        a="STANDBY > b, COMPLETED > c, FAILED > end",
-        b="STANDBY > d",
-        c="STANDBY > d",
-        d="COMPLETED > e, FAILED > e, STANDBY > a",
-        e="COMPLETED > end",
-    ),
-    "two meetings, one in an arm": routes(
-        a="STANDBY > b, COMPLETED > c, FAILED > d",
-        b="STANDBY > m",
-        c="STANDBY > m",
-        m="STANDBY > g",
-        d="STANDBY > g",
-        g="COMPLETED > h",
-        h="COMPLETED > end",
-    ),
-    "ways that cross": routes(
-        a="STANDBY > b, COMPLETED > c, FAILED > g",
-        b="STANDBY > e, COMPLETED > g",
-        c="STANDBY > e, COMPLETED > g",
-        e="STANDBY > f",
-        f="STANDBY > g",
-        g="COMPLETED > end",
-    ),
-    "a loop left to both sides": routes(
-        a="STANDBY > b",
-        b="FAILED > b, COMPLETED > a, STANDBY > c",
-        c="STANDBY > a, FAILED > end",
-    ),
-    "a loop left to two places that others come to as well": routes(
-        a="STANDBY > b, FAILED > d",
-        b="FAILED > b, COMPLETED > a, STANDBY > d",
-        d="STANDBY > a, FAILED > end",
-    ),
-    "out of two loops at once": routes(
-        a="STANDBY > b",
-        b="STANDBY > c",
-        c="STANDBY > b, COMPLETED > a, FAILED > tidy",
-        tidy="STANDBY > sweep",
-        sweep="FAILED > end",
-    ),
-    "a block in two branches": """
-    left = MissionModifier
-    right = MissionModifier
-    note = MissionModifier
-    both = GateFunnel
-    create = MissionCreator
-    done = MissionModifier emits COMPLETED
-    start -> create -> [left, right] -> note -> both -> done -> end
-""",
-    "a branch without a block": f"""{BASIC}
-    timer = TimerMonitor
-    first = GateFIFO
-    start -> create -> allocate -> launch -> [watch, timer]
-    watch -> first
-    timer -> first
-    first -> tell when STANDBY
-    tell = MissionModifier
-    note = MissionModifier
-    all = GateFunnel
-    tell -> note -> all
-    tell -> all
-    all -> allocate
-    first -> end
-""",
-    "a block in a branch and outside": """
-    create = MissionCreator
-    note = MissionModifier
-    mark = MissionModifier
-    both = GateFunnel
-    step = MissionModifier emits STANDBY, COMPLETED
-    start -> create -> [note, mark] when UNEXECUTED
-    mark -> both
-    note -> both when UNEXECUTED
-    both -> step
-    step -> note when STANDBY
-    note -> step when STANDBY
-    step -> end when COMPLETED
-""",
-}
+SHAPES = given(Path(__file__).with_name("shapes.txt"))
+GRAPHS = {**SOUND, **SHAPES}
+LOOP_THAT_ASKS = SHAPES["a loop asks where much lies before its head"]
 
 
 @dataclass(kw_only=True)

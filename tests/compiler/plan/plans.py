@@ -8,7 +8,19 @@ from plutoc.check.model import Checked
 from plutoc.plan.build import build
 from plutoc.plan.model import Plan
 from plutoc.plan.optimise import stages
-from tests.compiler.check.graphs import checked
+from tests.compiler.check.graphs import BASIC, checked
+
+_CLOCKS = [f"wait{n}" for n in range(50)]
+CHAIN = "\n".join(
+    [
+        BASIC,
+        *(f"{name} = Clock" for name in _CLOCKS),
+        f"start -> create -> {' -> '.join(_CLOCKS)} -> allocate -> launch -> watch",
+        "watch -> wait0 when STANDBY",
+        "watch -> end",
+    ]
+)
+"""More blocks where missions go on than are asked for one by one."""
 
 
 def begun(text: str) -> Checked:

@@ -10,15 +10,7 @@ from plutoc.plan.chart import Charts, Kind, Spot
 from plutoc.plan.irreducible import MOST_COPIES, reducible
 from plutoc.plan.shape import Shape, shape
 from tests.compiler.check.graphs import checked
-from tests.compiler.plan.graphs import MAZE, STATUSES, TWO_ENTRIES, routes
-
-CROWD = routes(
-    a="STANDBY > allocate, COMPLETED > ask, FAILED > end",
-    allocate="STANDBY > launch",
-    ask="STANDBY > launch",
-    launch="STANDBY > watch",
-    watch="STANDBY > allocate, COMPLETED > ask, FAILED > end",
-)
+from tests.compiler.plan.graphs import STATUSES, routes
 
 
 def shape_of(text: str) -> Shape:
@@ -32,26 +24,6 @@ def copies(found: Shape) -> list[str]:
     return [spot.name for spot in found.order if spot.copy]
 
 
-def test_who_enters_at_the_second_place_finds_a_copy() -> None:
-    """Of what stands between the two entries."""
-    found = reducible(shape_of(TWO_ENTRIES))
-    assert found is not None
-    assert copies(found) == ["c"]
-
-
-def test_a_loop_begins_where_it_costs_least() -> None:
-    """Neither of its two entries need be the one that it has in the end."""
-    found = reducible(shape_of(CROWD))
-    assert found is not None
-    assert copies(found) == ["allocate", "ask"]
-    assert [spot.name for spot in found.loops] == ["launch"]
-
-
-def test_what_would_take_many_copies_stays_as_it_is() -> None:
-    """A dispatch is shorter then."""
-    assert reducible(shape_of(MAZE)) is None
-
-
 def test_a_loop_with_one_entry_stays_as_it_is() -> None:
     """The very same shape."""
     found = shape_of(routes(a="STANDBY > b, FAILED > end", b="STANDBY > a"))
@@ -61,7 +33,7 @@ def test_a_loop_with_one_entry_stays_as_it_is() -> None:
 def test_copies_are_few_and_lead_where_their_originals_do() -> None:
     """Every loop has one entry then, no fork is copied, and nothing else leads elsewhere."""
     tangled = 0
-    for seed in range(400):
+    for seed in range(120):
         try:
             before = shape_of(drawn(Random(seed)))
         except Rejected:
@@ -75,7 +47,7 @@ def test_copies_are_few_and_lead_where_their_originals_do() -> None:
         for spot in after.order:
             assert not (spot.copy and spot.kind is Kind.FORK)
             assert targets(after, spot) == targets(before, spot.original)
-    assert tangled > 20
+    assert tangled > 5
 
 
 def drawn(luck: Random) -> str:

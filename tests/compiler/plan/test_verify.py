@@ -31,12 +31,12 @@ from plutoc.plan.rewrite import rewritten, rewritten_body
 from plutoc.plan.verify import verify
 from plutoc_runtime.domain.status import Status
 from tests.compiler.check.graphs import checked
-from tests.compiler.plan.graphs import GRAPHS, MAZE, routes
+from tests.compiler.plan.graphs import GRAPHS, routes
 from tests.compiler.plan.plans import after, structured
 
 GRAPH = checked(routes(a="STANDBY > b, COMPLETED > end, FAILED > end", b="STANDBY > a"))
 FORKED = structured(GRAPHS["a fork before the first launch"])
-FREE = structured(MAZE)
+FREE = structured(GRAPHS["a maze"])
 
 
 def call(name: str) -> Call:

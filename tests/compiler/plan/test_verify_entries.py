@@ -15,7 +15,8 @@ from plutoc.plan.rewrite import rewritten
 from plutoc.plan.verify import verify
 from plutoc_runtime.domain.status import Status
 from tests.compiler.check.graphs import BASIC, checked
-from tests.compiler.plan.test_show_entries import CHAIN, LOOP_THAT_ASKS
+from tests.compiler.plan.graphs import LOOP_THAT_ASKS
+from tests.compiler.plan.plans import CHAIN
 
 GRAPH = checked(f"""{BASIC}
     wait = Clock

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from functools import partial
+from random import Random
 
 import pytest
 from hypothesis import given, settings
@@ -13,7 +15,9 @@ from plutoc.block import IN_GRAPH
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Rejected
+from plutoc.graph.model import START
 from plutoc.plan.build import build
+from plutoc.plan.chart import Charts, Kind
 from plutoc.plan.model import Plan
 from plutoc.plan.optimise import stages
 from plutoc.plan.show import show
@@ -23,6 +27,9 @@ from tests.compiler.check import graphs
 from tests.compiler.check.test_walks import edited
 from tests.compiler.plan.graphs import GRAPHS, random_graphs
 from tests.compiler.plan.walks import along_graph, kept, through_plan
+
+WORDS = ("call", "loop", "break", "join", "goto", "enter", "arrived", "dispatch")
+"""What a plan can hold."""
 
 
 def compare(checked: Checked, seeds: range) -> Plan:
@@ -49,32 +56,46 @@ def goes_on(checked: Checked) -> list[tuple[str, Status]]:
     ]
 
 
+def entered_anywhere(checked: Checked, luck: Random, most: int) -> Checked:
+    """Return the graph as if missions went on at some of its blocks, with all that comes there."""
+    (first,) = checked.graph.outgoing[START]
+    chart = Charts(checked).chart(first.target, checked.carries[first])
+    blocks = [spot for spot in chart.arrives if spot.kind is Kind.BLOCK and spot != chart.entry]
+    chosen = luck.sample(blocks, min(len(blocks), luck.randint(1, most)))
+    return replace(checked, entries={spot.name: chart.arrives[spot] for spot in chosen})
+
+
 @pytest.mark.parametrize("name", GRAPHS)
 def test_a_plan_visits_the_blocks_that_the_graph_does(name: str) -> None:
     """The same blocks, branches and gates, in the same order, with the same statuses."""
     checked = graphs.checked(GRAPHS[name])
-    compare(checked, range(40))
+    compare(checked, range(15))
+    compare(entered_anywhere(checked, Random(name), 4), range(5))
 
 
 def test_plans_of_random_graphs_do_what_the_graphs_do() -> None:
-    """Blocks that route and fork wherever they like; and all that a plan can hold turned up."""
+    """Blocks that route and fork wherever they like, entered anywhere; all that a plan holds turned up."""
     seen: Counter[str] = Counter()
 
-    @settings(max_examples=350, deadline=None, derandomize=True, database=None)
+    @settings(max_examples=120, deadline=None, derandomize=True, database=None)
     @given(text=random_graphs(), seed=st.integers(0, 1000))
     def each(text: str, seed: int) -> None:
         try:
             checked = graphs.checked(text)
         except Rejected:
             return
-        shown = show(compare(checked, range(seed, seed + 6)))
-        seen.update(word for word in ("call", "loop", "break", "join", "goto") if word in shown)
+        plans = (
+            compare(checked, range(seed, seed + 3)),
+            compare(entered_anywhere(checked, Random(seed), 5), range(seed, seed + 2)),
+        )
+        shown = "".join(map(show, plans))
+        seen.update(word for word in WORDS if word in shown)
 
     each()
-    assert all(seen[word] > 2 for word in ("call", "loop", "break", "join", "goto")), seen
+    assert all(seen[word] for word in WORDS), seen
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(text=edited(), seed=st.integers(0, 1000))
 def test_plans_of_edited_graphs_do_what_the_graphs_do(text: str, seed: int) -> None:
     """A sound graph with a line bent: if it passes the checks, its plan is right."""
