@@ -20,8 +20,8 @@ from playwright.sync_api import Page, sync_playwright
 
 from measuring.options import at_least_one
 from tests.compiler.editor.browser.large import large
-from tests.compiler.editor.browser.serving import NAME, Editor
-from tests.library.station.browser.chrome import ARGUMENTS, chromium
+from tests.kit.browser import ARGUMENTS, chromium
+from tests.kit.editor import NAME, EditorProcess
 
 DRAGGED = 3.0
 """Seconds."""
@@ -78,7 +78,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=at_least_one, default=3)
     rounds = parser.parse_args().rounds
     with TemporaryDirectory() as name, sync_playwright() as driver:
-        editor = Editor(file=Path(name) / NAME)
+        editor = EditorProcess(file=Path(name) / NAME)
         editor.file.write_text(large(), encoding="utf-8")
         editor.start()
         browser = driver.chromium.launch(executable_path=chromium(), args=ARGUMENTS)

@@ -13,6 +13,8 @@ from hypothesis import HealthCheck, settings
 from tests.apart import apart
 from tests.loops import run_async
 
+pytest_plugins = ("tests.kit.browser", "tests.kit.station")
+
 # The same examples in every run, however busy the machine is: a test that fails is a change's fault.
 settings.register_profile(
     "pluto", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _LARGEST_HEAD = 16 * 1024
 _LARGEST_MESSAGE = 8 * LARGEST
 """A text of the largest size, each character escaped as JSON may."""
-_MOST_CLIENTS = 32
+MOST_CLIENTS = 32
 _CONNECTIONS = 256
 _NO_TOKEN, _TOO_MANY, _GOING, _SLOW = 4401, 4429, 1012, 4408
 _GONE = (WebSocketDisconnect, RuntimeError, OSError)
@@ -95,7 +95,7 @@ class Web:
             await socket.accept()
             await socket.close(_NO_TOKEN, "open the address that was printed at the start")
             return
-        if self._on >= _MOST_CLIENTS:
+        if self._on >= MOST_CLIENTS:
             await socket.accept()
             await socket.close(_TOO_MANY, "too many pages are open")
             return

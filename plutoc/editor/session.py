@@ -32,7 +32,7 @@ from plutoc_runtime.domain.text import said
 
 SAVE_AFTER, LOOK_EVERY, AGAIN_AFTER = 0.3, 0.4, 2.0
 """Seconds: from a change to its saving, between two looks at the disk, to the next try."""
-_BEHIND = 64 * 1024 * 1024
+BEHIND = 64 * 1024 * 1024
 """Characters that a client may be behind; then it is let go, and comes back for the whole."""
 _OPERATIONS = 100
 _SLOW = ("compile", "run")
@@ -68,9 +68,9 @@ class Client:
 
     def send_text(self, text: str) -> None:
         """Send a message that is written already; a client that does not read is let go."""
-        if self._behind <= _BEHIND:
+        if self._behind <= BEHIND:
             self._behind += len(text)
-            self._outbox.put_nowait(text if self._behind <= _BEHIND else None)
+            self._outbox.put_nowait(text if self._behind <= BEHIND else None)
 
     async def next(self) -> str | None:
         """Return the next message that it is to be sent; None: it is let go."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -70,6 +72,99 @@ def typed(
     history: History, start: int, text: str, version: int, *, by: int = 1, now: float = 0.0
 ) -> None:
     history.type(File.APP, (Edit(start, start, text),), version, by, now)
+
+
+def renamed(history: History) -> None:
+    """Change text, hooks and layout in one step."""
+    made = [
+        history.edited(File.APP, (Edit(0, 1, "N"),)),
+        history.edited(File.HOOKS, (Edit(0, 0, "def n"),)),
+        history.placed({"n": (1, 2)}),
+    ]
+    history.change(made, 1)
+
+
+def written(history: History) -> None:
+    history.change([history.edited(File.APP, (Edit(1, 3, ""),))], 0)
+
+
+def moved(history: History) -> None:
+    history.change([history.placed({"n": (3, 4), "m": (5, 6)})], 2)
+
+
+def typed_on(history: History) -> None:
+    """Type two letters one after the other, which is one step."""
+    for letter in "yx":
+        typed(history, 1, letter, history.version, now=9.0)
+
+
+STEPS = (renamed, typed_on, moved, written)
+
+
+def test_redo_gives_back_step_by_step_what_undo_took_the_last_one_first() -> None:
+    history = History(app="one\n")
+    states = [state(history)]
+    for step in STEPS:
+        step(history)
+        states.append(state(history))
+    assert len({str(one) for one in states}) == len(states)
+    for left in reversed(range(len(STEPS))):
+        assert {one.by for one in history.undo(7)} == {7}
+        assert state(history) == states[left]
+        assert history.depth == {"undo": left, "redo": len(STEPS) - left}
+    assert history.undo(7) == []
+    for done in range(1, len(STEPS) + 1):
+        assert {one.by for one in history.redo(8)} == {8}
+        assert state(history) == states[done]
+        assert history.depth == {"undo": done, "redo": len(STEPS) - done}
+    assert history.redo(8) == []
+    assert state(history) == states[-1]
+
+
+@pytest.mark.parametrize("step", STEPS)
+def test_what_was_undone_is_gone_once_anything_else_is_done(
+    step: Callable[[History], None],
+) -> None:
+    """Redo would put old words into a text that they were never part of."""
+    history = History(app="one\n")
+    typed(history, 3, "a", 0)
+    typed(history, 0, "b", 1, now=5.0)
+    history.undo(1)
+    history.undo(1)
+    step(history)
+    after, depth = state(history), dict(history.depth)
+    assert depth == {"undo": 1, "redo": 0}
+    assert history.redo(1) == []
+    assert (state(history), dict(history.depth)) == (after, depth)
+
+
+def test_what_changes_nothing_leaves_what_was_undone() -> None:
+    history = History(app="one\n")
+    typed(history, 3, "a", 0)
+    history.undo(1)
+    history.change([history.edited(File.APP, (Edit(0, 1, "o"),))], 1)
+    history.redo(1)
+    assert history.app == "onea\n"
+
+
+def test_typing_on_after_a_redo_is_a_step_of_its_own() -> None:
+    """However quickly: it is not what was undone that goes on."""
+    history = History(app="one\n")
+    typed(history, 3, "a", 0)
+    history.undo(1)
+    history.redo(1)
+    typed(history, 4, "b", history.version)
+    history.undo(1)
+    assert history.app == "onea\n"
+
+
+def test_a_page_is_told_of_a_redo_what_it_was_told_at_first() -> None:
+    history = History(app="one\r\ntwo\r\n")
+    (first,) = history.change([history.edited(File.APP, (Edit(5, 8, "🚁"),))], 1)
+    history.undo(1)
+    (again,) = history.redo(1)
+    assert (again.sent, again.file, again.is_typed) == (first.sent, first.file, False)
+    assert again.version == first.version + 2
 
 
 def test_typing_is_undone_by_pauses_and_by_places() -> None:

@@ -77,7 +77,15 @@ def walked(document: Document, found: dict[str, Any]) -> None:
         at[mission, branch] = block
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.parent.name)
+FLOWN = [
+    # in the default run, one: with branches, a repeater, and hooks of its own
+    pytest.param(path, marks=[] if path.parent.name == "alfalfa" else [pytest.mark.long])
+    for path in EXAMPLES
+]
+
+
+@pytest.mark.process
+@pytest.mark.parametrize("path", FLOWN, ids=lambda path: path.parent.name)
 async def test_missions_move_along_the_edges_of_their_graph(path: Path) -> None:
     """And end as the trace says; by the plan beside the source, and by one that is made up."""
     document = Document(path=str(path), text=path.read_text())
@@ -90,6 +98,8 @@ async def test_missions_move_along_the_edges_of_their_graph(path: Path) -> None:
     assert found["duration_s"] == max(event[0] for event in found["events"])
 
 
+@pytest.mark.long  # a process flies
+@pytest.mark.process
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.parent.name)
 async def test_an_app_without_a_plan_flies_one_that_is_made_up(tmp_path: Path, path: Path) -> None:
     for name in ("app.pluto", "hooks.py"):
@@ -113,6 +123,8 @@ def sound_apps() -> list[str]:
     return list(islice((one for one in sound if "hook:" not in one), 6))
 
 
+@pytest.mark.long  # a process flies
+@pytest.mark.process
 @pytest.mark.parametrize("number", range(6))
 async def test_so_do_missions_of_any_graph(tmp_path: Path, number: int) -> None:
     """Forks in forks, loops, state machines."""
@@ -124,6 +136,8 @@ async def test_so_do_missions_of_any_graph(tmp_path: Path, number: int) -> None:
     walked(Document(path="", text=text), found)
 
 
+@pytest.mark.long  # a process flies
+@pytest.mark.process
 async def test_what_goes_wrong_in_a_run_is_shown_as_the_app_says_it(tmp_path: Path) -> None:
     path = app_in(tmp_path)
     (tmp_path / "missions.toml").write_text("[[mission]]\nname = 3\n")
@@ -133,6 +147,8 @@ async def test_what_goes_wrong_in_a_run_is_shown_as_the_app_says_it(tmp_path: Pa
     assert found["events"] == []
 
 
+@pytest.mark.long  # a process flies
+@pytest.mark.process
 async def test_a_run_without_end_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("plutoc.editor.running.LONGEST", 3.0)
     path = app_in(tmp_path, HOOKED)

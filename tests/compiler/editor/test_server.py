@@ -6,10 +6,7 @@ import asyncio
 import json
 import re
 import signal
-import subprocess
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +17,8 @@ from websockets.typing import Origin
 
 from plutoc.editor import static
 from plutoc.editor.static import StaticFile
+from tests.kit.command import Process, plutoc
+from tests.kit.station import until
 
 from .editing import APP, app_in, files_of
 from .serving import heard, served
@@ -133,7 +132,7 @@ async def test_who_has_no_token_is_hung_up_on(tmp_path: Path, token: str) -> Non
 
 
 async def test_too_much_is_too_much(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("plutoc.editor.server._MOST_CLIENTS", 1)
+    monkeypatch.setattr("plutoc.editor.server.MOST_CLIENTS", 1)
     async with served(app_in(tmp_path)) as editor:
         async with editor.connect() as socket:
             await heard(socket, push="hello")
@@ -151,6 +150,8 @@ async def test_too_much_is_too_much(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         assert not (await editor.say(head.encode())).startswith(b"HTTP/1.1 200")
 
 
+@pytest.mark.long  # real processes fly
+@pytest.mark.process
 async def test_a_slow_question_keeps_no_one_waiting(tmp_path: Path) -> None:
     async with served(app_in(tmp_path)) as editor, editor.connect() as socket:
         await heard(socket, push="hello")
@@ -180,111 +181,71 @@ def test_the_table_leaves_out_what_no_page_needs() -> None:
     assert not [name for name in found if name.endswith((".md", ".py"))]
 
 
-@contextmanager
-def started(*words: str, cwd: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """Start the command as a person does; give the process, and the address that it prints."""
-    command = [sys.executable, "-m", "plutoc", "edit", *words, "--no-open"]
-    process = subprocess.Popen(
-        command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    try:
-        assert process.stdout is not None
-        yield process, process.stdout.readline()
-    finally:
-        process.kill()
-        process.communicate()
+FIRST = "# kept\n"
 
 
-def asked(line: str, changes: list[dict[str, object]]) -> None:
-    """Type this by the address that was printed, and wait until it is saved."""
+def typed_there(line: str, until: Callable[[dict[str, Any]], bool]) -> None:
+    """Type by the address that a process has printed, and wait for what it says of that."""
     found = re.search(r"http://(\S+)/\?token=(\S+)", line)
     assert found is not None, line
     headers = {"Authorization": f"Bearer {found[2]}"}
-    origin = Origin(f"http://{found[1]}")
+    change = {"from": 0, "to": 0, "insert": FIRST}
     with connect(
-        f"ws://{found[1]}/ws", additional_headers=headers, origin=origin, max_size=None, proxy=None
+        f"ws://{found[1]}/ws", additional_headers=headers, max_size=None, proxy=None
     ) as socket:
-        socket.send(json.dumps({"id": 1, "op": "type", "version": 0, "changes": changes}))
-        while json.loads(socket.recv(60)).get("what") != "saved":
+        socket.send(json.dumps({"id": 1, "op": "type", "version": 0, "changes": [change]}))
+        while not until(json.loads(socket.recv(60))):
             pass
 
 
-@pytest.mark.parametrize("way", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_what_is_told_to_be_saved_outlives_any_end(tmp_path: Path, way: signal.Signals) -> None:
-    app_in(tmp_path)
-    with started("farm.pluto", cwd=tmp_path) as (process, line):
-        asked(line, [{"from": 0, "to": 0, "insert": "# kept\n"}])
-        process.send_signal(way)
-        _, err = process.communicate(timeout=60)
-    assert files_of(tmp_path) == {"farm.pluto": f"# kept\n{APP}".encode()}
-    assert "Traceback" not in err
-    assert process.returncode == {signal.SIGINT: 0, signal.SIGTERM: 143}.get(way, -9)
+def edited(folder: Path) -> Process:
+    """Start the command as a person does."""
+    return Process("-m", "plutoc", "edit", "farm.pluto", "--no-open", cwd=folder)
 
 
+@pytest.mark.process
 def test_ctrl_c_saves_what_was_typed_just_now(tmp_path: Path) -> None:
     app_in(tmp_path)
-    with started("farm.pluto", cwd=tmp_path) as (process, line):
-        found = re.search(r"http://(\S+)/\?token=(\S+)", line)
-        assert found is not None
-        headers = {"Authorization": f"Bearer {found[2]}"}
-        with connect(
-            f"ws://{found[1]}/ws", additional_headers=headers, max_size=None, proxy=None
-        ) as socket:
-            change = {"from": 0, "to": 0, "insert": "# kept\n"}
-            socket.send(json.dumps({"id": 1, "op": "type", "version": 0, "changes": [change]}))
-            while json.loads(socket.recv(60)).get("id") != 1:
-                pass
-            process.send_signal(signal.SIGINT)
-            process.communicate(timeout=60)
-    assert process.returncode == 0
-    assert (tmp_path / "farm.pluto").read_text() == f"# kept\n{APP}"
+    with edited(tmp_path) as process:
+        typed_there(process.until("edit it at"), lambda told: told.get("id") == 1)
+        assert process.ended(signal.SIGINT)[0] == 0
+    assert files_of(tmp_path) == {"farm.pluto": f"{FIRST}{APP}".encode()}
 
 
+@pytest.mark.long  # real processes
+@pytest.mark.process
+@pytest.mark.parametrize(
+    ("way", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 143), (signal.SIGKILL, -9)]
+)
+def test_what_is_told_to_be_saved_outlives_any_end(
+    tmp_path: Path, way: signal.Signals, code: int
+) -> None:
+    app_in(tmp_path)
+    with edited(tmp_path) as process:
+        typed_there(process.until("edit it at"), lambda told: told.get("what") == "saved")
+        assert process.ended(way)[0] == code
+    assert files_of(tmp_path) == {"farm.pluto": f"{FIRST}{APP}".encode()}
+
+
+@pytest.mark.long  # real processes
+@pytest.mark.process
 def test_what_cannot_be_saved_is_not_given_up_at_the_first_ctrl_c(tmp_path: Path) -> None:
+    """Once it can be, it is; what a signal to end loses is said."""
     path = app_in(tmp_path)
     path.chmod(0o444)
-    with started("farm.pluto", cwd=tmp_path) as (process, line):
-        found = re.search(r"http://(\S+)/\?token=(\S+)", line)
-        assert found is not None
-        headers = {"Authorization": f"Bearer {found[2]}"}
-        with connect(
-            f"ws://{found[1]}/ws", additional_headers=headers, max_size=None, proxy=None
-        ) as socket:
-            change = {"from": 0, "to": 0, "insert": "# kept\n"}
-            socket.send(json.dumps({"id": 1, "op": "type", "version": 0, "changes": [change]}))
-            while json.loads(socket.recv(60)).get("push") != "cannot_save":
-                pass
-        process.send_signal(signal.SIGINT)
-        assert process.stderr is not None
-        while "not ended" not in (said := process.stderr.readline()):
-            assert said
-        assert "read-only" in said
+    with edited(tmp_path) as process:
+        typed_there(process.until("edit it at"), lambda told: told.get("push") == "cannot_save")
+        process.send(signal.SIGINT)
+        assert "read-only" in process.until("not ended")
         path.chmod(0o644)
-        while "# kept" not in path.read_text():
-            assert process.poll() is None
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=60)
-    assert process.returncode == 0
-
-
-def test_what_a_signal_loses_is_said(tmp_path: Path) -> None:
-    path = app_in(tmp_path)
+        until(lambda: FIRST in path.read_text(), "it is saved")
+        assert process.ended(signal.SIGINT)[0] == 0
     path.chmod(0o444)
-    with started("farm.pluto", cwd=tmp_path) as (process, line):
-        found = re.search(r"http://(\S+)/\?token=(\S+)", line)
-        assert found is not None
-        headers = {"Authorization": f"Bearer {found[2]}"}
-        with connect(
-            f"ws://{found[1]}/ws", additional_headers=headers, max_size=None, proxy=None
-        ) as socket:
-            change = {"from": 0, "to": 0, "insert": "# lost\n"}
-            socket.send(json.dumps({"id": 1, "op": "type", "version": 0, "changes": [change]}))
-            while json.loads(socket.recv(60)).get("push") != "cannot_save":
-                pass
-        process.send_signal(signal.SIGTERM)
-        _, err = process.communicate(timeout=60)
-    assert process.returncode == 143
-    assert "not saved: farm.pluto is read-only" in err
+    with edited(tmp_path) as process:
+        typed_there(process.until("edit it at"), lambda told: told.get("push") == "cannot_save")
+        code, said = process.ended(signal.SIGTERM)
+    assert code == 143
+    assert "not saved: farm.pluto is read-only" in said
 
 
 @pytest.mark.parametrize(
@@ -296,27 +257,23 @@ def test_what_a_signal_loses_is_said(tmp_path: Path) -> None:
         (("farm.pluto", "--host", "no such host"), "there is no such address"),
     ],
 )
-def test_what_cannot_be_served_is_said(tmp_path: Path, words: tuple[str, ...], why: str) -> None:
+def test_what_cannot_be_served_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], why: str
+) -> None:
     app_in(tmp_path)
-    with started(*words, cwd=tmp_path) as (process, _):
-        _, err = process.communicate(timeout=60)
-    assert process.returncode == 2
-    assert why in err
-    assert "Traceback" not in err
+    monkeypatch.chdir(tmp_path)
+    done = plutoc("edit", *words, "--no-open")
+    assert done.code == 2
+    assert why in done.err
 
 
-def test_without_its_extra_it_says_how_to_install_it(tmp_path: Path) -> None:
-    app_in(tmp_path)
-    code = (
-        "import sys, importlib.util as u; found = u.find_spec;"
-        "u.find_spec = lambda name, *more: None if name == 'uvicorn' else found(name, *more);"
-        "from plutoc.cli import main; sys.exit(main(['edit', 'farm.pluto']))"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 2
-    assert 'pip install "plutoc[editor]"' in done.stderr
+def test_without_its_extra_it_says_how_to_install_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("plutoc.cli.edit.find_spec", lambda name: None)
+    done = plutoc("edit", app_in(tmp_path))
+    assert done.code == 2
+    assert 'pip install "plutoc[editor]"' in done.err
 
 
 async def test_a_slow_head_and_silence_are_not_waited_for_by_others(tmp_path: Path) -> None:

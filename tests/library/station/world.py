@@ -15,7 +15,7 @@ from pluto_fleet.gateway.settings import settings_of
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.simulation.body import Body
 from pluto_fleet.simulation.world_store import DRONES, WorldStore, this_moment
-from tests.library.station.browser.serving import Station
+from tests.kit.station import Station
 
 NEAR = 0.06
 """Metres: places are shown to the centimetre."""

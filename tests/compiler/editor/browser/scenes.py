@@ -8,9 +8,9 @@ from playwright.sync_api import Page, expect
 
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import Hand, block, edge, port
-from tests.compiler.editor.browser.serving import Editor
 from tests.compiler.editor.browser.texts import type_below
-from tests.library.station.browser.serving import until
+from tests.kit.editor import Editor
+from tests.kit.station import until
 
 
 def scenes(edit: Edit, visit: Visit, size: tuple[int, int]) -> Iterator[tuple[str, Page]]:

@@ -9,7 +9,7 @@ from playwright.sync_api import Page, expect
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import Hand, block, edge, names, port, statuses
 from tests.compiler.editor.browser.texts import text_of, type_below
-from tests.library.station.browser.serving import until
+from tests.kit.station import until
 
 STUCK = """\
 pluto 1

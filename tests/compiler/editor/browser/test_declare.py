@@ -6,7 +6,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import block
-from tests.library.station.browser.serving import until
+from tests.kit.station import until
 
 
 def declare(page: Page, what: str) -> None:

@@ -11,8 +11,8 @@ from plutoc.diagnostic import Rejected
 from plutoc.source import Source
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import Hand, block, port, statuses
-from tests.compiler.editor.browser.serving import Editor
-from tests.library.station.browser.serving import until
+from tests.kit.editor import Editor
+from tests.kit.station import until
 
 FEW = 25
 """Gestures."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import expect
 
-from tests.compiler.editor.browser.conftest import DESKTOP, Edit, Visit
+from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import Hand, block
 from tests.compiler.editor.browser.large import large
 from tests.compiler.editor.browser.pictures import FOLDER, kept, picture
-from tests.library.station.browser.serving import until
+from tests.kit.browser import DESKTOP
+from tests.kit.station import until
 
 BLOCKS = 300
 

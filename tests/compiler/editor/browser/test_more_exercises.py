@@ -12,9 +12,9 @@ from plutoc.source import Source
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.drawing import add_from_port, complete, lead, put_between, rename
 from tests.compiler.editor.browser.hand import Hand, block, edge, port
-from tests.compiler.editor.browser.serving import Editor
 from tests.compiler.editor.browser.texts import text_of
-from tests.library.station.browser.serving import until
+from tests.kit.editor import Editor
+from tests.kit.station import until
 
 Way = tuple[str, str, str]
 

@@ -8,10 +8,10 @@ from playwright.sync_api import Page, expect
 
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import Hand, block, edge, port
-from tests.compiler.editor.browser.serving import Editor
 from tests.compiler.editor.browser.texts import shown, text_of, type_below
-from tests.library.station.browser.serving import until
-from tests.library.station.browser.watched import Watch
+from tests.kit.browser import Watch
+from tests.kit.editor import Editor
+from tests.kit.station import until
 
 SOURCE = """\
 pluto 1

@@ -17,9 +17,9 @@ from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.drawing import add_from_port, complete, lead, put_between, rename
 from tests.compiler.editor.browser.hand import Hand, block, edge, port
 from tests.compiler.editor.browser.pictures import picture
-from tests.compiler.editor.browser.serving import Editor
 from tests.examples.typed import ROOT, Reader, Step, is_shown, steps
-from tests.library.station.browser.serving import until
+from tests.kit.editor import Editor
+from tests.kit.station import until
 
 LESSON = ROOT / "docs" / "tutorial" / "editor.md"
 PICTURES = LESSON.with_suffix("")

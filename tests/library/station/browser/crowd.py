@@ -8,8 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from tests.library.station.browser.installed import App
-from tests.library.station.browser.serving import Station
+from tests.kit.station import App, Station
 from watching.flight import SIDE, fleet, plan
 
 DRONES, MISSIONS = 50, 200

@@ -19,13 +19,11 @@ sys.path.append(str(ROOT / "benchmarks"))  # the crowd is that of a benchmark
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.apart import apart
-from tests.library.station.browser.chrome import ARGUMENTS, chromium
-from tests.library.station.browser.conftest import A_STEP, Scheme
+from tests.kit.browser import A_STEP, ARGUMENTS, Scheme, chromium
+from tests.kit.station import App, Station, installed
 from tests.library.station.browser.crowd import crowded_station
-from tests.library.station.browser.installed import App, installed
 from tests.library.station.browser.looking import in_language, looked_at
 from tests.library.station.browser.scenes import crowded, heat, scenes
-from tests.library.station.browser.serving import Station
 from tests.release.environments import ROOT
 
 SIZES = ("360x740", "390x844", "1366x768", "1920x1080")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from tests.library.station.browser.serving import Station
+from tests.kit.station import Station
 
 Place = tuple[float, float]
 

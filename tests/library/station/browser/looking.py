@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from playwright.sync_api import Page
 
+from tests.kit.browser import Scheme
 from tests.library.station.browser.axe import COLOURS, violations
-from tests.library.station.browser.conftest import Scheme
 from tests.library.station.browser.layout import laid_out_badly
 from tests.library.station.browser.pictures import picture
 from tests.library.station.browser.steps import settled

@@ -7,8 +7,8 @@ from typing import Any
 
 from playwright.sync_api import Page, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     A_FLIGHT,
     missions_listed,
@@ -19,7 +19,6 @@ from tests.library.station.browser.steps import (
     settled,
     start,
 )
-from tests.library.station.flights.test_flights import tell
 
 PAGES = ("Missions", "Trips", "Monitor", "Results", "History", "Map", "Help")
 
@@ -82,10 +81,10 @@ def flying(page: Page, station: Station) -> Iterator[str]:
     open_page(page, "Monitor")
     expect(row_of(page, "Mission 3").locator(".trip-lines")).to_be_visible()  # it was selected
     until(lambda: trip_of(station, BY_A_PERSON) == 1, "the pills are on their way")
-    tell(station, "mishap", drone=drone_of(station, BY_A_PERSON), kind="uncertain")
+    station.tell("mishap", drone=drone_of(station, BY_A_PERSON), kind="uncertain")
     expect(page.get_by_text("3 missions started")).to_have_count(0)  # said, and gone
     yield "monitor"
-    tell(station, "mishap", drone=drone_of(station, "Mission 1"), kind="crash")
+    station.tell("mishap", drone=drone_of(station, "Mission 1"), kind="crash")
     lists(page, "Drones")
     flies = str(max(station.now()["drones"], key=lambda row: row["z"] or 0)["id"])
     page.get_by_role("tabpanel", name="Drones").get_by_role("button", name=flies).click()
@@ -178,7 +177,7 @@ def a_flight(page: Page, station: Station) -> Iterator[str]:
 
 def heat(page: Page, station: Station) -> Iterator[str]:
     """Fly the missions of an app that measures an area, and show what they brought."""
-    tell(station, "start")
+    station.tell("start")
     until(lambda: station.phase == "over", "the flight is over")
     open_page(page, "Results")
     expect(page.locator("image.heat")).to_have_count(1)
@@ -192,10 +191,10 @@ def crowded(page: Page, station: Station) -> Iterator[str]:
     yield "crowd-missions"
     open_page(page, "Trips")
     yield "crowd-trips"
-    tell(station, "start")
+    station.tell("start")
     open_page(page, "Monitor")
     until(lambda: len(in_the_air(station)) > 20, "many are in the air")
-    tell(station, "mishap", drone=in_the_air(station)[0]["id"], kind="crash")
+    station.tell("mishap", drone=in_the_air(station)[0]["id"], kind="crash")
     expect(page.locator(".name.bad")).to_be_visible()
     yield "crowd-monitor"
     lists(page, "Drones")

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from tests.library.station.browser.chrome import chromium
+from tests.kit.browser import chromium
 from tests.release.environments import ROOT
 
 

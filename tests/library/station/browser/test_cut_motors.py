@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import start
 from tests.library.station.browser.test_monitor import lists
 

@@ -14,15 +14,14 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page
 
-from tests.library.station.browser.conftest import Scheme, Serve, Visit
+from tests.kit.browser import Scheme, Watch
+from tests.kit.station import App, Station
+from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.crowd import crowded_station
-from tests.library.station.browser.installed import App
 from tests.library.station.browser.looking import SCHEMES, in_language, looked_at
 from tests.library.station.browser.pictures import FOLDER, kept
 from tests.library.station.browser.scenes import BREAKS, a_flight, crowded, heat, scenes
-from tests.library.station.browser.serving import Station
 from tests.library.station.browser.steps import settled
-from tests.library.station.browser.watched import Watch
 from tests.release.environments import ROOT
 
 SHOWN = ("empty-missions", "missions", "trips", "monitor", "results", "history", "map", "help")

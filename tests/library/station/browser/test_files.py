@@ -6,11 +6,11 @@ from pathlib import Path
 
 from playwright.sync_api import FileChooser, Page, expect
 
+from tests.kit.browser import Watch
+from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import PLAN, put_in
-from tests.library.station.browser.serving import until
 from tests.library.station.browser.steps import missions_listed, open_page
-from tests.library.station.browser.watched import Watch
 from tests.release.environments import succeed
 
 
@@ -25,7 +25,7 @@ def choose(page: Page, button: str, file: Path) -> None:
 def test_what_is_exported_can_be_checked_by_the_app_and_imported_elsewhere(
     serve: Serve, visit: Visit, tmp_path: Path
 ) -> None:
-    station, other = serve("drugs_distribution"), serve("drugs_distribution")
+    station, other = serve(), serve(own=True)
     put_in(station)
     page = visit(station)
     with page.expect_download() as asked:
@@ -65,5 +65,5 @@ def test_an_example_of_the_app_is_read_as_it_is(serve: Serve, visit: Visit) -> N
     station = serve("alfalfa")
     page = visit(station)
     choose(page, "Import a missions file", station.app.missions)
-    until(lambda: station.get("/api/plan")["missions"] != [], "the file is read")
+    until(lambda: station.missions != [], "the file is read")
     assert station.get("/api/plan")["problems"] == []

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import COMPLETED, DONE, PLAN, put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     card_of,
     drag,
@@ -56,7 +56,7 @@ def is_drawn(station: Station) -> None:
     """Hold the plan that the station keeps against the exercise."""
     until(lambda: sizes(station) == [3, 2, 4], "the plan is kept")
     until(lambda: station.get("/api/plan")["problems"] == [], "it is sound")
-    plan = station.get("/api/plan")["missions"]
+    plan = station.missions
     assert [mission["name"] for mission in plan] == list(PLAN)
     for mission in plan:
         for kept, drawn in zip(mission["trips"], PLAN[mission["name"]], strict=True):
@@ -66,7 +66,7 @@ def is_drawn(station: Station) -> None:
 
 def sizes(station: Station) -> list[int]:
     """Return the number of trips of each mission in the plan."""
-    return [len(mission["trips"]) for mission in station.get("/api/plan")["missions"]]
+    return [len(mission["trips"]) for mission in station.missions]
 
 
 def test_three_missions_are_drawn_by_drag_and_drop_and_flown_to_their_end(

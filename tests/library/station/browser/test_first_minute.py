@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.serving import until
 from tests.library.station.browser.steps import (
     add_mission,
     card_of,

@@ -7,12 +7,11 @@ from typing import Any
 
 from playwright.sync_api import Locator, Page, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.axe import violations
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import PLAN, put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import open_page
-from tests.library.station.flights.test_flights import tell
 
 INSTANTS = 5
 
@@ -52,7 +51,7 @@ def watched(station: Station, page: Page) -> list[dict[str, Any]]:
     """Watch a flight in the Monitor to its end; return what was drawn at some instants."""
     views: list[dict[str, Any]] = []
     open_page(page, "Monitor")
-    tell(station, "start")
+    station.tell("start")
 
     def is_over() -> bool:
         views.append(page.evaluate(DRAWN))
@@ -101,7 +100,7 @@ def test_a_flight_is_played_by_keys_reported_and_downloaded(serve: Serve, visit:
     expect(page.get_by_text("Nothing has been flown yet.")).to_be_visible()
     page.get_by_role("tab", name="Drones' hours").click()
     expect(page.get_by_text("once one has flown.")).to_be_visible()
-    tell(station, "start")
+    station.tell("start")
     until(lambda: station.phase == "over", "the flight is over")
     page.reload()
     slider = replay_of(page)

@@ -6,8 +6,8 @@ import re
 
 from playwright.sync_api import Page, expect
 
+from tests.kit.station import Station
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.serving import Station
 from tests.library.station.browser.steps import missions_listed, open_page, sees_all, start
 
 SCRIPT = "<img src=x onerror=window.ran=1>"

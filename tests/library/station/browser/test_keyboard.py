@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import DONE, PLAN, Place
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     ADD_MISSION,
     action_called,
@@ -53,7 +53,7 @@ def drawn(station: Station) -> dict[str, list[Place]]:
     """Return where the trips of each mission go, as the station keeps it."""
     return {
         mission["name"]: [tuple(trip["target"][:2]) for trip in mission["trips"]]
-        for mission in station.get("/api/plan")["missions"]
+        for mission in station.missions
     }
 
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from playwright.sync_api import Page, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.test_keyboard import press, tab_to
-from tests.library.station.flights.test_flights import tell
 
 
 def page_by_keys(page: Page, name: str) -> None:
@@ -36,7 +35,7 @@ def test_what_is_expected_and_what_wants_attention_is_opened_and_closed_by_keys(
     expect(dialog).to_be_focused()
     page.keyboard.press("Escape")
     expect(begin).to_be_focused()
-    tell(station, "start")
+    station.tell("start")
     until(lambda: station.now()["alerts"] != [], "something was found")
     bell = page.get_by_role("button", name="attention")
     tab_to(page, bell)
@@ -52,7 +51,7 @@ def test_what_is_expected_and_what_wants_attention_is_opened_and_closed_by_keys(
 
 def test_a_result_a_replay_and_a_setting_are_reached_by_keys(serve: Serve, visit: Visit) -> None:
     station = put_in(serve("drugs_distribution", "--speed", "60"))
-    tell(station, "start")
+    station.tell("start")
     until(lambda: station.phase == "over", "the flight is over")
     page = visit(station)
     page_by_keys(page, "Results")

@@ -7,11 +7,11 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.kit.station import Station
 from tests.library.station.browser.axe import violations
 from tests.library.station.browser.conftest import Visit
 from tests.library.station.browser.exercise import put_in
 from tests.library.station.browser.layout import covered, cut_off, wider_than_the_screen
-from tests.library.station.browser.serving import Station
 from tests.library.station.browser.steps import open_page, settled
 
 TABS = {

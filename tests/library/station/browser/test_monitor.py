@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import open_page, row_of, start
 from tests.paths import ROOT
 

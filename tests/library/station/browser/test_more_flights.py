@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Route, expect
 
+from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import COMPLETED, put_in
-from tests.library.station.browser.serving import until
 from tests.library.station.browser.steps import (
     add_mission,
     drag,

@@ -9,12 +9,12 @@ from threading import Thread
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserType, Page
+from playwright.sync_api import Browser, Page
 
-from tests.library.station.browser.chrome import ARGUMENTS, chromium
+from tests.kit.browser import ARGUMENTS, chromium
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.serving import Station, until
 
 TRIES = """async (station) => {
   const stop = JSON.stringify({ id: "evil", how: "land" });
@@ -93,9 +93,9 @@ def station(serve: Serve) -> Station:
 
 
 @pytest.fixture
-def page(browser: Browser) -> Iterator[Page]:
+def page(chrome: Browser) -> Iterator[Page]:
     """A page that is not watched: it is meant to fail."""
-    context = browser.new_context()
+    context = chrome.new_context()
     yield context.new_page()
     context.close()
 
@@ -128,13 +128,15 @@ def test_a_page_elsewhere_can_neither_stop_nor_see_what_flies(
 
 
 def test_a_name_that_was_bent_to_this_machine_shows_nothing(
-    station: Station, browser_type: BrowserType
+    station: Station, chrome: Browser
 ) -> None:
     bent = [
         "--host-resolver-rules=MAP rebound.example 127.0.0.1",
         "--disable-features=LocalNetworkAccessChecks",  # not every browser asks first
     ]
-    with browser_type.launch(executable_path=chromium(), args=[*ARGUMENTS, *bent]) as browser:
+    with chrome.browser_type.launch(
+        executable_path=chromium(), args=[*ARGUMENTS, *bent]
+    ) as browser:
         page = browser.new_page()
         site = f"http://rebound.example:{station.port}"
         page.route(f"{site}/before", lambda route: route.fulfill(body="<p>Before it was bent</p>"))

@@ -10,10 +10,11 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
+from tests.kit.browser import Watch
+from tests.kit.station import Station, until
 from tests.library.station.browser.cable import Cable
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import COMPLETED, DONE, put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     add_mission,
     drag,
@@ -22,13 +23,12 @@ from tests.library.station.browser.steps import (
     sees_all,
     start,
 )
-from tests.library.station.browser.watched import Watch
 
 
 @pytest.fixture
 def station(serve: Serve) -> Station:
     """A station with the exercise's plan."""
-    return put_in(serve("drugs_distribution"))
+    return put_in(serve(own=True))
 
 
 @pytest.fixture
@@ -106,7 +106,7 @@ def test_a_server_that_is_supervised_goes_on_by_itself(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
     watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
-    station = put_in(serve("drugs_distribution", "--supervise"))
+    station = put_in(serve("drugs_distribution", "--supervise", own=True))
     page = visit(station)
     flies_until_the_pills_are_picked(page, station)
     os.kill(brain_of(station.pid), signal.SIGKILL)
@@ -199,12 +199,12 @@ def test_what_is_drawn_without_a_network_is_kept_and_saved_when_it_is_back(
 
 def trips_of(station: Station) -> dict[str, int]:
     """Return how many trips each mission of the plan has."""
-    return {one["name"]: len(one["trips"]) for one in station.get("/api/plan")["missions"]}
+    return {one["name"]: len(one["trips"]) for one in station.missions}
 
 
 def named(station: Station) -> list[str]:
     """Return what the missions of the plan are called."""
-    return [mission["name"] for mission in station.get("/api/plan")["missions"]]
+    return [mission["name"] for mission in station.missions]
 
 
 def _lose_first(route: Route, asked: list[str]) -> None:

@@ -7,10 +7,11 @@ from typing import Any
 
 from playwright.sync_api import Locator, Page, expect
 
+from tests.kit.browser import Scheme
+from tests.kit.station import Station, until
 from tests.library.station.browser.axe import violations
-from tests.library.station.browser.conftest import Scheme, Serve, Visit
+from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.layout import covered, cut_off
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     A_FLIGHT,
     card_of,
@@ -147,7 +148,7 @@ def test_what_was_filled_in_is_kept_handed_out_and_flown_with(serve: Serve, visi
     page.get_by_label("Most").fill("12,5")
     page.get_by_label("Margin").fill("3 min")
     until(
-        lambda: station.get("/api/plan")["missions"][1].get("margin") == "3 min",
+        lambda: station.missions[1].get("margin") == "3 min",
         "what was typed last is kept",
     )
     page.reload()

@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, ViewportSize, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
 from tests.library.station.browser.layout import sideways, too_small, wider_than_the_screen
 from tests.library.station.browser.scenes import PAGES
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     action_called,
     add_mission,
@@ -73,8 +73,6 @@ def plan_of(data: dict[str, Any]) -> dict[str, object]:
 @pytest.fixture
 def drawn(ward: Station) -> Station:
     """A station with a plan that is longer than a phone."""
-    revision = ward.get("/api/plan")["revision"]
-    assert ward.put("/api/plan", {"revision": revision, "missions": []})[0] == 200
     put_in(ward)
     return ward
 
@@ -105,8 +103,6 @@ def test_a_swipe_over_the_map_moves_it_and_one_over_the_cards_scrolls_them(
 def test_an_action_is_dropped_on_the_map_of_a_phone_by_a_finger(
     ward: Station, visit: Visit
 ) -> None:
-    revision = ward.get("/api/plan")["revision"]
-    assert ward.put("/api/plan", {"revision": revision, "missions": []})[0] == 200
     page = visit(ward, size=PHONE, touch=True)
     add_mission(page, "By hand")
     box = action_called(page, "take_photo").bounding_box()

@@ -6,9 +6,10 @@ import tomllib
 
 from playwright.sync_api import Page, expect
 
+from tests.kit.browser import Watch
+from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import PLAN, put_in
-from tests.library.station.browser.serving import until
 from tests.library.station.browser.steps import (
     A_FLIGHT,
     open_page,
@@ -17,7 +18,6 @@ from tests.library.station.browser.steps import (
     select_mission,
     start,
 )
-from tests.library.station.browser.watched import Watch
 
 FIRST, SECOND, *_ = PLAN
 
@@ -43,7 +43,7 @@ def test_promises_are_drawn_kept_exported_and_seen(serve: Serve, visit: Visit) -
     promise(page, SECOND)
     tick(page, FIRST)
     until(
-        lambda: [one.get("after") for one in station.get("/api/plan")["missions"]][1] == [FIRST],
+        lambda: [one.get("after") for one in station.missions][1] == [FIRST],
         "the order is kept",
     )
     expect(page.get_by_role("option").nth(0)).to_contain_text("due 5 s")

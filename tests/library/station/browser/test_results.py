@@ -12,12 +12,11 @@ from playwright.sync_api import Locator, Page, expect
 
 from pluto_fleet.station.results.heat import heat_at, newest
 from pluto_fleet.station.results.mosaic import on_top
+from tests.kit.station import Station, until
 from tests.library.station.browser.axe import violations
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import open_page, settled
-from tests.library.station.flights.test_flights import tell
 from tests.paths import ROOT
 
 EXAMPLES = ROOT / "examples"
@@ -70,7 +69,7 @@ def flown(serve: Serve, app: str) -> Station:
     """Fly an example's own missions to their end."""
     missions = ("--missions", str(EXAMPLES / app / "missions.toml"))
     station = serve(app, *missions, "--speed", "60")
-    tell(station, "start")
+    station.tell("start")
     until(lambda: station.phase == "over", "the flight is over")
     return station
 
@@ -181,7 +180,7 @@ def test_results_are_searched_filtered_sorted_and_shown_on_the_map(
     open_page(page, "Results")
     empty = page.get_by_text("Nothing has been flown yet: start a mission.")
     expect(empty).to_be_visible()
-    tell(station, "start")
+    station.tell("start")
     until(lambda: station.phase == "over", "the flight is over")
     page.get_by_role("tab", name="Table").click()
     rows = rows_of(page)
@@ -222,7 +221,7 @@ def test_results_are_searched_filtered_sorted_and_shown_on_the_map(
 
 def test_a_number_of_many_digits_is_shown_as_it_is(serve: Serve, visit: Visit) -> None:
     """And what an app's own action returned is there with its parameters."""
-    station = serve("drugs_distribution", "--speed", "60")
+    station = serve("drugs_distribution", "--speed", "60", own=True)
     station.end()
     fleet = station.folder / "fleet.toml"
     text = station.app.fleet.read_text().replace("temperature = 21.5", "temperature = 12345.0")
@@ -231,7 +230,7 @@ def test_a_number_of_many_digits_is_shown_as_it_is(serve: Serve, visit: Visit) -
     station.start()
     put_in(station)
     page = visit(station)
-    tell(station, "start")
+    station.tell("start")
     until(lambda: station.phase == "over", "the flight is over")
     open_page(page, "Results")
     page.get_by_role("tab", name="Table").click()

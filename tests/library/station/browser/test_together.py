@@ -8,9 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from playwright.sync_api import Route, expect
 
+from tests.kit.browser import Watch
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import COMPLETED, DONE, put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     ANOTHER_WAS_QUICKER,
     add_mission,
@@ -22,7 +23,6 @@ from tests.library.station.browser.steps import (
     sees_all,
     start,
 )
-from tests.library.station.browser.watched import Watch
 
 
 def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit, watch: Watch) -> None:
@@ -35,7 +35,7 @@ def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit, watch: Watch)
     add_mission(other, "From there")
     open_page(one, "Missions")
     expect(missions_listed(one)).to_have_text(["From here", "From there"])
-    until(lambda: len(station.get("/api/plan")["missions"]) == 2, "both are kept")
+    until(lambda: len(station.missions) == 2, "both are kept")
 
 
 def test_what_two_draw_in_one_moment_is_kept_of_both(
@@ -60,7 +60,7 @@ def test_what_two_draw_in_one_moment_is_kept_of_both(
 
 
 def _names(station: Station) -> list[str]:
-    return [mission["name"] for mission in station.get("/api/plan")["missions"]]
+    return [mission["name"] for mission in station.missions]
 
 
 def test_two_who_press_start_at_once_start_once_and_see_the_same(

@@ -8,11 +8,11 @@ import pytest
 from playwright.sync_api import expect
 
 from pluto_fleet.station.web.static import FOLDER
+from tests.kit.browser import Watch
+from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.serving import until
 from tests.library.station.browser.steps import missions_listed, open_page, row_of, sees_all, start
-from tests.library.station.browser.watched import Watch
 
 LOGO_IS_DRAWN = "() => document.querySelector('.head img').naturalWidth > 0"
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import FloatRect, Locator, Page, expect
 
-from tests.library.station.browser.conftest import TABLET, Serve, Visit
+from tests.kit.browser import TABLET
+from tests.kit.station import Station, until
+from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import DONE, PLAN
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     action_called,
     add_mission,
@@ -40,7 +41,7 @@ def middle(box: FloatRect) -> tuple[float, float]:
 
 def target(station: Station) -> list[float] | None:
     """Return where the only trip goes."""
-    trips = station.get("/api/plan")["missions"][0]["trips"]
+    trips = station.missions[0]["trips"]
     return trips[0]["target"][:2] if trips else None
 
 
@@ -96,7 +97,7 @@ def test_the_exercise_is_drawn_and_flown_by_fingers_on_a_phone(serve: Serve, vis
         return plan["problems"] == [] and drawn == wanted
 
     until(is_drawn, "the plan is sound, and whole")
-    for kept in station.get("/api/plan")["missions"]:
+    for kept in station.missions:
         for drawn, trip in zip(kept["trips"], PLAN[kept["name"]], strict=True):
             assert drawn["target"][:2] == pytest.approx(trip.at, abs=0.3)
     hold(page, page.get_by_role("button", name="Start 3 missions"))

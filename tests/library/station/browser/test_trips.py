@@ -8,9 +8,9 @@ from typing import Any
 
 from playwright.sync_api import Locator, Page, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import Place
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     action_called,
     add_mission,
@@ -40,7 +40,7 @@ FIRST_FRAME = """
 
 def trips(station: Station) -> list[dict[str, Any]]:
     """Return the trips of the only mission, as the station has them."""
-    return list(station.get("/api/plan")["missions"][0]["trips"])
+    return list(station.missions[0]["trips"])
 
 
 def has(station: Station, count: int) -> bool:

@@ -18,11 +18,11 @@ from playwright.sync_api import Locator, Page, expect
 
 from pluto_fleet.gateway.starting import still_runs
 from pluto_fleet.journal.place import gateway_folder
+from tests.kit.browser import Watch
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import open_page, start
-from tests.library.station.browser.watched import Watch
 from tests.library.station.world import disagreements, truth
 
 AS_SEEN = """
@@ -96,7 +96,7 @@ def test_page_and_world_agree_on_each_drone_after_every_end_and_every_new_start(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
     watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
-    station = put_in(serve("drugs_distribution", "--speed", "8"))
+    station = put_in(serve("drugs_distribution", "--speed", "8", own=True))
     page = visit(station)
     start(page)
     open_drones(page)
@@ -196,7 +196,7 @@ def gateway_of(station: Station) -> int:
 
 
 def test_with_every_drone_lost_no_start_is_offered(serve: Serve, visit: Visit) -> None:
-    station = put_in(serve("drugs_distribution"))
+    station = put_in(serve(own=True))
     station.end()
     fallen = {f"cf{n}": {"reason": "it fell", "at": None} for n in range(1, 5)}
     known = {"lost": fallen, "mended": [], "retired": []}

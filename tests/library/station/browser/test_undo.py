@@ -5,23 +5,21 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Visit
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import missions_listed, open_page, select_mission
 
 
 @pytest.fixture
 def planned(ward: Station) -> Station:
     """A station with the exercise's plan."""
-    revision = ward.get("/api/plan")["revision"]
-    assert ward.put("/api/plan", {"revision": revision, "missions": []})[0] == 200
     return put_in(ward)
 
 
 def names(station: Station) -> list[str]:
     """Return the names of the missions in the plan."""
-    return [mission["name"] for mission in station.get("/api/plan")["missions"]]
+    return [mission["name"] for mission in station.missions]
 
 
 def rename(page: Page, mission: str, name: str) -> None:

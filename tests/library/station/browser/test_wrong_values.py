@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
+from tests.kit.browser import Watch
+from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.serving import Station, until
 from tests.library.station.browser.steps import (
     ANOTHER_WAS_QUICKER,
     card_of,
@@ -18,14 +19,11 @@ from tests.library.station.browser.steps import (
     open_page,
     select_mission,
 )
-from tests.library.station.browser.watched import Watch
 
 
 @pytest.fixture
 def planned(ward: Station) -> Station:
     """A station with a plan in which nothing is wrong."""
-    revision = ward.get("/api/plan")["revision"]
-    assert ward.put("/api/plan", {"revision": revision, "missions": []})[0] == 200
     put_in(ward)
     return ward
 
@@ -52,7 +50,7 @@ def opened(page: Page, mission: str, trip: int) -> Locator:
 
 
 def target(station: Station, mission: int, trip: int) -> list[float]:
-    missions: list[dict[str, Any]] = station.get("/api/plan")["missions"]
+    missions: list[dict[str, Any]] = station.missions
     found: list[float] = missions[mission]["trips"][trip]["target"]
     return found
 
@@ -159,12 +157,12 @@ def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
     with other.expect_request(lambda request: request.method == "PUT"):
         other.get_by_role("textbox", name="Name").fill("Beta")
     one.get_by_role("textbox", name="Name").fill("Alpha")
-    until(lambda: planned.get("/api/plan")["missions"][1]["name"] == "Alpha", "it is kept")
+    until(lambda: planned.missions[1]["name"] == "Alpha", "it is kept")
     go_on(other, held)
     expect(notices(other)).to_contain_text(
         "Another page wrote “Alpha” while you wrote “Beta” there. The plan has yours now."
     )
-    until(lambda: planned.get("/api/plan")["missions"][1]["name"] == "Beta", "it is kept")
+    until(lambda: planned.missions[1]["name"] == "Beta", "it is kept")
     name = one.get_by_role("textbox", name="Name")
     expect(name).to_have_value("Alpha")
     expect(name).to_have_attribute("aria-invalid", "true")
@@ -202,7 +200,7 @@ def test_who_writes_into_a_mission_that_another_one_deletes_is_told(
     with other.expect_request(lambda request: request.method == "PUT"):
         other.get_by_role("textbox", name="Name").fill("Beta")
     one.get_by_role("button", name="Delete").click()
-    until(lambda: len(planned.get("/api/plan")["missions"]) == 2, "it is gone")
+    until(lambda: len(planned.missions) == 2, "it is gone")
     go_on(other, held)
     expect(notices(other)).to_contain_text("You wrote “Beta”, but another page has")
 
@@ -235,8 +233,8 @@ def test_one_who_changes_another_field_hears_nothing(planned: Station, two: Two)
     with other.expect_request(lambda request: request.method == "PUT"):
         other.get_by_role("textbox", name="Name").fill("Beta")
     one.get_by_role("textbox", name="Name").fill("Alpha")
-    until(lambda: planned.get("/api/plan")["missions"][0]["name"] == "Alpha", "it is kept")
+    until(lambda: planned.missions[0]["name"] == "Alpha", "it is kept")
     go_on(other, held)
-    until(lambda: planned.get("/api/plan")["missions"][1]["name"] == "Beta", "both are kept")
+    until(lambda: planned.missions[1]["name"] == "Beta", "both are kept")
     expect(other.get_by_role("option", name="Alpha")).to_be_visible()
     expect(notices(other)).to_have_text("")

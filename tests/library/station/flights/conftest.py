@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.kit.apps import EXAMPLES, compiled, fly_straight
-from tests.library.station.browser.installed import App
-from tests.library.station.browser.serving import Station
+from tests.kit.station import App, Station
 
 Serve = Callable[..., Station]
 

@@ -7,7 +7,7 @@ import subprocess
 from typing import Any
 
 from pluto_fleet.journal.lock import holder
-from tests.library.station.browser.serving import Station, until
+from tests.kit.station import Station, until
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.flights.test_flights import comes_to, flies, flying, refused, tell
 

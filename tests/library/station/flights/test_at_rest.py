@@ -15,7 +15,7 @@ import pytest
 from pluto_fleet.gateway.starting import cut_directly, still_runs
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.reader import Reader
-from tests.library.station.browser.serving import PATIENCE, Station, until
+from tests.kit.station import PATIENCE, Station, until
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.flights.test_flights import comes_to, events, flying, refused, tell
 from tests.library.station.world import disagreements, truth

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from tests.library.station.browser.serving import Station, until
+from tests.kit.station import Station, until
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.flights.test_flights import (
     comes_to,

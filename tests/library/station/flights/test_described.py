@@ -8,7 +8,7 @@ from typing import Any
 from jsonschema import Draft202012Validator
 
 from pluto_fleet.station.web.reads import DESCRIPTION
-from tests.library.station.browser.serving import until
+from tests.kit.station import until
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.flights.test_flights import comes_to, tell
 

@@ -17,7 +17,7 @@ import pytest
 
 from pluto_fleet.journal.lock import Lock
 from pluto_fleet.journal.reader import Reader
-from tests.library.station.browser.serving import Station, until
+from tests.kit.station import Station, until
 from tests.library.station.flights.conftest import Serve
 
 NUMBERS = count()

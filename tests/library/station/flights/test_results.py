@@ -12,7 +12,7 @@ from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.plain_data import value_data
 from pluto_fleet.station.feed import Feed
 from pluto_fleet.station.results.meaning import SIMULATED_UNITS as UNITS
-from tests.library.station.browser.serving import Station, until
+from tests.kit.station import Station, until
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.flights.test_flights import comes_to, tell
 

@@ -6,7 +6,7 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any
 
-from tests.library.station.browser.serving import Station, until
+from tests.kit.station import Station, until
 
 ENDS = ("over", "stopped", "interrupted")
 

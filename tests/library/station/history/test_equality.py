@@ -11,7 +11,7 @@ import pytest
 from pluto_fleet.station.history.frames import Shown
 from pluto_fleet.station.history.recording import MOVES_EVERY, MOVING
 from tests.kit.apps import NAMES
-from tests.library.station.browser.serving import Station, until
+from tests.kit.station import Station, until
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.flights.test_flights import tell
 from tests.library.station.history.looking import Page, View

@@ -7,7 +7,7 @@ import time
 from typing import Any
 
 from pluto_fleet.station.history.folder import recording_of
-from tests.library.station.browser.serving import Station, until
+from tests.kit.station import Station, until
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.flights.test_flights import completes_all_once, flying, tell
 

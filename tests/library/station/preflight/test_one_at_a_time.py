@@ -26,8 +26,8 @@ from pluto_fleet.station.web.http import Request
 from pluto_fleet.station.web.served import Asked
 from pluto_fleet.station.wire import Forecast
 from tests.forks import recorded
+from tests.kit.station import PATIENCE
 from tests.library.files.an_app import APP
-from tests.library.station.browser.serving import PATIENCE
 from tests.library.station.plan.drawing import drawn
 from tests.library.station.preflight.asking import FLEET, photos, question
 from tests.library.station.server.asking import AStation

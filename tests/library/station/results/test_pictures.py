@@ -23,7 +23,7 @@ from pluto_fleet.station.results.archive import write_archive
 from pluto_fleet.station.results.flights import FlightResults
 from pluto_fleet.station.results.pictures import SMALL, picture, small
 from tests.kill.trial import end_gateway
-from tests.library.station.browser.serving import until
+from tests.kit.station import until
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.results.camera import SIZE
 from tests.paths import ROOT

@@ -1,29 +1,53 @@
-"""The ground station as a process of its own: started, killed, and asked behind the page's back."""
+"""The ground station as a process of its own: started, killed, and asked behind the page's back.
+
+`Stations` keeps some running: a test takes one as if nothing had ever been drawn or flown there.
+"""
 
 from __future__ import annotations
 
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
+import sys
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from itertools import count
 from pathlib import Path
 from typing import Any
 from urllib.error import HTTPError
 from urllib.request import Request, urlopen
 
+import pytest
+
+from tests.kit.apps import compiled_file, fly_straight
 from tests.kill.judge import done_by_the_world
 from tests.kill.lives import eventually
 from tests.kill.trial import end_gateway
-from tests.library.station.browser.installed import App
+from tests.paths import EXAMPLES
 
 PATIENCE = 60.0
 """Seconds until something that does not happen is called a failure."""
 
 SAID = re.compile(r"^station: (http://\S+)", re.MULTILINE)
+
+NUMBERS = count()
+"""Each command has a name of its own."""
+
+ALTERED = {
+    "night_ward": (
+        "night_round",
+        {
+            "app night_round": "app night_ward",
+            'patient: text = "", most: float = 20': "patient: text, most: float = 20, margin: time = 10 min",
+            "  action listen": "  trip has softly: bool, warmth: temperature = 20 C\n\n  action listen",
+        },
+    )
+}
+"""Apps that are an example with other words in its source."""
 
 
 def until(holds: Callable[[], bool], what: str | Callable[[], str]) -> None:
@@ -31,6 +55,38 @@ def until(holds: Callable[[], bool], what: str | Callable[[], str]) -> None:
     if not eventually(holds, PATIENCE):
         said = what if isinstance(what, str) else what()
         raise AssertionError(f"it never came about that {said}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class App:
+    """A program that flies an app, and the two files that its example has."""
+
+    name: str
+    program: Path
+    fleet: Path
+    missions: Path
+
+
+def compiled_app(name: str, folder: Path) -> App:
+    """Compile an example there, and make a program of it that imports it from there."""
+    example, words = ALTERED.get(name, (name, {}))
+    files = folder / name
+    shutil.copytree(EXAMPLES / example, files)
+    source = files / "app.pluto"
+    text = source.read_text(encoding="utf-8")
+    for old, new in words.items():
+        assert old in text
+        text = text.replace(old, new)
+    source.write_text(text, encoding="utf-8")
+    fly_straight(files / "fleet.toml")
+    package = compiled_file(source, folder / f"{name}.package")
+    program = folder / f"{name}.sh"
+    path = f"PYTHONPATH='{package / 'src'}'"
+    program.write_text(f"#!/bin/sh\n{path} exec '{sys.executable}' -m {name} \"$@\"\n")
+    program.chmod(0o755)
+    return App(
+        name=name, program=program, fleet=files / "fleet.toml", missions=files / "missions.toml"
+    )
 
 
 @dataclass(slots=True, kw_only=True)
@@ -44,6 +100,8 @@ class Station:
     """Where the page is, token and all."""
     lives: int = 0
     port: int = 0
+    before: frozenset[Path] = frozenset()
+    """The journals of those who had it before."""
     _life: subprocess.Popen[bytes] | None = field(default=None)
 
     def start(self) -> None:
@@ -109,9 +167,26 @@ class Station:
         for journal in self.journals():
             end_gateway(journal)
 
+    def reset(self) -> bool:
+        """Put away what flies, and the plan; False: that is not enough to be as at the beginning."""
+        if self._life is None or self._life.poll() is not None:
+            return False
+        if self.phase in ("flying", "stopping"):
+            self.tell("stop", how="land")
+            until(lambda: self.phase in ("stopped", "over"), "all have landed")
+        if self.phase in ("stopped", "interrupted"):
+            self.tell("discard")
+        now = self.now()
+        unhurt = all(one["status"] != "LOST" and not one["retired"] for one in now["drones"])
+        if now["state"]["phase"] != "idle" or now["state"]["map"] or not unhurt:
+            return False
+        self.plan([])
+        self.before = frozenset(self.folder.glob("**/*.journal"))
+        return True
+
     def journals(self) -> list[Path]:
         """Return the journals of its flights, the first one first."""
-        return sorted(self.folder.glob("**/*.journal"))
+        return sorted({*self.folder.glob("**/*.journal")} - self.before)
 
     def done(self) -> Counter[tuple[str, str]]:
         """Count what the simulated world has seen done that must not be done twice."""
@@ -142,6 +217,26 @@ class Station:
         data = json.dumps(given).encode()
         return self._ask(Request(self._at(path), data=data, headers=headers, method="PUT"))
 
+    def plan(self, missions: list[dict[str, Any]]) -> list[Any]:
+        """Give it a plan; return the problems of that."""
+        revision = self.get("/api/plan")["revision"]
+        status, answer = self.put("/api/plan", {"revision": revision, "missions": missions})
+        assert status == 200, answer
+        problems: list[Any] = answer["problems"]
+        return problems
+
+    @property
+    def missions(self) -> list[dict[str, Any]]:
+        """The missions of its plan."""
+        missions: list[dict[str, Any]] = self.get("/api/plan")["missions"]
+        return missions
+
+    def tell(self, what: str, **given: object) -> str:
+        """Command something under a name of its own; return what is said."""
+        status, answer = self.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
+        assert status == 200, answer
+        return str(answer["said"])
+
     @property
     def url_to_watch(self) -> str:
         """Where the page is for those who command nothing, token and all."""
@@ -149,8 +244,8 @@ class Station:
         return f"{self.url.partition('#')[0]}#token={token}"
 
     def now(self) -> dict[str, Any]:
-        """Return the newest that all pages are shown, whole."""
-        live: dict[str, Any] = self.get("/api/live?flight=&seen=0&log=0&results=0")
+        """Return the newest that all pages are shown, whole: at once, as to one who has seen another flight."""
+        live: dict[str, Any] = self.get("/api/live?flight=none&seen=0&log=0&results=0")
         return live
 
     @property
@@ -178,3 +273,62 @@ class Station:
         except HTTPError as refused:
             with refused:
                 return refused.code, json.loads(refused.read())
+
+
+class Stations:
+    """Stations that tests use one after another: each app with its options is served once."""
+
+    MOST = 2
+    """As many are kept running."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._apps: dict[str, App] = {}
+        self._kept: dict[tuple[str, ...], Station] = {}
+        self._numbers = count()
+
+    def app(self, name: str) -> App:
+        """Return an example, compiled once."""
+        if name not in self._apps:
+            self._apps[name] = compiled_app(name, self._folder)
+        return self._apps[name]
+
+    def fresh(self, name: str, *options: str) -> Station:
+        """Return a station that nobody else has, with files of its own, before its first life."""
+        folder = self._folder / f"station{next(self._numbers)}"
+        app = self.app(name)
+        shutil.copytree(app.fleet.parent, folder / "files")
+        files = {
+            "fleet": folder / "files" / "fleet.toml",
+            "missions": folder / "files" / "missions.toml",
+        }
+        (folder / "kept").mkdir()
+        return Station(app=replace(app, **files), folder=folder / "kept", options=options)
+
+    def shared(self, name: str, *options: str) -> Station:
+        """Return a running station that others have had before, as if it were new."""
+        station = self._kept.pop((name, *options), None)
+        if station is not None and not station.reset():
+            station.end()
+            station = None
+        if station is None:
+            station = self.fresh(name, *options)
+            station.start()
+        self._kept[name, *options] = station
+        while len(self._kept) > self.MOST:
+            self._kept.pop(next(iter(self._kept))).end()
+        return station
+
+    def end(self) -> None:
+        """Leave none running."""
+        for station in self._kept.values():
+            station.end()
+        self._kept.clear()
+
+
+@pytest.fixture(scope="session")
+def stations(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stations]:
+    """The stations of this worker; none of their processes is left behind."""
+    stations = Stations(tmp_path_factory.mktemp("stations"))
+    yield stations
+    stations.end()
