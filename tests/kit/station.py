@@ -23,10 +23,10 @@ from urllib.request import Request, urlopen
 
 import pytest
 
-from tests.kit.apps import compiled_file, fly_straight
 from tests.kill.judge import done_by_the_world
 from tests.kill.lives import eventually
 from tests.kill.trial import end_gateway
+from tests.kit.apps import compiled_file, fly_straight
 from tests.paths import EXAMPLES
 
 PATIENCE = 60.0
