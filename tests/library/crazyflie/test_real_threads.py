@@ -1,4 +1,4 @@
-"""Crazyflies behind one dongle, which is pulled out and put in again; cflib's own radio driver."""
+"""cflib with its own threads, in real time: a drone by UDP, and some behind one dongle that is pulled out."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.drones.errors import LinkLost
 from pluto_fleet.drones.protocol import LINK_LOST, DroneSetup
 from tests.kill.lives import eventually
-from tests.library.crazyflie.hangar import PATIENCE
+from tests.library.crazyflie.hangar import FAST, PATIENCE, hangar
 from tests.library.crtp.radio import Ether, plugged_in
 
 pytest.importorskip("cflib")
@@ -24,18 +24,7 @@ pytestmark = pytest.mark.filterwarnings(
 )
 
 IDS = ("cf1", "cf2", "cf3")
-THREADS = ("cflib for", "letting go", "Radio", "ping", "Incoming", "Param", "Timer", "Udp")
-
-
-def navigation(ether: Ether, drone: str, folder: Path) -> Crazyflie:
-    home = ether.drones[drone].build.home
-    uri = ether.uris[drone]
-    return Crazyflie(DroneSetup(id=drone, uri=uri, home=home, speed=1.0, options={}, folder=folder))
-
-
-def ether() -> Ether:
-    builds = [Build(id=id, home=(2.0 * at, 1.0, 0.0)) for at, id in enumerate(IDS)]
-    return Ether(builds, MemoryLog())
+THREADS = ("cflib for", "closing the link", "Radio", "ping", "Incoming", "Param", "Timer", "Udp")
 
 
 def left() -> list[str]:
@@ -44,11 +33,36 @@ def left() -> list[str]:
     return [one for one in names if one.startswith(THREADS) and not one.startswith("Shared")]
 
 
-def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
-    tmp_path: Path,
-) -> None:
-    air = ether()
+def navigation(ether: Ether, drone: str, folder: Path) -> Crazyflie:
+    home = ether.drones[drone].build.home
+    uri = ether.uris[drone]
+    return Crazyflie(DroneSetup(id=drone, uri=uri, home=home, speed=1.0, options={}, folder=folder))
 
+
+@pytest.fixture
+def air() -> Ether:
+    """Three drones in reach of one dongle."""
+    builds = [Build(id=id, home=(2.0 * at, 1.0, 0.0)) for at, id in enumerate(IDS)]
+    return Ether(builds, MemoryLog())
+
+
+def test_closing_in_the_air_lands_first_cuts_nothing_and_ends_all_threads(tmp_path: Path) -> None:
+    async def fly() -> None:
+        async with hangar(tmp_path) as one:
+            cf = await one.connected()
+            await cf.takeoff(0.3, FAST)
+            await cf.close()
+            assert one.did("land") and not one.did("setpoint") and not one.did("emergency stop")
+            assert not one.flies and not one.drone.supervisor.locked
+
+    asyncio.run(fly())
+    assert eventually(lambda: left() == [], PATIENCE), left()
+
+
+@pytest.mark.long  # twenty seconds in real time
+def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
+    air: Ether, tmp_path: Path
+) -> None:
     async def fly() -> None:
         flown = [navigation(air, drone, tmp_path) for drone in IDS]
         await asyncio.gather(*(one.connect() for one in flown))
@@ -74,28 +88,24 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
     assert left() == []
 
 
-def test_a_dongle_that_hangs_holds_no_one_up(tmp_path: Path) -> None:
-    air = ether()
-
+@pytest.mark.long  # ten seconds in real time
+def test_a_dongle_that_hangs_holds_no_one_up(air: Ether, tmp_path: Path) -> None:
     async def fly() -> None:
         one = navigation(air, "cf1", tmp_path)
         await one.connect()
         air.stalled = True
-        with pytest.raises(LinkLost):
-            async with asyncio.timeout(PATIENCE):
-                await one.read("pm.vbat")
-        with pytest.raises(LinkLost):
-            async with asyncio.timeout(PATIENCE):
-                await one.connect()
         async with asyncio.timeout(PATIENCE):
+            with pytest.raises(LinkLost):
+                await one.read("pm.vbat")
+            with pytest.raises(LinkLost):
+                await one.connect()
             await one.close()
 
     with plugged_in(air):
         asyncio.run(fly())
 
 
-def test_who_is_there_is_looked_for_at_all_addresses(tmp_path: Path) -> None:
-    air = ether()
+def test_who_is_there_is_looked_for_at_all_addresses(air: Ether) -> None:
     with plugged_in(air):
         options = {"addresses": ["E7E7E7E701", "E7E7E7E703", "E7E7E7E7E7"]}
         found = asyncio.run(Crazyflie.scan(options))
