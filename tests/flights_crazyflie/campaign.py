@@ -36,7 +36,6 @@ from tests.flights_crazyflie.plans import (
 from tests.flights_crazyflie.scenarios import ALL, SCENARIOS, Scenario
 from tests.kill.lives import eventually
 from tests.kill.trial import gateway_of
-from tests.library.crtp.starting import COMMAND
 
 _LEAVES = 180.0
 """Seconds within which the gateway ends, once the app has."""
@@ -45,7 +44,7 @@ _LEAVES = 180.0
 def fly(scenario: Scenario, source: Path, folder: Path) -> tuple[Flight, list[str]]:
     """Fly a scenario to its end; return the flight, and what was wrong with it."""
     world = folder / "drones"
-    uris = process.start(world, homes(len(ALL)), COMMAND)
+    uris = process.start(world, homes(len(ALL)))
     write(folder, missions(tours(3)), fleet(len(ALL), uris))
     if scenario.speed is not None:
         source = quick_package(folder / "package", scenario.speed)

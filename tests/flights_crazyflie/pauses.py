@@ -4,7 +4,8 @@
     python -m tests.flights_crazyflie.pauses --first 2.8 --last 3.3 --step 0.01 --drones 30
     python -m tests.flights_crazyflie.pauses --auto-arm
 
-flies 301 pauses, from 0 to 6 s in steps of 20 ms, by the unmodified cflib; many drones share them.
+flies 301 pauses, from 0 to 6 s in steps of 20 ms, by the unmodified cflib and in virtual time; many drones share
+them.
 Some 3 s after a landing the firmware disarms by itself: a take-off must outlive that at any moment.
 Judged is by the drones' own record: each pause is followed by a take-off that is flown, and a landing.
 """
@@ -24,9 +25,10 @@ from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones.errors import LinkLost, NavigationError
+from pluto_fleet.drones.errors import NavigationError
 from pluto_fleet.drones.protocol import DroneSetup
 from tests.flights_crazyflie.judge import dropped
+from tests.kit.unthreaded import in_virtual_time
 
 FIRST, LAST, STEP, DRONES = 0.0, 6.0, 0.02, 24
 HEIGHT, SPEED = 0.3, 1.0
@@ -44,8 +46,6 @@ class Outcome:
     """Seconds from the landing to the next take-off."""
     wrong: str
     """Empty: it flew."""
-    link_lost: bool = False
-    """Whether it was not flown for want of a link."""
 
 
 def pauses(first: float = FIRST, last: float = LAST, step: float = STEP) -> list[float]:
@@ -56,22 +56,7 @@ def pauses(first: float = FIRST, last: float = LAST, step: float = STEP) -> list
 async def sweep(
     wanted: Sequence[float], drones: int, folder: Path, *, auto_arm: bool = False
 ) -> list[Outcome]:
-    """Fly all of these pauses with so many drones at once; return what became of each, in order.
-
-    A machine that stands still for a second makes drones silent, which is no fault of theirs: pauses
-    that were not flown for want of a link are flown again, once.
-    """
-    outcomes = await _fly(wanted, drones, folder, auto_arm=auto_arm)
-    missing = [one.pause for one in outcomes if one.link_lost]
-    again = await _fly(missing, drones, folder, auto_arm=auto_arm) if missing else []
-    flown = [one for one in outcomes if not one.link_lost]
-    return sorted(flown + again, key=lambda one: one.pause)
-
-
-async def _fly(
-    wanted: Sequence[float], drones: int, folder: Path, *, auto_arm: bool
-) -> list[Outcome]:
-    """Share the pauses among so many drones, and fly them all at once."""
+    """Share these pauses among so many drones, and fly them all at once; return what became of each."""
     builds = [
         Build(id=f"cf{number}", home=(2.0 * number, 0.0, 0.0), auto_arm=auto_arm, seed=number)
         for number in range(min(drones, len(wanted)))
@@ -88,7 +73,7 @@ async def _fly(
         )
     finally:
         await server.close()
-    return [one for chain in flown for one in chain]
+    return sorted((one for chain in flown for one in chain), key=lambda one: one.pause)
 
 
 async def _chain(
@@ -115,16 +100,12 @@ async def _chain(
             try:
                 async with asyncio.timeout(_PATIENCE):
                     wrong = await _up_and_down(server, flies, build.id)
-            except LinkLost:
-                raise  # the pauses that are left cannot be flown either
             except (NavigationError, TimeoutError) as error:
                 wrong = str(error) or "it does not get on"
             fell = [command for command in record.commands[before:] if command.drone == build.id]
             outcomes.append(Outcome(pause, wrong or "; ".join(dropped(fell))))
     except NavigationError as error:
-        missing = wanted[len(outcomes) :]
-        lost = isinstance(error, LinkLost)
-        outcomes += [Outcome(pause, f"not flown: {error}", lost) for pause in missing]
+        outcomes += [Outcome(pause, f"not flown: {error}") for pause in wanted[len(outcomes) :]]
     finally:
         await flies.close()
     return outcomes
@@ -161,9 +142,8 @@ def main() -> int:
         parser.error("there is nothing to fly")
     began = time.monotonic()
     with TemporaryDirectory(prefix="pauses-") as folder:
-        outcomes = asyncio.run(
-            sweep(wanted, options.drones, Path(folder), auto_arm=options.auto_arm)
-        )
+        flights = sweep(wanted, options.drones, Path(folder), auto_arm=options.auto_arm)
+        outcomes = in_virtual_time(flights)
     bad = [one for one in outcomes if one.wrong]
     for one in bad:
         print(f"{one.pause:.2f} s: {one.wrong}")

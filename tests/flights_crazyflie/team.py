@@ -1,18 +1,21 @@
-"""A gateway and its team of Crazyflies in this very loop: simulated, but reached through cflib."""
+"""A gateway and its team of Crazyflies in this very loop: simulated, but reached through cflib.
+
+In a loop whose clock jumps, all of it is flown in virtual time.
+"""
 
 from __future__ import annotations
 
 import asyncio
-import threading
 from collections.abc import AsyncIterator, Coroutine, Mapping
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from time import monotonic
 from typing import Any, TypeVar
 
-from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
-from pluto_fleet.drones.team import Team, make_team
+from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.drones.protocol import DroneSetup
+from pluto_fleet.drones.team import Team
+from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.actions import Plain
@@ -21,7 +24,6 @@ from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
-from tests.kill.lives import eventually
 
 T = TypeVar("T")
 
@@ -107,22 +109,22 @@ class Flown:
 async def commanded(
     folder: Path, homes: Mapping[str, Point], uris: Mapping[str, str], options: Mapping[str, object]
 ) -> AsyncIterator[Flown]:
-    """Fly these drones; in the end all are landed, and nothing is left: no thread, no task."""
-    crafts = [FleetDrone(id=id, home=home, index=i) for i, (id, home) in enumerate(homes.items())]
-    real = RealFleet(
-        drones=tuple(
-            RealDrone(id=id, navigation="crazyflie", uri=uris[id], options=options) for id in homes
-        ),
-        localization="own",
-        localization_options={},
-    )
-    before, log, began = set(asyncio.all_tasks()), list[str](), monotonic()
-    kernel = RealTime()
+    """Fly these drones; in the end all are landed, and no task is left."""
+    before, log, loop = set(asyncio.all_tasks()), list[str](), asyncio.get_running_loop()
+    kernel, began = RealTime(), loop.time()
 
     def say(line: str) -> None:
-        log.append(f"{monotonic() - began:6.2f} {line}")
+        log.append(f"{loop.time() - began:6.2f} {line}")
 
-    team = make_team(kernel, crafts, real, HALL, folder, say)
+    def craft(id: str, home: Point) -> TeamDrone:
+        setup = DroneSetup(
+            id=id, uri=uris[id], home=home, speed=QUICK.speed, options=options, folder=folder
+        )
+        return TeamDrone(id=id, category=QUICK, home=home, navigation=Crazyflie(setup))
+
+    drones = [craft(id, home) for id, home in homes.items()]
+    team = Team(kernel, drones, HALL, folder=folder, say=say, clock=loop.time)
+    crafts = [FleetDrone(id=id, home=home, index=i) for i, (id, home) in enumerate(homes.items())]
     gateway = Gateway(kernel, team, crafts, HALL, apart=APART, slack=CRAZYFLIE.slack)
     team.begin()
     try:
@@ -136,13 +138,3 @@ async def commanded(
     if kernel.crashed is not None:
         raise kernel.crashed
     assert asyncio.all_tasks() - before == set(), log
-
-
-def no_thread_is_left() -> bool:
-    """Return whether all threads end: those of cflib take a moment."""
-    fine = ("MainThread", "pytest", "execnet", "Shared Radio")  # cflib never lets go of a dongle
-
-    def over() -> bool:
-        return all(thread.name.startswith(fine) for thread in threading.enumerate())
-
-    return eventually(over, 15.0)

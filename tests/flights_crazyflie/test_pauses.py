@@ -2,34 +2,23 @@
 
 from __future__ import annotations
 
-import asyncio
-from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
-from tests.flights_crazyflie.pauses import Outcome, pauses, sweep
-from tests.flights_crazyflie.team import no_thread_is_left
+from tests.flights_crazyflie.pauses import pauses, sweep
+from tests.kit.unthreaded import in_virtual_time
 
 pytest.importorskip("cflib")
-# in real time; tests/library/crazyflie/test_take_off.py has one such pause
-pytestmark = pytest.mark.long
 
 AROUND = pauses(2.9, 3.2, 0.05)
 """Seconds: a few pauses around the disarming."""
 
 
+@pytest.mark.parametrize("auto_arm", [False, True])
 def test_however_long_the_pause_after_a_landing_is_the_next_take_off_is_flown(
-    tmp_path: Path,
+    auto_arm: bool, tmp_path: Path
 ) -> None:
-    """By drones that arm on request, and by those that arm by themselves, all at once."""
-
-    async def both() -> Sequence[Sequence[Outcome]]:
-        return await asyncio.gather(
-            *(sweep(AROUND, len(AROUND), tmp_path, auto_arm=alone) for alone in (False, True))
-        )
-
-    for outcomes in asyncio.run(both()):
-        assert len(outcomes) == len(AROUND)
-        assert [(one.pause, one.wrong) for one in outcomes if one.wrong] == []
-    assert no_thread_is_left()
+    """By drones that arm on request, and by those that arm by themselves."""
+    outcomes = in_virtual_time(sweep(AROUND, len(AROUND), tmp_path, auto_arm=auto_arm))
+    assert [(one.pause, one.wrong) for one in outcomes] == [(pause, "") for pause in AROUND]

@@ -1,13 +1,12 @@
 """Each fault, on Crazyflies behind one gateway: what it becomes, and that no other suffers.
 
-All drones of a test fly at once, in real time, through the unmodified cflib over UDP.
+All drones fly at once, in virtual time, through the unmodified cflib.
 """
 
 from __future__ import annotations
 
 import asyncio
 from pathlib import Path
-from time import monotonic
 
 import pytest
 
@@ -18,11 +17,10 @@ from pluto_fleet.crtp.server import Server
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Point
 from tests.flights_crazyflie.judge import dropped
-from tests.flights_crazyflie.team import Flown, commanded, no_thread_is_left
+from tests.flights_crazyflie.team import Flown, commanded
+from tests.kit.unthreaded import in_virtual_time, passes, the_air
 
 pytest.importorskip("cflib")
-# in real time; tests/library/crazyflie and tests/library/drones have each fault alone
-pytestmark = pytest.mark.long
 
 HOMES: dict[str, Point] = {
     name: (2.0 * at + 1.0, 1.0, 0.0)
@@ -126,9 +124,9 @@ async def has_a_low_battery(hall: Hall) -> None:
     await began
     recovers = hall.flown.begin(hall.flown.gateway.recover("flat"))
     while hall.flies("flat"):
-        await asyncio.sleep(0.1)
+        await passes(0.1)
     assert not hall.is_home("flat")
-    await asyncio.sleep(3)
+    await passes(3.0)
     assert not recovers.is_set
     await hall.server.let("flat", "volts", 4.1)
     await hall.server.let("flat", "fetch")
@@ -159,10 +157,10 @@ STORIES = (
 
 
 def test_each_fault_fails_its_own_flight_and_no_other(tmp_path: Path) -> None:
-    """In the end all that flew has landed, with its motors never cut, and no thread is left."""
+    """In the end all that flew has landed, with its motors never cut."""
 
     async def fly() -> None:
-        record = MemoryLog()
+        record, began = MemoryLog(), the_air().time()
         server = Server([Build(id=id, home=home) for id, home in HOMES.items()], record)
         await server.start()
         await server.let("mute", "silent")
@@ -171,11 +169,10 @@ def test_each_fault_fails_its_own_flight_and_no_other(tmp_path: Path) -> None:
         try:
             async with commanded(tmp_path, HOMES, server.uris, OPTIONS) as flown:
                 hall = Hall(server, flown)
-                began = monotonic()
                 fleet_report = await flown.do(flown.link.fleet_report())
                 silent = [id for id, report in fleet_report.drones.items() if not report.reached]
                 assert silent == ["mute"], flown.log
-                assert monotonic() - began < 30
+                assert the_air().time() - began < 30.0
                 stories = {story.__name__: story(hall) for story in STORIES}
                 stories |= {drone: hall.does_well(drone) for drone in ("well", "lossy1", "lossy5")}
                 ends = await asyncio.gather(*stories.values(), return_exceptions=True)
@@ -187,5 +184,4 @@ def test_each_fault_fails_its_own_flight_and_no_other(tmp_path: Path) -> None:
         finally:
             await server.close()
 
-    asyncio.run(fly())
-    assert no_thread_is_left()
+    in_virtual_time(fly())

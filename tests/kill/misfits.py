@@ -47,9 +47,9 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
+from threading import Event
 
 from . import ActionFailed, Verdict
 
@@ -69,18 +69,18 @@ def once(name):
 
 def lives_for_ever():
     while True:
-        time.sleep(1)
+        signal.pause()
 
 
 async def ended_child(context):
     """Start children in each way, end them, and let one live on beside the app."""
     for way in ("fork", "spawn", "forkserver"):
-        child = multiprocessing.get_context(way).Process(target=time.sleep, args=(100,), daemon=True)
+        child = multiprocessing.get_context(way).Process(target=signal.pause, daemon=True)
         child.start()
         child.terminate()
         while child.is_alive():
             await asyncio.sleep(0.01)
-    child = subprocess.Popen([sys.executable, "-S", "-c", "import time; time.sleep(100)"])
+    child = subprocess.Popen([sys.executable, "-S", "-c", "import signal; signal.pause()"])
     child.terminate()
     child.wait()
     killed = []
@@ -115,7 +115,7 @@ async def holds_on():
     """Wait for ever, cancelled or not."""
     while True:
         try:
-            await asyncio.sleep(1)
+            await asyncio.Event().wait()
         except BaseException:
             pass
 
@@ -124,12 +124,12 @@ def leaves_behind(name):
     """Leave what Python would wait for behind: threads, processes, tasks, what is done at the end."""
     if name == "executor":
         KEPT.append(ThreadPoolExecutor())
-        KEPT[-1].submit(time.sleep, 1000)
+        KEPT[-1].submit(Event().wait)
     elif name == "pool":
         KEPT.append(ProcessPoolExecutor(mp_context=FORK))
-        KEPT[-1].submit(time.sleep, 1000)
+        KEPT[-1].submit(signal.pause)
     elif name == "thread":
-        asyncio.get_running_loop().run_in_executor(None, time.sleep, 1000)
+        asyncio.get_running_loop().run_in_executor(None, Event().wait)
     elif name == "task":
         KEPT.append(asyncio.create_task(holds_on()))
     elif name == "ends":
@@ -138,7 +138,7 @@ def leaves_behind(name):
     elif name == "stops":
         asyncio.get_running_loop().call_soon(asyncio.get_running_loop().stop)
     elif name == "atexit":
-        atexit.register(time.sleep, 1000)
+        atexit.register(Event().wait)
     elif name == "says all is well" and once(name):
         atexit.register(os._exit, 0)
 

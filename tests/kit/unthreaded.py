@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
 from threading import Thread
@@ -281,3 +281,9 @@ def one_thread() -> Iterator[None]:
         for module in ours:
             patch.setattr(module, "Worker", Inline)
         yield
+
+
+def in_virtual_time(flight: Coroutine[Any, Any, T]) -> T:
+    """Fly this to its end."""
+    with one_thread(), asyncio.Runner(loop_factory=AirLoop) as runner:
+        return runner.run(flight)

@@ -1,4 +1,4 @@
-"""The campaign that compares promises with flights: its plans, its record and its tables."""
+"""The campaign that compares promises with flights: its plans can be flown, and its tables are right."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from tests.prediction.random_plans import random_plans
 from tests.prediction.record import Flown, Promise, flown, keep, kept, promised
 from tests.prediction.table import report
 
+TOLD = "3 min 20 s (9 flights)"
 PROMISE = Promise(
     plan="ward",
     drones=4,
@@ -27,60 +28,35 @@ PROMISE = Promise(
     p95=210.0,
     battery=0.5,
     flights=9.0,
-    exact="3 min 20 s (9 flights)",
-    dry_run="3 min 20 s (9 flights)",
+    exact=TOLD,
+    dry_run=TOLD,
 )
 FLOWN = Flown(
-    plan="ward",
-    code=0,
-    makespan=208.0,
-    began=3.3,
-    battery=0.56,
-    flights=9,
-    failed=0,
-    load=1.0,
+    plan="ward", code=0, makespan=208.0, began=3.3, battery=0.56, flights=9, failed=0, load=1.0
 )
+REPORT = """\
+| ward | 4 | 3 min 20 s (3 min 10 s–3 min 30 s) | 3 min 28 s | -3.8 % | 50 % | 56 % | -6.0 | 9 | 9 | as simulated |
+
+ward: a flight ended with exit code 1, and does not count
+makespan within 5 %: 1 of 1; median error 3.8 %, largest 3.8 %
+lowest battery within 5 points: 0 of 1; largest difference 6.0
+
+| plan | flights | seen: mean ± s.d. | least–most | promised (5–95 %) | inside |
+| --- | --- | --- | --- | --- | --- |
+| ward | 3 | 208.7 s ± 3.1 s | 206.0–212.0 s | 190.0–210.0 s | 2 of 3 |
+"""
 
 
-def test_a_row_says_by_how_much_a_promise_was_wrong() -> None:
-    _, _, row, *_ = report({"ward": PROMISE}, {"ward": [FLOWN]})
-    cells = [cell.strip() for cell in row.strip("|").split("|")]
-    assert cells == [
-        "ward",
-        "4",
-        "3 min 20 s (3 min 10 s–3 min 30 s)",
-        "3 min 28 s",
-        "-3.8 %",
-        "50 %",
-        "56 %",
-        "-6.0",
-        "9",
-        "9",
-        "as simulated",
-    ]
-
-
-def test_the_summary_counts_what_is_near_enough() -> None:
-    told = list(report({"ward": PROMISE}, {"ward": [FLOWN]}))
-    assert "makespan within 5 %: 1 of 1; median error 3.8 %, largest 3.8 %" in told
-    assert "lowest battery within 5 points: 0 of 1; largest difference 6.0" in told
+def test_the_report_says_by_how_much_a_promise_was_wrong_and_how_much_flights_differ() -> None:
+    flights = [replace(FLOWN, makespan=seconds) for seconds in (206.0, 208.0, 212.0)]
+    told = report({"ward": PROMISE}, {"ward": [*flights, replace(FLOWN, code=1, makespan=9.0)]})
+    assert list(told)[2:] == REPORT.splitlines()
 
 
 def test_a_dry_run_that_differs_is_shown() -> None:
     other = replace(PROMISE, dry_run="3 min 21 s (9 flights)")
     _, _, row, *_ = report({"ward": other}, {"ward": [FLOWN]})
-    assert "3 min 21 s (9 flights), and not 3 min 20 s (9 flights)" in row
-
-
-def test_a_flight_whose_mission_failed_does_not_count() -> None:
-    told = list(report({"ward": PROMISE}, {"ward": [replace(FLOWN, code=1)]}))
-    assert told[2:] == ["", "ward: a flight ended with exit code 1, and does not count"]
-
-
-def test_repeated_flights_show_the_spread_seen_and_the_one_promised() -> None:
-    flights = [replace(FLOWN, makespan=seconds) for seconds in (206.0, 208.0, 212.0)]
-    *_, last = report({"ward": PROMISE}, {"ward": flights})
-    assert last == "| ward | 3 | 208.7 s ± 3.1 s | 206.0–212.0 s | 190.0–210.0 s | 2 of 3 |"
+    assert f"| 3 min 21 s (9 flights), and not {TOLD} |" in row
 
 
 def test_what_is_kept_is_read_again_and_a_later_promise_counts(tmp_path: Path) -> None:
@@ -102,7 +78,7 @@ def tours(tmp_path_factory: pytest.TempPathFactory) -> App:
         return described(import_module("tours.flow").APP)
 
 
-@pytest.mark.parametrize("plan", [*OWN, *random_plans(30, 1)], ids=lambda plan: plan.name)
+@pytest.mark.parametrize("plan", [*OWN, *random_plans(5, 1)], ids=lambda plan: plan.name)
 def test_a_plan_can_be_flown(plan: Plan, tours: App) -> None:
     fleet = fleet_of(parsed("fleet.toml", plan.fleet), tours)
     missions = missions_of(parsed("missions.toml", plan.missions), tours, fleet.airspace)
@@ -110,8 +86,7 @@ def test_a_plan_can_be_flown(plan: Plan, tours: App) -> None:
 
 
 def test_random_plans_depend_on_their_seed_alone() -> None:
-    assert list(random_plans(3, 5)) == list(random_plans(3, 5))
-    assert list(random_plans(3, 5)) != list(random_plans(3, 6))
+    assert list(random_plans(3, 5)) == list(random_plans(3, 5)) != list(random_plans(3, 6))
 
 
 @pytest.mark.parametrize("name", NAMES)

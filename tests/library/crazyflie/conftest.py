@@ -38,6 +38,12 @@ def cf(runner: asyncio.Runner, one: Hangar) -> Crazyflie:
 
 
 @pytest.fixture
+def up(runner: asyncio.Runner, one: Hangar) -> Crazyflie:
+    """What flies it, hovering half a metre high."""
+    return runner.run(one.up())
+
+
+@pytest.fixture
 def folder(runner: asyncio.Runner, tmp_path: Path) -> Path:
     """A folder of a flight's own."""
     return tmp_path

@@ -1,4 +1,4 @@
-"""Flights of simulated Crazyflies through the unmodified cflib, over UDP and in real time."""
+"""Flights of simulated Crazyflies through the unmodified cflib, in virtual time."""
 
 from __future__ import annotations
 
@@ -27,21 +27,21 @@ async def test_it_takes_off_flies_and_lands_where_it_says(one: Hangar, cf: Crazy
     assert not one.did("setpoint")
 
 
-async def test_closing_in_the_air_lands_first_and_cuts_nothing(one: Hangar) -> None:
-    cf = await one.up()
-    await cf.close()
+async def test_closing_in_the_air_lands_first_and_cuts_nothing(one: Hangar, up: Crazyflie) -> None:
+    await up.close()
     assert not one.flies and not one.drone.supervisor.locked
     assert one.did("land") and not one.did("setpoint") and not one.did("emergency stop")
 
 
-async def test_a_course_that_is_broken_off_ends_in_a_hover_nearby(one: Hangar) -> None:
-    cf = await one.up()
-    flying = asyncio.create_task(cf.go_to((4.0, 2.0, 0.5), 1.0))
+async def test_a_course_that_is_broken_off_ends_in_a_hover_nearby(
+    one: Hangar, up: Crazyflie
+) -> None:
+    flying = asyncio.create_task(up.go_to((4.0, 2.0, 0.5), 1.0))
     while one.position[0] < 2.0:
         await asyncio.sleep(0.02)
     flying.cancel()
     await asyncio.wait({flying})
-    await cf.hold()
+    await up.hold()
     assert 2.0 < one.position[0] < 2.8
     assert hypot(*one.drone.body.velocity) < 0.25
 
@@ -87,17 +87,16 @@ async def test_a_drone_that_is_busy_is_a_refusal_and_is_disarmed(
     assert not one.flies and not one.drone.supervisor.armed
 
 
-async def test_a_drone_that_tumbles_has_crashed(one: Hangar) -> None:
-    cf = await one.up()
-    flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
+async def test_a_drone_that_tumbles_has_crashed(one: Hangar, up: Crazyflie) -> None:
+    flying = asyncio.create_task(up.go_to((9.0, 2.0, 0.5), 1.0))
     await passes(0.5)
     await one.let("tumble")
     with pytest.raises(Crashed, match="cf1 has tumbled or crashed"):
         await flying
     assert (await one.hears(CRASHED)).reason == "it lies on its back or has crashed"
-    assert await cf.preflight() == ["it lies on its back or has crashed"]
+    assert await up.preflight() == ["it lies on its back or has crashed"]
     with pytest.raises(Crashed):
-        await cf.takeoff(0.5, FAST)
+        await up.takeoff(0.5, FAST)
 
 
 async def test_a_drone_that_is_locked_says_so_and_what_to_do(one: Hangar, cf: Crazyflie) -> None:
@@ -109,13 +108,14 @@ async def test_a_drone_that_is_locked_says_so_and_what_to_do(one: Hangar, cf: Cr
 
 
 @drone(options={"least_voltage": 3.0})
-async def test_a_battery_that_is_low_for_three_seconds_is_told_once(one: Hangar) -> None:
-    cf = await one.up()
+async def test_a_battery_that_is_low_for_three_seconds_is_told_once(
+    one: Hangar, up: Crazyflie
+) -> None:
     await one.let("volts", 3.15)
     event = await one.hears(BATTERY_LOW)
     assert event.reason.startswith("its battery is down to 3.1")
-    assert 0.0 < cf.telemetry.battery_level < 0.1
-    await cf.land(FAST)
+    assert 0.0 < up.telemetry.battery_level < 0.1
+    await up.land(FAST)
     assert [event.kind for event in one.events] == [BATTERY_LOW]
 
 
@@ -136,11 +136,10 @@ async def test_preflight_says_all_that_is_wrong(one: Hangar) -> None:
     assert not one.did("arm")
 
 
-async def test_the_emergency_stop_stops_in_the_air(one: Hangar) -> None:
-    cf = await one.up()
-    flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
+async def test_the_emergency_stop_stops_in_the_air(one: Hangar, up: Crazyflie) -> None:
+    flying = asyncio.create_task(up.go_to((9.0, 2.0, 0.5), 1.0))
     await passes(0.5)
-    await cf.emergency_stop()
+    await up.emergency_stop()
     assert one.drone.supervisor.locked
     with pytest.raises((Locked, Crashed)):
         await flying

@@ -27,9 +27,10 @@ async def test_closing_what_another_program_has_sent_up_lets_it_hover(
     assert not one.flies
 
 
-async def test_silence_in_the_air_is_a_lost_link_and_connecting_again_lands_it(one: Hangar) -> None:
-    cf = await one.up()
-    flying = asyncio.create_task(cf.go_to((9.0, 2.0, 0.5), 1.0))
+async def test_silence_in_the_air_is_a_lost_link_and_connecting_again_lands_it(
+    one: Hangar, up: Crazyflie
+) -> None:
+    flying = asyncio.create_task(up.go_to((9.0, 2.0, 0.5), 1.0))
     await passes(0.5)
     await one.let("silent")
     began = the_air().time()
@@ -37,14 +38,14 @@ async def test_silence_in_the_air_is_a_lost_link_and_connecting_again_lands_it(o
         await flying
     assert the_air().time() - began < 2.0  # and not the twenty that the course takes
     assert (await one.hears(LINK_LOST)).reason.startswith("it has told nothing for")
-    assert the_air().time() - cf.telemetry.time > 0.9
+    assert the_air().time() - up.telemetry.time > 0.9
     with pytest.raises(LinkLost, match="does not answer"):
-        await cf.connect()
+        await up.connect()
     await one.let("silent", False)
-    await cf.connect()
-    assert one.flies and cf.telemetry.flying
-    await cf.hold()
-    await cf.land(FAST)
+    await up.connect()
+    assert one.flies and up.telemetry.flying
+    await up.hold()
+    await up.land(FAST)
     assert not one.flies and not one.did("setpoint")
 
 
@@ -93,11 +94,12 @@ async def test_firmware_without_a_supervisor_is_refused_with_what_to_flash(cf: C
     assert "speaks protocol 10, 12 or later is needed: flash" in reason
 
 
-async def test_the_emergency_stop_is_sent_to_a_drone_that_is_not_heard(one: Hangar) -> None:
-    cf = await one.up()
+async def test_the_emergency_stop_is_sent_to_a_drone_that_is_not_heard(
+    one: Hangar, up: Crazyflie
+) -> None:
     await one.let("silent")
     await one.hears(LINK_LOST)
-    stopping = asyncio.create_task(cf.emergency_stop())
+    stopping = asyncio.create_task(up.emergency_stop())
     await passes(0.1)
     await one.let("silent", False)
     await stopping

@@ -51,12 +51,11 @@ async def test_a_deck_that_fails_is_said_by_name(one: Hangar, cf: Crazyflie) -> 
     assert not one.did("arm")
 
 
-async def test_a_deck_that_fails_in_the_air_is_why_it_locked(one: Hangar) -> None:
-    cf = await one.up()
+async def test_a_deck_that_fails_in_the_air_is_why_it_locked(one: Hangar, up: Crazyflie) -> None:
     await one.let("deck")
     assert (await one.hears(LOCKED)).reason.startswith("one of its decks reports a fault, and")
     with pytest.raises(Locked, match="as one of its decks reports a fault"):
-        await cf.hold()
+        await up.hold()
 
 
 @drone(build=TWO_CELLS)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import subprocess
-import sys
 from math import dist, inf, isclose, nan
 from pathlib import Path
 from random import Random
@@ -29,6 +27,7 @@ from pluto_fleet.lithium import level_at
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.domain.motion import PEAK, SHORTEST
+from tests.kit.command import python
 
 FLYING, TUMBLED, LOCKED_BIT = 1 << 4 | 1 << 8, 1 << 5, 1 << 6
 
@@ -408,18 +407,10 @@ def test_without_cflib_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatc
         driver.require()
 
 
+@pytest.mark.process
 def test_importing_the_navigation_imports_no_cflib() -> None:
     code = (
         "import sys; import pluto_fleet.crazyflie.navigation;"
         "print([name for name in sys.modules if name.partition('.')[0] in ('cflib', 'numpy')])"
     )
-    runtime = str(Path(driver.__file__).parents[2])
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code],
-        env={"PYTHONPATH": runtime},
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
-    )
-    assert done.stdout.strip() == "[]"
+    assert python("-W", "error", "-c", code) == (0, "[]\n", "")

@@ -26,10 +26,9 @@ async def test_one_that_has_landed_is_disarmed_and_armed_anew(one: Hangar, cf: C
 
 
 @drone(build=Build(id="cf1", home=(1.0, 2.0, 0.0), auto_arm=True))
-async def test_one_that_arms_itself_is_waited_for_until_it_has(one: Hangar) -> None:
-    cf = await one.up()
+async def test_one_that_arms_itself_is_waited_for_until_it_has(one: Hangar, up: Crazyflie) -> None:
     assert one.flies and not one.did("arm")
-    await cf.land(FAST)
+    await up.land(FAST)
 
 
 class OnRequest(Supervisor):
@@ -101,11 +100,10 @@ async def test_twice_cancelled_it_is_a_refusal(one: Hangar, cf: Crazyflie) -> No
     assert not one.flies and len(one.did("takeoff")) == 2
 
 
-async def test_nothing_is_above_its_commander_when_it_takes_off(one: Hangar) -> None:
+async def test_nothing_is_above_its_commander_when_it_takes_off(one: Hangar, up: Crazyflie) -> None:
     """A set-point of a gamepad's, or of a script's that has ended, would stay above it for ever."""
-    cf = await one.up()
-    await cf.go_to((1.3, 2.0, 0.5), FAST)
-    await cf.land(FAST)
+    await up.go_to((1.3, 2.0, 0.5), FAST)
+    await up.land(FAST)
     told = [command.what for command in one.commands]
     before, after = told[: told.index("takeoff")], told[told.index("takeoff") :]
     assert "setpoints end" in before and "setpoints end" not in after

@@ -42,33 +42,31 @@ async def test_how_sure_it_must_be_is_said_by_the_fleet_file(one: Hangar, cf: Cr
 
 @drone(options={"measure": {"temperature": "bme.temp"}})
 async def test_one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_nothing_there(
-    one: Hangar,
+    one: Hangar, up: Crazyflie
 ) -> None:
-    cf = await one.up()
     await one.let("unsure")
     with pytest.raises(PositionLost, match=r"cf1 does not know where it is: it may be 0\.71 m"):
-        await cf.go_to((1.3, 2.0, 0.5), FAST)
+        await up.go_to((1.3, 2.0, 0.5), FAST)
     assert (await one.hears(POSITION_LOST)).reason.startswith("it may be 0.71 m from where")
     with pytest.raises(PositionLost):
-        await cf.act("measure", {}, None)
-    await cf.hold()  # as well as it can
-    await cf.land(FAST)
+        await up.act("measure", {}, None)
+    await up.hold()  # as well as it can
+    await up.land(FAST)
     assert not one.flies and [event.kind for event in one.events] == [POSITION_LOST]
 
 
 @drone(options={"measure": {"temperature": "bme.temp"}, "measure_seconds": 0.2})
 async def test_one_that_doubts_its_place_for_a_moment_does_there_what_it_came_for(
-    one: Hangar,
+    one: Hangar, up: Crazyflie
 ) -> None:
-    cf = await one.up()
     await one.let("unsure")
     await passes(0.6)  # until it has told so
-    measuring = asyncio.create_task(cf.act("measure", {}, None))
+    measuring = asyncio.create_task(up.act("measure", {}, None))
     await passes(0.2)
     assert not measuring.done()
     await one.let("unsure", False)
     assert await measuring == pytest.approx(20.6, abs=0.1)
-    await cf.land(FAST)
+    await up.land(FAST)
     assert one.events == []
 
 
@@ -81,18 +79,19 @@ async def test_one_that_goes_by_radio_beacons_is_sure_enough(one: Hangar, cf: Cr
     assert one.events == []
 
 
-async def test_one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive(one: Hangar) -> None:
+async def test_one_that_sees_its_beacons_no_more_on_its_way_does_not_arrive(
+    one: Hangar, up: Crazyflie
+) -> None:
     """Its firmware flies on, reports no fault, and would be there by its own word."""
-    cf = await one.up()
-    flying = asyncio.create_task(cf.go_to((4.0, 2.0, 0.5), FAST))
+    flying = asyncio.create_task(up.go_to((4.0, 2.0, 0.5), FAST))
     while one.position[0] < 1.5:
         await asyncio.sleep(0.02)
     await one.let("fixes", False)
     with pytest.raises(PositionLost, match="does not see its beacons any more"):
         await flying
     await one.hears(POSITION_LOST)
-    await cf.hold()
-    await cf.land(FAST)
+    await up.hold()
+    await up.land(FAST)
     assert not one.flies
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import struct
+from random import Random
 
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
+from pluto_fleet.crtp.faults import Value, let
 from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
-from pluto_fleet.crtp.packets import Packet, Port, packed, unpacked
+from pluto_fleet.crtp.packets import LossyChannel, Packet, Port, packed, unpacked
 
 CF1 = Build(id="cf1", home=(1.0, 2.0, 0.0))
 _TICK = 0.01
@@ -37,6 +39,10 @@ class Bench:
         before = len(self.sent)
         self.drone.receive(packed(port, channel, data), self.now)
         return self.sent[before].data if len(self.sent) > before else None
+
+    def let(self, fault: str, value: Value = True) -> None:
+        """Let something go wrong, as in `pluto_fleet.crtp.faults`."""
+        let(self.drone, LossyChannel(Random(1)), fault, value)
 
     def arm(self) -> bool:
         """Arm it; return whether it did."""

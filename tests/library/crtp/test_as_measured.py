@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from math import dist, hypot
-from random import Random
 from statistics import median
 
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.faults import let
-from pluto_fleet.crtp.packets import LossyChannel, Port
+from pluto_fleet.crtp.packets import Port
 from tests.library.crtp.bench import CF1, Bench, hovering
 
 PEAK = 2.19
@@ -67,7 +65,7 @@ def test_positions_from_outside_count_as_those_it_finds_itself() -> None:
 def test_without_positions_it_grows_and_the_drone_goes_astray_and_says_nothing_of_it() -> None:
     bench = hovering()
     bench.passes(2.0)
-    let(bench.drone, LossyChannel(Random(1)), "fixes", False)
+    bench.let("fixes", False)
     info = bench.drone.info()
     bench.passes(2.5)
     assert 0.05 < bench.drone.variance < 0.2
@@ -80,9 +78,9 @@ def test_without_positions_it_grows_and_the_drone_goes_astray_and_says_nothing_o
 
 def test_once_positions_come_again_it_is_sure_and_flies_back() -> None:
     bench = hovering()
-    let(bench.drone, LossyChannel(Random(1)), "fixes", False)
+    bench.let("fixes", False)
     bench.passes(8.0)
-    let(bench.drone, LossyChannel(Random(1)), "fixes", True)
+    bench.let("fixes")
     bench.passes(0.02)
     assert bench.drone.variance < 0.001
     assert bench.drone.body.estimate == bench.drone.body.position
@@ -94,7 +92,7 @@ def test_another_drone_goes_astray_elsewhere_and_the_same_one_where_it_did() -> 
     places = []
     for id in ("cf1", "cf1", "cf2"):
         bench = hovering(replace(CF1, id=id))
-        let(bench.drone, LossyChannel(Random(1)), "fixes", False)
+        bench.let("fixes", False)
         bench.passes(8.0)
         places.append(bench.drone.body.position)
     assert places[0] == places[1] != places[2]

@@ -7,8 +7,7 @@ from dataclasses import replace
 import pytest
 
 from pluto_fleet.crtp.battery import CHARGE
-from pluto_fleet.crtp.faults import let
-from pluto_fleet.crtp.packets import NULL, LossyChannel, Port
+from pluto_fleet.crtp.packets import NULL, Port
 from pluto_fleet.crtp.server import collide
 from pluto_fleet.lithium import volts_at
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, charged
@@ -175,7 +174,7 @@ def test_an_emergency_stop_locks_it_until_it_is_restarted() -> None:
     assert bench.told(Port.SUPERVISOR, 1, b"\3") is None
     bench.passes(2.0)
     assert bench.z == 0.0 and bench.has(LOCKED)
-    let(bench.drone, _air(), "fetch", True)
+    bench.let("fetch")
     bench.passes(1.5)
     assert not bench.has(LOCKED) and bench.arm()
 
@@ -222,10 +221,10 @@ def test_what_no_such_drone_can_follow_tumbles_it() -> None:
 
 def test_a_tumbled_one_flies_again_once_it_stands_upright_and_has_recovered() -> None:
     bench = hovering()
-    let(bench.drone, _air(), "tumble", True)
+    bench.let("tumble")
     bench.passes(2.0)
     assert bench.told(Port.SUPERVISOR, 1, b"\2") == b"\x82\0\0"
-    let(bench.drone, _air(), "upright", True)
+    bench.let("upright")
     bench.passes(0.1)
     assert bench.has(CRASHED) and not bench.has(TUMBLED) and not bench.arm()
     assert bench.told(Port.SUPERVISOR, 1, b"\2") == b"\x82\1\1"
@@ -237,7 +236,7 @@ def test_a_battery_sags_in_the_air_is_low_after_five_seconds_and_empty_some_time
     rest = bench.drone.battery.volts
     bench.up()
     assert rest - bench.drone.battery.volts == pytest.approx(0.3, abs=0.05)
-    let(bench.drone, _air(), "volts", 3.19)
+    bench.let("volts", 3.19)
     bench.passes(4.0)
     assert bench.drone.battery.state == 0
     bench.passes(2.0)
@@ -252,7 +251,7 @@ def test_a_battery_of_3_volts_switches_it_off_only_where_its_build_does_that(
     shuts_down: bool,
 ) -> None:
     bench = hovering(replace(CF1, shuts_down=shuts_down, flight=4200.0))
-    let(bench.drone, _air(), "volts", 2.99)
+    bench.let("volts", 2.99)
     bench.passes(4.0)
     assert bench.drone.on
     bench.passes(2.0)
@@ -263,10 +262,10 @@ def test_a_battery_of_two_cells_has_twice_the_volts_and_is_low_at_twice_as_many(
     bench = Bench(replace(CF1, cells=2))
     assert bench.drone.battery.volts == pytest.approx(2 * volts_at(1.0))
     bench.up()
-    let(bench.drone, _air(), "volts", 6.5)
+    bench.let("volts", 6.5)
     bench.passes(6.0)
     assert bench.drone.battery.state == 0
-    let(bench.drone, _air(), "volts", 6.3)
+    bench.let("volts", 6.3)
     bench.passes(6.0)
     assert bench.drone.battery.state == 3
     assert bench.drone.parameters["pm.lowVoltage"] == pytest.approx(6.4)
@@ -274,18 +273,18 @@ def test_a_battery_of_two_cells_has_twice_the_volts_and_is_low_at_twice_as_many(
 
 def test_a_deck_with_a_fault_says_so_and_lets_it_not_be_armed() -> None:
     bench = Bench()
-    let(bench.drone, _air(), "deck", True)
+    bench.let("deck")
     assert bench.drone.info() == 0xA00 and not bench.arm()
-    let(bench.drone, _air(), "deck", False)
+    bench.let("deck", False)
     assert bench.arm()
-    let(bench.drone, _air(), "deck", True)
+    bench.let("deck")
     bench.passes(0.5)
     assert bench.drone.info() == 0xA00
 
 
 def test_a_deck_that_has_a_fault_in_the_air_locks_it() -> None:
     bench = hovering()
-    let(bench.drone, _air(), "deck", True)
+    bench.let("deck")
     bench.passes(2.0)
     assert bench.has(LOCKED) and bench.has(11) and bench.z == 0.0
 
@@ -308,7 +307,7 @@ def test_a_pad_charges_what_stands_on_it() -> None:
 
 def test_a_restart_in_the_air_lets_it_fall_and_say_nothing_for_a_while() -> None:
     bench = hovering()
-    let(bench.drone, _air(), "restart", True)
+    bench.let("restart")
     assert bench.told(15, 0, b"hello") is None
     bench.passes(1.1)
     assert bench.z == 0.0 and bench.told(15, 0, b"hello") == b"hello"
@@ -325,7 +324,7 @@ def test_a_drone_that_does_not_know_where_it_is_knows_while_it_is_told() -> None
 
 def test_a_drone_that_is_busy_says_so_and_does_nothing() -> None:
     bench = hovering()
-    let(bench.drone, _air(), "busy", True)
+    bench.let("busy")
     assert bench.go_to(3.0, 2.0, 1.0, 5.0) == BUSY
     bench.passes(5.0)
     assert bench.x == pytest.approx(1.0, abs=0.03)
@@ -339,10 +338,4 @@ def test_a_search_for_drones_is_answered() -> None:
 
 def test_a_fault_that_does_not_exist_is_refused_with_those_that_do() -> None:
     with pytest.raises(ValueError, match="no such fault: there are silent, loss"):
-        let(Bench().drone, _air(), "meteorite", True)
-
-
-def _air() -> LossyChannel:
-    from random import Random
-
-    return LossyChannel(Random(1))
+        Bench().let("meteorite")

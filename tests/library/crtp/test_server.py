@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import socket
 from collections.abc import Iterator
@@ -13,73 +12,60 @@ import pytest
 from pluto_fleet.crtp import process
 from pluto_fleet.crtp.body import AxisState, profile
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.equipment import HEIGHT, WIDTH, frames
+from pluto_fleet.crtp.equipment import frames
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.packets import NULL
-from pluto_fleet.crtp.server import HOST, Server
+from pluto_fleet.crtp.server import Server
 from pluto_fleet.shared.domain.errors import BadInput
-from tests.library.crtp.starting import COMMAND
+from tests.kit.unthreaded import in_virtual_time, passes, the_air
 
 ECHO = b"\xfcare you there"
 HOMES = {"cf1": (1.0, 2.0, 0.0), "cf2": (3.0, 2.0, 0.0)}
 
 
-class Talk(asyncio.DatagramProtocol):
-    """A client that talks to one drone."""
+class Client:
+    """One that talks to a drone, and hears what it answers."""
 
     def __init__(self) -> None:
-        self.heard: asyncio.Queue[bytes] = asyncio.Queue()
-
-    def datagram_received(self, data: bytes, addr: tuple[str, int]) -> None:
-        self.heard.put_nowait(data)
-
-    def error_received(self, exc: Exception) -> None:
-        self.heard.put_nowait(b"refused")
+        self.heard: list[bytes] = []
+        self.hear = self.heard.append
 
 
-async def answered(uri: str, said: bytes = ECHO) -> bytes | None:
-    """Return what a drone answers; None: nothing for a while."""
-    loop = asyncio.get_running_loop()
-    address = (HOST, int(uri.rpartition(":")[2]))
-    transport, talk = await loop.create_datagram_endpoint(Talk, remote_addr=address)
-    try:
-        transport.sendto(said)
-        async with asyncio.timeout(0.3):
-            return await talk.heard.get()
-    except TimeoutError:
+async def answered(uri: str, said: bytes = ECHO) -> list[bytes] | None:
+    """Return what a drone answers within a tenth of a second; None: its port is closed."""
+    port, client = the_air().ports.get(int(uri.rpartition(":")[2])), Client()
+    if port is None:
         return None
-    finally:
-        transport.close()
-
-
-async def faults_of(server: Server) -> None:
-    uri, other = server.uris.values()
-    assert await answered(uri) == ECHO
-    assert await answered(uri, NULL) == NULL
-    await server.let("cf1", "silent", True)
-    assert await answered(uri) is None
-    assert await answered(other) == ECHO
-    await server.let("cf1", "silent", False)
-    await server.let("cf1", "latency", 0.02)
-    assert await answered(uri) == ECHO
-    await server.let("cf1", "gone", True)
-    assert await answered(uri) in (b"refused", None)
-    await server.let("cf1", "gone", False)
-    assert await answered(uri) == ECHO
-    await server.let("cf1", "loss", 1.0)
-    assert await answered(uri) is None
+    port.datagram_received(said, client)  # type: ignore[arg-type]
+    await passes(0.1)
+    return client.heard
 
 
 def test_each_drone_has_a_port_and_its_own_faults() -> None:
     async def whole() -> None:
         server = Server([Build(id=id, home=home) for id, home in HOMES.items()], MemoryLog())
         await server.start()
-        try:
-            await faults_of(server)
-        finally:
-            await server.close()
+        uri, other = server.uris.values()
+        assert await answered(uri) == [ECHO]
+        assert await answered(uri, NULL) == [NULL]
+        await server.let("cf1", "silent", True)
+        assert await answered(uri) == []
+        assert await answered(other) == [ECHO]
+        await server.let("cf1", "silent", False)
+        for latency, answers in ((0.04, [ECHO]), (0.06, [])):
+            await server.let("cf1", "latency", latency)
+            assert await answered(uri) == answers
+        await server.let("cf1", "latency", 0.0)
+        await server.let("cf1", "gone", True)
+        assert await answered(uri) is None
+        await server.let("cf1", "gone", False)
+        assert await answered(uri) == [ECHO]
+        await server.let("cf1", "loss", 1.0)
+        assert await answered(uri) == []
+        assert server.quiet == pytest.approx(0.1)
+        await server.close()
 
-    asyncio.run(whole())
+    in_virtual_time(whole())
 
 
 @pytest.fixture
@@ -89,40 +75,39 @@ def folder(tmp_path: Path) -> Iterator[Path]:
     process.end(tmp_path / "flight.gateway")
 
 
-def test_drones_in_a_process_are_found_again_and_stay_where_they_were(folder: Path) -> None:
-    uris = process.start(folder, HOMES, COMMAND)
+@pytest.mark.process
+def test_drones_in_a_process_do_what_is_asked_and_stay_where_they_were(folder: Path) -> None:
+    uris = process.start(folder, HOMES)
     assert list(uris) == list(HOMES)
-    assert process.start(folder, HOMES, COMMAND) == uris
+    assert process.start(folder, HOMES) == uris
+    for more, refusal in (
+        ({"drone": "cf9", "name": "silent", "value": True}, "there is no drone cf9"),
+        ({"drone": "cf1", "name": "rain", "value": True}, "no such fault"),
+    ):
+        with pytest.raises(BadInput, match=refusal):
+            process.told(folder, "fault", **more)
+    with pytest.raises(BadInput, match="cannot be asked"):
+        process.told(folder, "dance")
+    assert first_picture(process.told(folder, "camera")) == frames(0)
     process.told(folder, "fault", drone="cf1", name="place", value=[5.0, 4.0, 0.0])
     process.told(folder, "fault", drone="cf2", name="level", value=0.5)
     process.end(folder)
     with pytest.raises(BadInput):
         process.uris_in(folder)
-    assert process.start(folder, HOMES, COMMAND) == uris
+    assert process.start(folder, HOMES) == uris
     state = json.loads(process.told(folder, "state"))
     assert state["cf1"]["at"] == [5.0, 4.0, 0.0]
     assert state["cf2"]["level"] == pytest.approx(0.5, abs=0.01)
 
 
-def test_a_process_refuses_what_cannot_be_asked(folder: Path) -> None:
-    process.start(folder, HOMES, COMMAND)
-    with pytest.raises(BadInput, match="there is no drone cf9"):
-        process.told(folder, "fault", drone="cf9", name="silent", value=True)
-    with pytest.raises(BadInput, match="no such fault"):
-        process.told(folder, "fault", drone="cf1", name="rain", value=True)
-    with pytest.raises(BadInput, match="cannot be asked"):
-        process.told(folder, "dance")
-
-
-def test_a_process_streams_pictures_to_a_client_that_asks_for_a_camera(folder: Path) -> None:
-    process.start(folder, HOMES, COMMAND)
-    host, _, port = process.told(folder, "camera").rpartition(":")
-    with socket.create_connection((host, int(port)), timeout=5) as line:
-        told, first = b"", frames(0)
-        while len(told) < len(first):
-            told += line.recv(len(first) - len(told))
-    assert told == first
-    assert len(told) > WIDTH * HEIGHT
+def first_picture(camera: str) -> bytes:
+    """Return the first picture that a client of a camera gets."""
+    host, _, port = camera.rpartition(":")
+    with (
+        socket.create_connection((host, int(port)), timeout=5) as line,
+        line.makefile("rb") as data,
+    ):
+        return data.read(len(frames(0)))
 
 
 def test_a_way_from_rest_to_rest_peaks_at_2_19_times_its_mean_speed() -> None:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import struct
-from random import Random
 
 import pytest
 
-from pluto_fleet.crtp.faults import let
-from pluto_fleet.crtp.packets import LossyChannel, Port
+from pluto_fleet.crtp.packets import Port
 from tests.library.crtp.bench import Bench, hovering
 
 LOCKED, ACTIVE, PLANNER_OFF = 6, 8, 10
@@ -68,7 +66,7 @@ def test_going_on_sending_setpoints_flies_it() -> None:
 
 def test_a_drone_in_the_air_locks_two_seconds_after_a_stranger_s_last_setpoint() -> None:
     bench = hovering()
-    let(bench.drone, LossyChannel(Random(1)), "setpoint", 1.0)
+    bench.let("setpoint", 1.0)
     assert bench.go_to(3.0, 2.0, 1.0, 5.0) == 0
     bench.passes(1.9)
     assert bench.z > 0.9 and not bench.has(LOCKED)
@@ -79,7 +77,7 @@ def test_a_drone_in_the_air_locks_two_seconds_after_a_stranger_s_last_setpoint()
 
 def test_a_command_after_the_release_takes_over_in_the_air() -> None:
     bench = hovering()
-    let(bench.drone, LossyChannel(Random(1)), "setpoint", 1.0)
+    bench.let("setpoint", 1.0)
     bench.passes(0.3)
     bench.told(*RELEASE)
     assert bench.go_to(2.0, 2.0, 1.0, 5.0) == 0
