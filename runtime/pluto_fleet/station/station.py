@@ -278,9 +278,7 @@ class Station:
 
     async def _add(self, id: str, missions: list[Mission[Any]]) -> None:
         """Start more missions while others fly."""
-        one = self.session.one if self.session is not None else None
-        if one is None:
-            raise BadInput(_NOT_YET)
+        one = self._commandable()
 
         def add(life: RecordedFlight) -> str:
             life.add(missions)

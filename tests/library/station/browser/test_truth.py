@@ -23,7 +23,7 @@ from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
 from tests.library.station.browser.steps import open_page, start
-from tests.library.station.world import disagreements, truth
+from tests.library.station.browser.world import disagreements, truth
 
 AS_SEEN = """
 () => {

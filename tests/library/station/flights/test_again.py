@@ -2,82 +2,107 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
 from typing import Any
 
-from pluto_fleet.journal.lock import holder
-from tests.kit.station import Station, until
-from tests.library.station.flights.conftest import Serve
-from tests.library.station.flights.test_flights import comes_to, flies, flying, refused, tell
+from tests.library.station.in_process import Flown
+
+from .conftest import Serve
 
 
-def ends(station: Station) -> dict[str, Any]:
-    """Return how the missions of the plan have ended."""
-    return {one["name"]: one["ended"] for one in station.get("/api/plan")["missions"]}
-
-
-def key_of(station: Station, name: str) -> str:
-    return next(str(m["key"]) for m in station.get("/api/plan")["missions"] if m["name"] == name)
-
-
-def test_what_was_not_completed_flies_again_alone_also_after_a_crash_of_the_station(
-    serve: Serve,
-) -> None:
+def test_what_was_not_completed_flies_again_alone_by_the_next_station_too(serve: Serve) -> None:
     """Nothing is flown twice but what a person chose, and then from its beginning."""
-    station = flying(serve("drugs_distribution", "--speed", "60"))
-    one = key_of(station, "Mission 1")
-    assert "belongs to the flight that is under way" in refused(station, "start", missions=[one])[1]
-    tell(station, "cancel", mission="Mission 1")
-    comes_to(station, "over")
-    others = {"Mission 2": "COMPLETED", "Mission 3": "COMPLETED"}
-    assert ends(station) == {"Mission 1": "CANCELLED", **others}
-    station.kill()
+    station = serve().flying()
+    keys = station.keys()
+    one = keys["Mission 1"]
+    assert "belongs to the flight that is under way" in station.refused("start", missions=[one])
+    station.tell("cancel", mission="Mission 1")
+    station.comes_to("over")
+    ends = {"Mission 1": "CANCELLED", "Mission 2": "COMPLETED", "Mission 3": "COMPLETED"}
+    assert station.ends() == ends
     station.start()
-    assert ends(station) == {"Mission 1": "CANCELLED", **others}
-    assert tell(station, "start") == "1 mission started"
-    assert tell(station, "start") == "every mission of the plan flies already"
-    comes_to(station, "over")
+    assert station.ends() == ends
+    assert station.tell("start") == "1 mission started"
+    assert station.tell("start") == "every mission of the plan flies already"
+    station.comes_to("over")
     assert station.statuses() == {"Mission 1": "COMPLETED"}
-    assert tell(station, "start", missions=[key_of(station, "Mission 2")]) == "1 mission started"
-    comes_to(station, "over")
+    assert station.tell("start", missions=[keys["Mission 2"]]) == "1 mission started"
+    station.comes_to("over")
     assert station.statuses() == {"Mission 2": "COMPLETED"}
-    assert tell(station, "start") == "3 missions started"
-
-
-def test_no_start_flies_beside_or_again_what_a_command_goes_on_with(
-    serve: Serve,
-) -> None:
-    station = flying(serve("drugs_distribution", "--speed", "20"))
-    station.kill()
-    (journal,) = station.journals()
-    words = [os.fspath(station.app.program), "resume", os.fspath(journal)]
-    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT) as command:
-        until(lambda: holder(journal) == command.pid, "the command goes on with it")
-        station.start()
-        told = refused(station, "start")[1]
-        assert f"the last flight was gone on with elsewhere (process {command.pid})" in told
-    revision = station.get("/api/plan")["revision"]
-    assert "the plan has changed meanwhile" in refused(station, "start", revision=revision)[1]
-    assert station.phase == "over"
-    assert ends(station) == dict.fromkeys(("Mission 1", "Mission 2", "Mission 3"), "COMPLETED")
-    assert len(station.journals()) == 1
+    assert station.tell("start") == "3 missions started"
 
 
 def test_of_what_was_put_away_the_next_start_leaves_out_what_was_completed(serve: Serve) -> None:
-    station = serve("drugs_distribution", "--speed", "60")
-    tell(station, "start")
-    until(lambda: "COMPLETED" in station.statuses().values(), "one is completed")
-    tell(station, "stop", how="land")
-    comes_to(station, "stopped")
+    station = serve()
+    station.tell("start")
+    station.until(lambda: "COMPLETED" in station.statuses().values(), "one is completed")
+    station.tell("stop", how="land")
+    station.comes_to("stopped")
     done = [name for name, status in station.statuses().items() if status == "COMPLETED"]
-    tell(station, "discard")
-    assert [name for name, end in ends(station).items() if end == "COMPLETED"] == done
-    assert set(ends(station).values()) == {"COMPLETED", "BROKEN_OFF"}
-    said = tell(station, "start")
-    assert said.startswith(f"{3 - len(done)} mission")
-    flies(station)
+    station.tell("discard")
+    assert [name for name, end in station.ends().items() if end == "COMPLETED"] == done
+    assert set(station.ends().values()) == {"COMPLETED", "BROKEN_OFF"}
+    assert station.tell("start").startswith(f"{3 - len(done)} mission")
+    station.until(lambda: station.statuses(), "they are there")
     assert not {*done} & {*station.statuses()}
-    wrong = refused(station, "start", missions=["Mission 1"])[1]
+    wrong = station.refused("start", missions=["Mission 1"])
     assert wrong.startswith('no mission of the plan has the key "Mission 1"')
-    assert refused(station, "start", missions=[1])[0] == 400
+    assert station.post("/api/start", {"id": "x", "missions": [1]})[0] == 400
+
+
+def forecast(station: Flown, **given: object) -> tuple[int, Any]:
+    revision = station.get("/api/plan")["revision"]
+    return station.post(
+        "/api/preflight", {"revision": revision, "missions": None, "runs": 3, **given}
+    )
+
+
+def trips_done(station: Flown, mission: str) -> int:
+    return sum(one["done"] for one in station.now()["missions"] if one["name"] == mission)
+
+
+def test_a_start_is_forecast_and_rehearsed_and_what_is_missing_is_flown_again_alone(
+    serve: Serve,
+) -> None:
+    """Also while other missions fly."""
+    station = serve(speed=2.0)
+    status, told = forecast(station)
+    assert (status, told["runs"], told["problems"]) == (200, 3, [])
+    assert [one["name"] for one in told["missions"]] == [*station.ends()]
+    assert all(one["ready"] and one["battery"] == 1.0 for one in told["drones"])
+    replay = station.get("/api/flights/replay", flight=told["rehearsal"])
+    assert replay["seconds"] >= told["median"]
+    assert {one["name"] for one in replay["frames"][0]["missions"]} == {*station.ends()}
+    for wrong, status in (
+        ({"revision": 1}, 409),
+        ({"runs": 0}, 409),
+        ({"only_failed": "yes"}, 400),
+    ):
+        assert forecast(station, **wrong)[0] == status
+
+    station.tell("start", revision=told["revision"])
+    station.until(lambda: trips_done(station, "Mission 3") > 0, "a trip is done")
+    [problem] = forecast(station)[1]["problems"]
+    assert problem["text"] == "there is no mission to start: make one first"
+    plan = station.get("/api/plan")
+    copied = plan["missions"][1]
+    same = [{**one, "key": f"{one['key']}-again"} for one in copied["trips"]]
+    more = {**copied, "key": f"{copied['key']}-more", "name": "More", "trips": same}
+    given = {"revision": plan["revision"], "missions": [*plan["missions"], more]}
+    assert station.put("/api/plan", given)[0] == 200
+    _, beside = forecast(station)
+    assert [one["name"] for one in beside["missions"]] == ["More"]
+    assert "that fly already are flown to their end" in beside["assumed"][0]["text"]
+    station.tell("cancel", mission="Mission 3")
+    station.comes_to("over")
+
+    assert "no mission has failed" in station.refused("start", only_failed=True)
+    key = station.keys()["Mission 3"]
+    known = next(m for m in station.get("/api/plan")["missions"] if m["key"] == key)["done"]
+    _, again = forecast(station, missions=[key], only_failed=True)
+    trips = 4 if len(known) == 1 else 4 - len(known)  # what was picked alone is picked again
+    assert [one["trips"] for one in again["missions"]] == [trips]
+    said = station.tell("start", missions=[key], only_failed=True)
+    assert said == f"1 mission started with {trips} trip{'s' * (trips > 1)} still to do"
+    station.comes_to("over")
+    assert station.ends()["Mission 3"] == "COMPLETED"
+    assert station.mission("Mission 3")["total"] == trips

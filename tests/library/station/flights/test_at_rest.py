@@ -2,195 +2,219 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
-import os
-import signal
-import subprocess
 from collections.abc import Callable
-from contextlib import closing
 from typing import Any
 
 import pytest
 
-from pluto_fleet.gateway.starting import cut_directly, still_runs
+from pluto_fleet.gateway.starting import cut_directly
 from pluto_fleet.journal.place import gateway_folder
-from pluto_fleet.journal.reader import Reader
-from tests.kit.station import PATIENCE, Station, until
-from tests.library.station.flights.conftest import Serve
-from tests.library.station.flights.test_flights import comes_to, events, flying, refused, tell
-from tests.library.station.world import disagreements, truth
+from tests.library.station.in_process import Flown
+
+from .conftest import Serve
+
+NEAR = 0.06
+"""Metres: places are shown to the centimetre."""
+SLOW = {"speed": 3.0}
 
 
-def rows(station: Station) -> list[dict[str, Any]]:
+def rows(station: Flown) -> list[dict[str, Any]]:
     drones: list[dict[str, Any]] = station.now()["drones"]
     return drones
 
 
-def gateway(station: Station) -> int | None:
-    return still_runs(gateway_folder(station.journals()[-1]))
+def homes(station: Flown) -> dict[str, list[float]]:
+    return {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
 
 
-def is_away_from_home(station: Station) -> bool:
+def is_away_from_home(station: Flown) -> bool:
     """Whether some drone is well on its way."""
-    homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
+    at = homes(station)
     return any(
-        row["x"] is not None and abs(row["x"] - homes[row["id"]][0]) > 1 for row in rows(station)
+        row["x"] is not None and abs(row["x"] - at[row["id"]][0]) > 1 for row in rows(station)
     )
 
 
-def is_home(station: Station, row: dict[str, Any]) -> bool:
-    homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
-    return bool([row["x"], row["y"]] == homes[row["id"]][:2])
+def lies(station: Flown) -> list[str]:
+    """Return what of the drones' rows is not so in the world; what is said to be unknown is no lie."""
+    found = []
+    for row in rows(station):
+        real = station.world.bodies[row["id"]]
+        status, why = row["status"], "" if real.down is None else str(real.down)
+        if row["x"] is not None and status != "UNKNOWN":
+            x, y, _ = real.location
+            if max(abs(row["x"] - x), abs(row["y"] - y)) > NEAR:
+                found.append(f"{row} is at {x}, {y}")
+        if status == "LOST" and row["why"] != why:
+            found.append(f"{row}: really {why}")
+        if why and status not in ("LOST", "UNKNOWN", "RECOVERING"):
+            found.append(f"{row}: really {why}")
+        if status in ("LANDED", "FREE", "CHARGING") and not real.landed:
+            found.append(f"{row} is in the air")
+    return found
 
 
-def agrees(station: Station) -> bool:
-    """Whether all pages are shown the world as it is."""
-    return disagreements(rows(station), truth(station, station.folder / "scratch")) == []
+def comes_true(station: Flown) -> None:
+    station.until(lambda: not lies(station), "page and world agree")
 
 
-def ends_by_a_stop_to_land(station: Station) -> None:
-    tell(station, "stop", how="land")
-    comes_to(station, "stopped")
+def lands(station: Flown) -> None:
+    station.tell("stop", how="land")
+    station.comes_to("stopped")
     station.end()
 
 
-def ends_by_a_stop_home(station: Station) -> None:
-    tell(station, "stop", how="rtl")
-    comes_to(station, "stopped")
+def goes_home(station: Flown) -> None:
+    station.tell("stop", how="rtl")
+    station.comes_to("stopped")
     station.end()
 
 
-def is_killed(station: Station) -> None:
+def dies(station: Flown) -> None:
     station.kill()
-    scratch = station.folder / "scratch"
-    until(lambda: all(one.landed for one in truth(station, scratch).values()), "all are down")
+    bodies = station.world.bodies.values()
+    station.until(lambda: all(body.landed for body in bodies), "all are down")
+    station.world.run(asyncio.sleep(1.0))  # the gateway writes that down
 
 
-def is_killed_with_its_gateway(station: Station) -> None:
-    process = gateway(station)
+def dies_with_its_gateway(station: Flown) -> None:
     station.kill()
-    assert process is not None
-    os.kill(process, signal.SIGKILL)
+    station.world.stop_gateway()
 
 
-@pytest.mark.parametrize(
-    "ends",
-    [ends_by_a_stop_to_land, ends_by_a_stop_home, is_killed, is_killed_with_its_gateway],
-)
+@pytest.mark.parametrize("ends", [lands, goes_home, dies, dies_with_its_gateway])
 def test_after_each_end_drones_are_shown_where_they_lie_before_and_after_a_resume(
-    serve: Serve, ends: Callable[[Station], None]
+    serve: Serve, ends: Callable[[Flown], None]
 ) -> None:
-    station = serve("drugs_distribution", "--speed", "60")
-    tell(station, "start")
-    until(lambda: is_away_from_home(station), "a drone is away")
+    station = serve(speed=10.0)
+    station.tell("start")
+    station.until(lambda: is_away_from_home(station), "a drone is away")
     ends(station)
     station.start()
-    until(lambda: agrees(station), "page and world agree")
-    world, seen = truth(station, station.folder / "scratch"), rows(station)
-    if ends is not is_killed_with_its_gateway:
+    seen, at = rows(station), homes(station)
+    if ends is not dies_with_its_gateway:
+        comes_true(station)
         assert {row["status"] for row in seen} == {"LANDED"}
-        assert any(not is_home(station, row) for row in seen) is (ends is not ends_by_a_stop_home)
+        away = [row for row in seen if [row["x"], row["y"]] != at[row["id"]][:2]]
+        assert bool(away) is (ends is not goes_home)
     assert all(row["seen_at"] for row in seen)
-    assert world.keys() == {row["id"] for row in seen}
-    tell(station, "resume")
-    comes_to(station, "over")
-    until(lambda: agrees(station), "page and world agree")
+    assert {row["id"] for row in seen} == at.keys()
+    station.tell("resume")
+    station.comes_to("over")
+    comes_true(station)
     station.end()
     station.start()
     assert station.phase == "over"
-    until(lambda: agrees(station), "page and world agree")
+    comes_true(station)
 
 
-def loses_one(station: Station) -> str:
+def loses_one(station: Flown) -> str:
     """Cut the motors of a drone in flight, see the flight to its end, and say which one it was."""
-    flying(station)
-    who = str(events(station, "trip.launched")[0]["drone"])
-    tell(station, "cut-motors", drone=who)
-    comes_to(station, "over")
+    station.flying()
+    who = str(station.events("trip.launched")[0]["drone"])
+    station.tell("cut-motors", drone=who)
+    station.comes_to("over")
     return who
+
+
+def all_again(station: Flown) -> str:
+    """Start every mission of the plan, what was completed included; return what is said."""
+    return station.tell("start", missions=[*station.keys().values()])
 
 
 def test_a_lost_drone_stays_lost_over_ends_restarts_and_starts_until_it_is_brought_back(
     serve: Serve,
 ) -> None:
     """Why and where is shown all the time; Start says that it leaves it out, and does."""
-    station = serve("drugs_distribution", "--speed", "60")
+    station = serve()
     who = loses_one(station)
-    before = next(row for row in rows(station) if row["id"] == who)
+    before = station.drone(who)
     assert (before["status"], before["why"]) == ("LOST", f"{who}'s motors were cut")
-    for end in (station.kill, station.end):
-        end()
-        station.start()
-        assert station.phase == "over"
-        assert {**before, "seen_at": 0} == {**found(station, who), "seen_at": 0}
+    station.end()
+    station.start()
+    assert station.phase == "over"
+    assert {**before, "seen_at": 0} == {**station.drone(who), "seen_at": 0}
+    launched = len(station.events("trip.launched"))
     assert all_again(station) == f"3 missions started; without {who}, lost until brought back"
-    comes_to(station, "over")
-    assert who not in [event["drone"] for event in events_of_newest(station, "trip.launched")]
-    assert {**before, "seen_at": 0, "trips": 0} == {**found(station, who), "seen_at": 0}
-    assert agrees(station)
-    assert refused(station, "bring-back", drone="cf9")[1].startswith('no drone "cf9" is in the')
-    assert tell(station, "bring-back", drone=who).startswith(f"{who} is brought back: it is asked")
-    back = found(station, who)
+    station.comes_to("over")
+    assert who not in [event["drone"] for event in station.events("trip.launched")[launched:]]
+    assert {**before, "seen_at": 0, "trips": 0} == {**station.drone(who), "seen_at": 0}
+    assert lies(station) == []
+    assert station.refused("bring-back", drone="cf9").startswith('no drone "cf9" is in the')
+    said = station.tell("bring-back", drone=who)
+    assert said.startswith(f"{who} is brought back: it is asked")
+    assert station.tell("bring-back", drone="cf4") == "cf4 is neither retired nor lost"
+    back = station.drone(who)
     assert (back["status"], back["x"]) == ("UNKNOWN", None)  # a person has it in their hands
     assert all_again(station) == "3 missions started"
-    until(lambda: found(station, who)["status"] in ("FREE", "BUSY", "CHARGING"), "it is well")
-    comes_to(station, "over")
+    well = ("FREE", "BUSY", "CHARGING")
+    station.until(lambda: station.drone(who)["status"] in well, "it is well")
+
+
+def in_the_air(station: Flown) -> list[str]:
+    station.tell("start")
+    station.until(lambda: any(row["z"] > 1 for row in rows(station)), "a drone is in the air")
+    return [row["id"] for row in rows(station) if row["z"] > 0.5]
 
 
 def test_a_drone_that_is_dropped_while_no_app_flies_it_is_lost_as_well(serve: Serve) -> None:
     """The gateway brings all down after a crash of the station, and the motors of one are cut."""
-    station = serve("drugs_distribution", "--speed", "1")
-    tell(station, "start")
-    until(lambda: any(row["z"] > 1 for row in rows(station)), "a drone is in the air")
+    station = serve(**SLOW)
+    [who, *_] = in_the_air(station)
     station.kill()
     station.start()
-    who = next(row["id"] for row in rows(station) if row["z"] > 0.5)
-    tell(station, "cut-motors", drone=who)
-    until(lambda: found(station, who)["status"] == "LOST", "it is seen")
-    until(lambda: agrees(station), "page and world agree")
-    tell(station, "discard")
-    assert tell(station, "start").endswith(f"without {who}, lost until brought back")
+    station.tell("cut-motors", drone=who)
+    station.until(lambda: station.drone(who)["status"] == "LOST", "it is seen")
+    comes_true(station)
+    station.tell("discard")
+    assert station.tell("start").endswith(f"without {who}, lost until brought back")
 
 
 def test_a_drone_that_falls_with_the_gateway_alone_there_is_lost_with_its_reason_and_place(
     serve: Serve,
 ) -> None:
     """While no station runs, and after the flight was put away."""
-    station = serve("drugs_distribution", "--speed", "1")
-    tell(station, "start")
-    until(lambda: any(row["z"] > 1 for row in rows(station)), "a drone is in the air")
+    station = serve(**SLOW)
+    in_the_air(station)
     first, second = (row["id"] for row in rows(station)[:2])
-    station.kill()
     folder = gateway_folder(station.journals()[-1])
-    cut_directly(folder, first, PATIENCE)
+
+    def cut(drone: str) -> None:
+        station.world.run(asyncio.to_thread(cut_directly, folder, drone, 60.0))
+
+    station.kill()
+    cut(first)
     station.start()
-    until(lambda: found(station, first)["status"] == "LOST", "it is seen")
-    until(lambda: agrees(station), "page and world agree")
-    assert found(station, first)["why"] == f"{first}'s motors were cut"
-    cut_directly(folder, second, PATIENCE)
-    tell(station, "discard")
-    until(lambda: found(station, second)["status"] == "LOST", "it is seen")
-    until(lambda: agrees(station), "page and world agree")
-    station.end()
+    station.until(lambda: station.drone(first)["status"] == "LOST", "it is seen")
+    comes_true(station)
+    assert station.drone(first)["why"] == f"{first}'s motors were cut"
+    cut(second)
+    station.tell("discard")
+    station.until(lambda: station.drone(second)["status"] == "LOST", "it is seen")
+    comes_true(station)
     station.start()
     assert [row["id"] for row in rows(station) if row["status"] == "LOST"] == [first, second]
-    assert tell(station, "bring-back", drone=second).startswith(f"{second} is brought back")
-    assert tell(station, "start").endswith(f"without {first}, lost until brought back")
+    assert station.tell("bring-back", drone=second).startswith(f"{second} is brought back")
+    assert station.tell("start").endswith(f"without {first}, lost until brought back")
 
 
 def test_a_drone_that_has_lost_its_link_when_the_app_dies_is_said_to_be_unknown_and_why(
     serve: Serve,
 ) -> None:
-    station = serve("drugs_distribution", "--speed", "10", "--fail", "link=1.0")
-    tell(station, "start")
-    until(
-        lambda: any(row["status"] == "RECOVERING" for row in rows(station)), "one has lost its link"
-    )
-    who = next(row["id"] for row in rows(station) if row["status"] == "RECOVERING")
+    station = serve(faults={"link": 1.0}, speed=10.0)
+    station.tell("start")
+
+    def silent() -> list[str]:
+        return [row["id"] for row in rows(station) if row["status"] == "RECOVERING"]
+
+    station.until(silent, "one has lost its link")
+    [who, *_] = silent()
     station.kill()
     station.start()
-    until(lambda: agrees(station), "page and world agree")
-    row = found(station, who)
+    comes_true(station)
+    row = station.drone(who)
     assert (row["status"], row["why"][:17]) == ("UNKNOWN", f"{who} lost its link")
     assert row["x"] is not None
 
@@ -198,70 +222,20 @@ def test_a_drone_that_has_lost_its_link_when_the_app_dies_is_said_to_be_unknown_
 def test_who_is_lost_is_remembered_without_journals_and_with_no_drone_left_nothing_flies(
     serve: Serve,
 ) -> None:
-    station = serve("drugs_distribution", "--speed", "60")
+    station = serve()
     who = loses_one(station)
     station.end()
     (journal,) = station.journals()
     journal.rename(station.folder.parent / journal.name)
     station.start()
     assert station.phase == "idle"
-    assert [(row["id"], row["why"]) for row in rows(station) if row["status"] == "LOST"] == [
-        (who, f"{who}'s motors were cut")
-    ]
+    lost = [(row["id"], row["why"]) for row in rows(station) if row["status"] == "LOST"]
+    assert lost == [(who, f"{who}'s motors were cut")]
     kept = station.folder / "station" / "drones.json"
     data = json.loads(kept.read_text())
     for row in rows(station):
         data["drones"]["lost"].setdefault(row["id"], {"reason": "it fell", "at": None})
-    station.end()
     kept.write_text(json.dumps(data))
     station.start()
-    assert "every drone is lost: look after one" in refused(station, "start")[1]
+    assert "every drone is lost: look after one" in station.refused("start")
     assert station.journals() == []
-
-
-def test_a_lost_drone_is_brought_back_by_command_while_nothing_flies(serve: Serve) -> None:
-    station = serve("drugs_distribution", "--speed", "60")
-    who = loses_one(station)
-    (journal,) = station.journals()
-    app = [str(station.app.program), "tell", str(journal), "bring-back"]
-    said = subprocess.run([*app, who], capture_output=True, text=True, check=True).stdout
-    assert said.startswith(f"{who} is brought back")
-    until(lambda: found(station, who)["status"] == "UNKNOWN", "all pages see it")
-    other = subprocess.run([*app, "cf9"], capture_output=True, text=True, check=True).stdout
-    assert other == "cf9 is neither retired nor lost\n"
-    assert all_again(station) == "3 missions started"
-    until(lambda: found(station, who)["status"] in ("FREE", "BUSY", "CHARGING"), "it is well")
-
-
-@pytest.mark.long  # they fly in real time: half a minute
-def test_simulated_crazyflies_begin_the_next_flight_where_the_last_one_has_left_them(
-    serve: Serve,
-) -> None:
-    pytest.importorskip("cflib")
-    station = serve("drugs_distribution", "--crtp-sim", "2")
-    tell(station, "start")
-    until(lambda: is_away_from_home(station), "a drone is away")
-    tell(station, "stop", how="land")
-    comes_to(station, "stopped")
-    before = {row["id"]: (row["x"], row["y"]) for row in rows(station)}
-    tell(station, "discard")
-    tell(station, "start")
-    until(lambda: station.now()["missions"] != [], "the drones have been asked where they are")
-    for row in rows(station):
-        assert (row["x"], row["y"]) == pytest.approx(before[row["id"]], abs=0.3)
-
-
-def all_again(station: Station) -> str:
-    """Start every mission of the plan, what was completed included; return what is said."""
-    keys = [mission["key"] for mission in station.get("/api/plan")["missions"]]
-    return tell(station, "start", missions=keys)
-
-
-def found(station: Station, drone: str) -> dict[str, Any]:
-    return next(row for row in rows(station) if row["id"] == drone)
-
-
-def events_of_newest(station: Station, kind: str) -> list[dict[str, Any]]:
-    with closing(Reader(station.journals()[-1])) as reader:
-        found = [event for row in reader.rows() for event in json.loads(row.text)]
-    return [event for event in found if event["event"] == kind]

@@ -1,40 +1,104 @@
-"""A program flies a station by the Python client."""
+"""Programs fly a station by the Python client, and watch it; what it answers is as it is described."""
 
 from __future__ import annotations
 
+import asyncio
+import json
 import re
-import subprocess
-import sys
+import runpy
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, redirect_stdout
+from io import StringIO
+from typing import Any, TypeVar
 
 import pytest
+from jsonschema import Draft202012Validator
 
 from pluto_fleet.client import Outdated, Refused
 from pluto_fleet.client import Station as Client
 from pluto_fleet.shared.domain.errors import BadInput
-from tests.library.station.flights.conftest import Serve
+from pluto_fleet.station.web.api import Api
+from pluto_fleet.station.web.audit import Audit
+from pluto_fleet.station.web.guard import Guard
+from pluto_fleet.station.web.listening import listening, port_of
+from pluto_fleet.station.web.reads import DESCRIPTION
+from pluto_fleet.station.web.server import serve as serve_web
+from tests.library.station.in_process import Flown
 from tests.paths import ROOT
 
-PAGE = ROOT / "docs" / "http.md"
+from .conftest import Serve
+
+PAGE = (ROOT / "docs" / "http.md").read_text("utf-8")
+DESCRIBED = json.loads(DESCRIPTION.read_text("utf-8"))
+T = TypeVar("T")
+
+
+@contextmanager
+def on_a_port(station: Flown, **guard: Any) -> Iterator[str]:
+    """Serve a station where programs can ask it; give its address."""
+    with listening("127.0.0.1", 0) as listener:
+        port = port_of(listener)
+        guarded = Guard(host="127.0.0.1", port=port, **guard)
+        clock = station.world.loop.time
+        api = Api(station.life, guarded, Audit(station.audit, clock=clock), clock=clock)
+        ready = asyncio.Event()
+        serving = station.world.loop.create_task(serve_web(api, listener, ready.set))
+        station.world.run(ready.wait())
+        yield f"http://127.0.0.1:{port}"
+        serving.cancel()
+        station.until(serving.done, "the server has ended")
+
+
+def by(station: Flown, program: Callable[[], T]) -> T:
+    """Run a program beside the station."""
+    return station.world.run(asyncio.to_thread(program))
 
 
 def test_the_example_of_the_page_on_the_interface_prints_what_it_says(serve: Serve) -> None:
-    station = serve("pm10", "--speed", "30")
-    client = Client(station.url)
-    revision = client.plan()["revision"]
-    emptied = client.replace_plan(revision=revision, missions=[])
-    assert emptied["missions"] == []
-    with pytest.raises(Outdated) as old:
-        client.add_example(revision=revision)
-    assert old.value.newest == emptied
-    code, output = re.findall(r"```(?:python)?\n(.*?)```", PAGE.read_text(), re.DOTALL)[:2]
-    code = code.replace("http://127.0.0.1:8765", station.url)
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert (run.stdout, run.stderr) == (output, "")
-    assert station.audit()[-1]["by"] == "night shift"
-    assert "Example 1" in client.plan_file() and "COMPLETED" in str(client.live())
-    with pytest.raises(Refused, match="there is nothing to put away") as refused:
-        client.discard()
-    assert refused.value.status == 409
+    station, said = serve("pm10", speed=300.0), StringIO()
+    code, output = re.findall(r"```(?:python)?\n(.*?)```", PAGE, re.DOTALL)[:2]
+
+    def program(url: str) -> None:
+        example = station.folder / "example.py"
+        example.write_text(code.replace("http://127.0.0.1:8765", url), "utf-8")
+        client = Client(url)
+        revision = client.plan()["revision"]
+        emptied = client.replace_plan(revision=revision, missions=[])
+        assert emptied["missions"] == []
+        with pytest.raises(Outdated) as old:
+            client.add_example(revision=revision)
+        assert old.value.newest == emptied
+        with redirect_stdout(said):
+            runpy.run_path(str(example))
+        assert "Example 1" in client.plan_file() and "COMPLETED" in str(client.live())
+        with pytest.raises(Refused, match="there is nothing to put away") as refused:
+            client.discard()
+        assert refused.value.status == 409
+
+    with on_a_port(station) as url:
+        by(station, lambda: program(url))
+    assert said.getvalue() == output
+    assert "night shift" in [line.get("by") for line in station.audited()]
+
+
+def test_who_watches_sees_what_is_flown_and_by_whom_and_commands_nothing(serve: Serve) -> None:
+    station = serve(speed=1.0)
+
+    def program(url: str) -> None:
+        flies = Client(f"{url}#token=sesame", who="Zübeyde")
+        watches = Client(f"{url}#token=poppy", who="Ben")
+        assert (flies.app()["role"], watches.app()["role"]) == ("fly", "watch")
+        flies.start()
+        with pytest.raises(Refused, match="may watch and not command") as refused:
+            watches.stop(how="land")
+        assert refused.value.status == 403
+        assert watches.live()["state"]["phase"] == "flying"
+        with pytest.raises(Refused, match="this needs the token"):
+            Client(url).plan()
+
+    with on_a_port(station, names=("ward.example",), token="sesame", watch_token="poppy") as url:
+        by(station, lambda: program(url))
+    assert [begun["by"] for begun in station.events("journal.begun")] == ["Zübeyde"]
 
 
 @pytest.mark.parametrize(
@@ -48,3 +112,36 @@ def test_the_example_of_the_page_on_the_interface_prints_what_it_says(serve: Ser
 def test_where_there_is_no_station_a_client_says_so(address: str, said: str) -> None:
     with pytest.raises(BadInput, match=said):
         Client(address).app()
+
+
+def holds(answer: Any, name: str) -> None:
+    """Hold an answer to a type of the description."""
+    schema = {**DESCRIBED, "$ref": f"#/components/schemas/{name}"}
+    Draft202012Validator(schema).validate(answer)
+
+
+def test_a_flight_is_told_as_it_is_described_and_the_same_by_the_next_station(serve: Serve) -> None:
+    station = serve("alfalfa")
+    holds(station.get("/api/app"), "AppData")
+    holds(station.get("/api/plan"), "PlanData")
+    holds(station.now(), "LiveMessage")
+    station.tell("start")
+
+    def actions() -> list[str]:
+        return [str(one.get("action")) for one in station.get("/api/results.json")]
+
+    station.until(lambda: "pollinate" in actions(), "a trip that a hook has added is flown")
+    flying = station.now()
+    assert flying["log"] and flying["drones"]
+    holds(flying, "LiveMessage")
+    station.tell("stop", how="land")
+    station.comes_to("stopped")
+    holds(station.now(), "LiveMessage")
+    holds(station.get("/api/plan"), "PlanData")
+    results = station.get("/api/results.json")
+    photos = [one for one in results if one["action"] == "take_photo"]
+    assert all(one["kind"] == "photo" and len(one["target"]) == 3 for one in photos)
+    dose = next(one for one in results if one["action"] == "pollinate")
+    assert (dose["kind"], dose["parameters"]) == ("handling", {"dose": 2e-05})
+    station.start()
+    assert station.get("/api/results.json") == results

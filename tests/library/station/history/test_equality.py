@@ -1,43 +1,76 @@
-"""The replay of any instant is what the live page showed then, of each example."""
+"""The replay of any instant is what the live page showed then, of each example, over all its lives."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
+from copy import deepcopy
+from dataclasses import dataclass, field
 from math import dist
 from typing import Any
 
 import pytest
 
+from pluto_fleet.station.history.folder import recording_of
 from pluto_fleet.station.history.frames import Shown
 from pluto_fleet.station.history.recording import MOVES_EVERY, MOVING
 from tests.kit.apps import NAMES
-from tests.kit.station import Station, until
 from tests.library.station.flights.conftest import Serve
-from tests.library.station.flights.test_flights import tell
-from tests.library.station.history.looking import Page, View
+from tests.library.station.in_process import Flown
 
-SPEED = 30
-SLOWER = {"aerial_mapping": 10, "object_finder": 10}
-"""Of a flight that is over too soon."""
-
-INSTANTS = 50
-
+SPEED = 20
 FASTEST = 4.0
 """Metres per second: what no drone of the examples flies."""
+ENDS = ("over", "stopped", "interrupted")
 
 
-def without(row: Mapping[str, Any], names: frozenset[str]) -> dict[str, Any]:
-    return {name: value for name, value in row.items() if name not in names}
+@dataclass(frozen=True, slots=True, kw_only=True)
+class View:
+    """What a page shows from an instant on."""
+
+    t: float
+    state: dict[str, Any]
+    missions: dict[str, Any]
+    drones: dict[str, Any]
 
 
-def replayed(station: Station, flight: str) -> list[dict[str, Any]]:
+@dataclass(slots=True)
+class Page:
+    """What one page was shown of one flight."""
+
+    station: Flown
+    views: dict[float, View] = field(default_factory=dict)
+    log: list[Any] = field(default_factory=list)
+    results: list[Any] = field(default_factory=list)
+    flight: str = ""
+    seen: int = 0
+    missions: dict[str, Any] = field(default_factory=dict)
+    drones: dict[str, Any] = field(default_factory=dict)
+
+    def look(self) -> str:
+        """Take what has changed, as a page does; return what goes on."""
+        asked = {"seen": self.seen, "log": len(self.log), "results": len(self.results)}
+        query = {name: str(number) for name, number in asked.items()}
+        given = self.station.get("/api/live", flight=self.flight, **query)
+        self.flight, self.seen = given["flight"], given["version"]
+        self.missions.update((row["name"], row) for row in given["missions"])
+        self.drones.update((row["id"], row) for row in given["drones"])
+        self.log += given["log"]
+        self.results += given["results"]
+        state: dict[str, Any] = given["state"]
+        missions, drones = deepcopy(self.missions), deepcopy(self.drones)
+        t = state.pop("time")
+        self.views[t] = View(t=t, state=state, missions=missions, drones=drones)
+        return str(state["phase"])
+
+
+def replayed(station: Flown, flight: str) -> list[dict[str, Any]]:
     """Fetch a whole replay, part by part, as a page does that plays it."""
     frames: list[dict[str, Any]] = []
     start: float | None = 0.0
     while start is not None:
-        part = station.get(f"/api/flights/replay?flight={flight}&start={start}")
-        assert part["recorded"]
-        assert part["said"] == ""
+        part = station.get("/api/flights/replay", flight=flight, start=str(start))
+        assert (part["recorded"], part["said"]) == (True, "")
         frames += part["frames"]
         start = part["next"]
     return frames
@@ -63,7 +96,8 @@ def differences(view: View, shown: Shown) -> list[str]:
     assert shown.rows["drones"].keys() == view.drones.keys()
     for id, row in view.drones.items():
         mine = shown.rows["drones"][id]
-        if without(mine, MOVING) != without(row, MOVING) or not is_near(row, mine):
+        stays = [{k: v for k, v in one.items() if k not in MOVING} for one in (row, mine)]
+        if stays[0] != stays[1] or not is_near(row, mine):
             found.append(f"{view.t}: {row} is replayed as {mine}")
     return found
 
@@ -76,40 +110,76 @@ def is_near(row: Mapping[str, Any], mine: Mapping[str, Any]) -> bool:
     return dist(*places) <= FASTEST * SPEED * MOVES_EVERY
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_the_replay_of_fifty_instants_is_what_was_shown(serve: Serve, name: str) -> None:
+FEW = ("aerial_mapping", "alfalfa", "drugs_distribution_retry")
+
+
+@pytest.mark.parametrize(
+    "name", [one if one in FEW else pytest.param(one, marks=pytest.mark.long) for one in NAMES]
+)
+def test_the_replay_of_every_instant_is_what_was_shown(serve: Serve, name: str) -> None:
     """State, missions and drones; the console and the results, too, line by line."""
-    station = serve(name, "--speed", str(SLOWER.get(name, SPEED)))
-    tell(station, "start")
+    station = serve(name, speed=SPEED)
+    station.tell("start")
     page = Page(station)
-    flight = page.look(INSTANTS)
-    views = {view.t: view for view in page.views}
-    frames = replayed(station, flight)
-    # what the thread has not written yet is not there; the last instants may be among that
-    held = [view for t, view in views.items() if t <= frames[-1]["t"]]
-    wrong = [one for view in held for one in differences(view, shown_at(frames, view.t))]
-    assert wrong == []
+    station.until(lambda: page.look() in ENDS or len(page.views) > 60, "enough was seen")
     if station.phase == "flying":
-        tell(station, "stop", how="land")
-    page.look()
-    until(
-        lambda: replayed(station, flight)[-1]["state"]["phase"] == page.views[-1].state["phase"],
-        "the end is recorded",
-    )
-    frames = replayed(station, flight)
-    views.update((view.t, view) for view in page.views)
-    wrong = [one for view in views.values() for one in differences(view, shown_at(frames, view.t))]
-    assert wrong == []
-    assert len(views) >= INSTANTS
-    exactly = [v for v in views.values() if shown_at(frames, v.t).rows["drones"] == v.drones]
-    assert len(exactly) >= INSTANTS / 5
-    first = station.get(f"/api/flights/replay?flight={flight}")
+        station.tell("stop", how="land")
+    station.until(lambda: page.look() in ENDS, "the flight has ended")
+    station.world.run(station.life.recorded())
+    frames = replayed(station, page.flight)
+    views = page.views.values()
+    assert [one for view in views for one in differences(view, shown_at(frames, view.t))] == []
+    assert len(views) >= 20
+    exactly = [v for v in views if shown_at(frames, v.t).rows["drones"] == v.drones]
+    assert len(exactly) >= len(views) / 5
+    first = station.get("/api/flights/replay", flight=page.flight)
     assert (first["log"], first["results"]) == (page.log, page.results)
-    for when in sorted(views)[:: len(views) // 5]:  # as a page does that scrubs
-        scrubbed = station.get(f"/api/flights/replay?flight={flight}&start={when}")["frames"][0]
-        whole = shown_at(frames, when)
+    for t in sorted(page.views)[:: len(views) // 5]:  # as a page does that scrubs
+        scrubbed = station.get("/api/flights/replay", flight=page.flight, start=str(t))["frames"][0]
+        whole = shown_at(frames, t)
         assert (scrubbed["t"], scrubbed["missions"], scrubbed["drones"]) == (
             whole.t,
             list(whole.rows["missions"].values()),
             list(whole.rows["drones"].values()),
         )
+
+
+def test_a_flight_is_replayed_over_all_its_lives(serve: Serve) -> None:
+    """Between a death and the next life nothing is known of where drones are, and none is shown."""
+    station = serve(speed=SPEED).flying()
+    station.until(lambda: station.now()["state"]["time"] > 30, "it has flown for a while")
+    station.kill()
+    station.world.run(station.life.recorded())
+    station.start()
+    [flight] = station.get("/api/flights")
+    assert (flight["end"], flight["recorded"]) == ("interrupted", True)
+    before = replayed(station, flight["id"])
+    station.tell("resume")
+    station.completes_all_once()
+    station.world.run(station.life.recorded())
+    after = replayed(station, flight["id"])
+    earlier = len(before) - 1
+    assert after[:earlier] == before[:earlier]
+    connecting = next(frame for frame in after[earlier:] if frame["state"]["busy"])
+    assert connecting["t"] >= before[-1]["t"]
+    assert {row["status"] for row in connecting["drones"]} <= {"UNKNOWN", "LANDED", "ALOFT"}
+    [flight] = station.get("/api/flights")
+    assert (flight["end"], flight["completed"]) == ("over", 3)
+
+
+def test_a_recording_that_cannot_be_written_is_said_and_the_flight_goes_on(
+    serve: Serve, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its replay is what its journal tells then."""
+    station = serve()
+    journal = station.folder / "flight.journal"
+    monkeypatch.setattr("pluto_fleet.journal.place.new_in", lambda *_: journal)
+    recording_of(journal).mkdir()
+    station.tell("start")
+    station.completes_all_once()
+    station.world.run(station.life.recorded())
+    assert "this flight is not recorded any more" in json.dumps(station.now()["log"])
+    part = station.get("/api/flights/replay", flight="flight")
+    assert part["recorded"] is False
+    assert "cannot be read" in part["said"]
+    assert part["frames"][-1]["state"]["phase"] == "over"

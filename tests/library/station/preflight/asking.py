@@ -8,16 +8,20 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile, default_fleet
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.app import moving
+from pluto_fleet.station.preflight import preflight
 from pluto_fleet.station.preflight.preflight import Preflight
 from pluto_fleet.station.preflight.present import Present
 from pluto_fleet.station.preflight.question import Question
 from pluto_fleet.station.wire import Forecast, Words
 from pluto_fleet.station.words import words
 from tests.library.files.an_app import APP
+from tests.library.station.in_process import in_this_process
 from tests.library.station.plan.drawing import Json, drawn, mission, trip
 
 FLEET = default_fleet(APP, 4)
@@ -76,7 +80,9 @@ def present(fleet: FleetFile, level: float, out: Sequence[str] = ()) -> list[Pre
 def answer(asked: Question, folder: Path) -> Forecast:
     """Return the forecast of a question."""
     keys = [one.name for one in asked.missions]
-    return asyncio.run(Preflight(folder).ask(asked, keys, []))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(preflight, "in_a_copy", in_this_process)
+        return asyncio.run(Preflight(folder).ask(asked, keys, []))
 
 
 def texts(said: Sequence[Words]) -> list[str]:

@@ -1,5 +1,5 @@
-"""Stations, as the tests of flights start them."""
+"""Stations of examples, as in the tests of flights."""
 
-from tests.library.station.flights.conftest import programs, serve
+from tests.library.station.flights.conftest import serve
 
-__all__ = ["programs", "serve"]
+__all__ = ["serve"]

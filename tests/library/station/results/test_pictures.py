@@ -10,8 +10,6 @@ import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
 from struct import pack
-from urllib.error import HTTPError
-from urllib.request import urlopen
 from zipfile import ZipFile
 
 import pytest
@@ -23,7 +21,7 @@ from pluto_fleet.station.results.archive import write_archive
 from pluto_fleet.station.results.flights import FlightResults
 from pluto_fleet.station.results.pictures import SMALL, picture, small
 from tests.kill.trial import end_gateway
-from tests.kit.station import until
+from tests.kit.apps import compiled
 from tests.library.station.flights.conftest import Serve
 from tests.library.station.results.camera import SIZE
 from tests.paths import ROOT
@@ -52,23 +50,24 @@ uri = "wren:100,50"
 """
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_a_picture_of_a_users_own_drone_comes_out_of_a_station(
     serve: Serve, tmp_path: Path
 ) -> None:
     """Of a flight that was begun by hand, and of which the station knows the journal alone."""
-    station = serve("drugs_distribution")
+    station = serve()
     journal = station.folder / "by-hand.journal"
     (tmp_path / "missions.toml").write_text(MISSIONS)
     (tmp_path / "fleet.toml").write_text(FLEET)
-    program = station.app.program
-    path = [ROOT / "docs/navigation", Path(__file__).parent, ROOT / "runtime", ROOT]
-    source = program.parent / "drugs_distribution" / "src"
+    source = compiled("drugs_distribution") / "src"
+    path = [source, ROOT / "docs/navigation", Path(__file__).parent, ROOT / "runtime", ROOT]
     words = [sys.executable, "-m", "drugs_distribution", "fly", "missions.toml"]
     try:
         done = subprocess.run(
             [*words, "--fleet", "fleet.toml", "--journal", str(journal)],
             cwd=tmp_path,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, [source, *path]))},
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, path))},
             capture_output=True,
             text=True,
             check=False,
@@ -76,34 +75,26 @@ def test_a_picture_of_a_users_own_drone_comes_out_of_a_station(
     finally:
         end_gateway(journal)
     assert done.returncode == 0, done.stdout + done.stderr
-
-    photos = station.get("/api/results.json?flight=by-hand")
+    flight = {"flight": "by-hand"}
+    photos = station.get("/api/results.json", **flight)
     assert [one["kind"] for one in photos] == ["photo", "photo"]
-    address = photos[0]["value"]["picture"]
-    assert address == "/api/photo?result=1&flight=by-hand"
-    whole, kind = _fetched(station.url, address)
-    assert kind == "image/png"
-    assert whole == (gateway_folder(journal) / "files/w1-1.png").read_bytes()
-    little, kind = _fetched(station.url, f"{address}&size=thumb")
-    assert kind == "image/jpeg"
-    with Image.open(io.BytesIO(little)) as image, Image.open(io.BytesIO(whole)) as first:
+    assert photos[0]["value"]["picture"] == "/api/photo?result=1&flight=by-hand"
+    whole = station.ask("GET", "/api/photo", result="1", **flight)
+    assert whole.type == "image/png"
+    assert whole.body == (gateway_folder(journal) / "files/w1-1.png").read_bytes()
+    little = station.ask("GET", "/api/photo", result="1", size="thumb", **flight)
+    assert little.type == "image/jpeg"
+    with Image.open(io.BytesIO(little.body)) as image, Image.open(io.BytesIO(whole.body)) as first:
         assert first.size == SIZE
         assert image.size == (SMALL[0], SMALL[0] * SIZE[1] // SIZE[0])
-    packed, _ = _fetched(station.url, "/api/results.zip?flight=by-hand")
-    with ZipFile(io.BytesIO(packed)) as archive:
+    packed = station.ask("GET", "/api/results.zip", **flight).file
+    assert packed is not None
+    with ZipFile(packed) as archive:
         assert archive.namelist() == ["results.csv", "00001.png", "00002.png"]
-        assert archive.read("00001.png") == whole
+        assert archive.read("00001.png") == whole.body
         assert b"00002.png" in archive.read("results.csv")
-    archives = station.folder / "station" / "archives"
-    until(lambda: not list(archives.iterdir()), "the archive that was sent is gone")
-    for wrong in ("result=3&flight=by-hand", "result=1&flight=../by-hand", "result=1"):
-        with pytest.raises(HTTPError, match="404"):
-            _fetched(station.url, f"/api/photo?{wrong}")
-
-
-def _fetched(url: str, path: str) -> tuple[bytes, str]:
-    with urlopen(f"{url.partition('#')[0].rstrip('/')}{path}") as answer:
-        return answer.read(), answer.headers["Content-Type"]
+    for wrong in ({"result": "3", **flight}, {"result": "1", "flight": "../by-hand"}):
+        assert station.ask("GET", "/api/photo", **wrong).status == 404
 
 
 @dataclass(kw_only=True)

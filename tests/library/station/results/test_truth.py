@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cache
 from itertools import pairwise
 from random import Random
 from typing import Any
@@ -26,21 +27,13 @@ ERROR = 0.006
 
 
 @pytest.fixture(scope="module")
-def pm10(tmp_path_factory: pytest.TempPathFactory) -> Flown:
-    """The dust over the building site."""
-    return flown("pm10", tmp_path_factory.mktemp("pm10"))
+def flights(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Flown]:
+    """Fly an example once: the dust of a building site, an archaeological site, a field of alfalfa."""
+    return cache(lambda name: flown(name, tmp_path_factory.mktemp(name)))
 
 
-@pytest.fixture(scope="module")
-def site(tmp_path_factory: pytest.TempPathFactory) -> Flown:
-    """The archaeological site."""
-    return flown("aerial_mapping", tmp_path_factory.mktemp("aerial_mapping"))
-
-
-@pytest.fixture(scope="module")
-def field(tmp_path_factory: pytest.TempPathFactory) -> Flown:
-    """The field of alfalfa."""
-    return flown("alfalfa", tmp_path_factory.mktemp("alfalfa"))
+Flights = Callable[[str], Flown]
+SITE, FIELD = "aerial_mapping", "alfalfa"
 
 
 def places(flight: Flown) -> list[tuple[float, float]]:
@@ -61,7 +54,8 @@ def of_layer(flight: Flown, layer: str) -> list[Brought]:
     return [one for one in flight.results.rows if layer in one.result["layers"]]
 
 
-def test_dust_is_shown_as_it_was_where_it_was_measured_and_between(pm10: Flown) -> None:
+def test_dust_is_shown_as_it_was_where_it_was_measured_and_between(flights: Flights) -> None:
+    pm10 = flights("pm10")
     [layer] = layers(pm10.app, sim=True)[:1]
     assert (layer["kind"], layer["quantity"], layer["unit"]) == ("heat", "pm10", "µg/m³")
     assert layer["reach"] is not None
@@ -87,11 +81,11 @@ def test_dust_is_shown_as_it_was_where_it_was_measured_and_between(pm10: Flown) 
     assert 0 < known < PLACES
 
 
-@pytest.mark.parametrize("name", ["site", "field"])
+@pytest.mark.parametrize("name", [SITE, FIELD])
 def test_photos_show_what_lies_there_and_the_best_one_is_on_top(
-    name: str, request: pytest.FixtureRequest
+    name: str, flights: Flights
 ) -> None:
-    flight: Flown = request.getfixturevalue(name)
+    flight = flights(name)
     photos = of_layer(flight, "take_photo:photos")
     assert len(photos) > 10
     for one in photos:
@@ -120,7 +114,8 @@ def is_on(photo: dict[str, Any], x: float, y: float) -> bool:
     return bool(px - width / 2 <= x <= px + width / 2 and py - height / 2 <= y <= py + height / 2)
 
 
-def test_findings_are_those_of_the_app_alone(field: Flown, site: Flown) -> None:
+def test_findings_are_those_of_the_app_alone(flights: Flights) -> None:
+    field, site = flights(FIELD), flights(SITE)
     found = [tag for one in of_layer(field, "take_photo:findings") for tag in one.result["tags"]]
     kinds = {one.kind for one in field.world.features}
     assert found
@@ -129,15 +124,17 @@ def test_findings_are_those_of_the_app_alone(field: Flown, site: Flown) -> None:
     assert "take_photo:findings" not in [one["id"] for one in layers(site.app, sim=True)]
 
 
-def test_a_dose_is_no_measurement(field: Flown) -> None:
-    doses = [one.result for one in field.results.rows if one.result["action"] == "pollinate"]
+def test_a_dose_is_no_measurement(flights: Flights) -> None:
+    doses = [
+        one.result for one in flights(FIELD).results.rows if one.result["action"] == "pollinate"
+    ]
     assert doses
     assert all((one["kind"], one["values"], one["layers"]) == ("handling", [], []) for one in doses)
 
 
-@pytest.mark.parametrize("name", ["pm10", "site", "field"])
-def test_files_read_back_say_the_same(name: str, request: pytest.FixtureRequest) -> None:
-    flight: Flown = request.getfixturevalue(name)
+@pytest.mark.parametrize("name", ["pm10", SITE, FIELD])
+def test_files_read_back_say_the_same(name: str, flights: Flights) -> None:
+    flight = flights(name)
     rows = list(cells(flight.results))
     assert len(rows) >= len(flight.results.rows) > 0
     header, *lines = csv.reader(io.StringIO(csv_text(rows).removeprefix("\ufeff"), newline=""))
@@ -171,8 +168,9 @@ def _area(ring: Sequence[Sequence[float]]) -> float:
     return sum(x * v - u * y for (x, y), (u, v) in pairwise(ring)) / 2
 
 
-def test_there_is_nothing_of_flights_that_are_not_there(pm10: Flown) -> None:
-    flights = ResultsOfFlights(pm10.app, pm10.results.journal.parent)
+def test_there_is_nothing_of_flights_that_are_not_there(flights: Flights) -> None:
+    pm10 = flights("pm10")
+    kept = ResultsOfFlights(pm10.app, pm10.results.journal.parent)
     for name in ("", ".", "..", "../flight", "flight.journal", "flight\0", "*"):
         with pytest.raises(BadInput, match="there is no flight"):
-            flights.of(name)
+            kept.of(name)

@@ -12,9 +12,6 @@ from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.plain_data import value_data
 from pluto_fleet.station.feed import Feed
 from pluto_fleet.station.results.meaning import SIMULATED_UNITS as UNITS
-from tests.kit.station import Station, until
-from tests.library.station.flights.conftest import Serve
-from tests.library.station.flights.test_flights import comes_to, tell
 
 SPRAY = OwnAction(
     name="spray", parameters=(Parameter(name="dose", type=Type.MASS, default=5e-05),), repeat="once"
@@ -137,24 +134,3 @@ def test_a_long_text_is_downloaded_whole_and_shown_in_part() -> None:
     page, downloaded = shown("x" * 100_000)
     assert downloaded == "x" * 100_000
     assert len(str(page)) < 2_000
-
-
-def test_the_same_is_told_of_a_flight_as_it_flies_and_by_the_next_station(serve: Serve) -> None:
-    """Of trips that hooks have added, too."""
-    station = serve("alfalfa", "--speed", "30")
-    tell(station, "start")
-    until(lambda: "pollinate" in actions(station), "something is pollinated")
-    tell(station, "stop", how="land")
-    comes_to(station, "stopped")
-    results = station.get("/api/results.json")
-    photos = [one for one in results if one.get("action") == "take_photo"]
-    assert all(one["kind"] == "photo" and len(one["target"]) == 3 for one in photos)
-    [dose, *_] = [one for one in results if one.get("action") == "pollinate"]
-    assert (dose["kind"], dose["parameters"]) == ("handling", {"dose": 2e-05})
-    station.kill()
-    station.start()
-    assert station.get("/api/results.json") == results
-
-
-def actions(station: Station) -> set[str]:
-    return {str(one.get("action")) for one in station.get("/api/results.json")}

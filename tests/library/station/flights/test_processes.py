@@ -1,0 +1,178 @@
+"""What becomes of a station that is a process: killed, supervised, beside others, told to end."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+from dataclasses import replace
+from itertools import count
+from resource import RLIM_INFINITY, RLIMIT_FSIZE, prlimit
+from typing import Any
+
+import pytest
+
+from pluto_fleet.journal.lock import holder
+from tests.kit.station import Station, until
+
+from .conftest import Run
+
+NUMBERS = count()
+
+
+def said(station: Station, what: str, **given: object) -> str:
+    """Command something; return what is said, done or not."""
+    _, answer = station.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
+    return str(answer["said"])
+
+
+def comes_to(station: Station, phase: str) -> None:
+    until(lambda: station.phase == phase, f"the station is {phase}")
+
+
+def drones(station: Station) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = station.now()["drones"]
+    return found
+
+
+def flying(station: Station) -> Station:
+    assert said(station, "start") == "3 missions started"
+    until(lambda: any((row["z"] or 0.0) > 0.5 for row in drones(station)), "something flies")
+    return station
+
+
+def completes_all_once(station: Station) -> None:
+    comes_to(station, "over")
+    assert set(station.statuses().values()) == {"COMPLETED"}
+    assert set(station.done().values()) <= {1}
+
+
+@pytest.mark.process
+def test_a_killed_station_shows_what_was_interrupted_and_a_resume_completes_all_once(
+    run: Run,
+) -> None:
+    station = flying(run("--name", "ward.example"))
+    assert oct(station.folder.joinpath("station").stat().st_mode)[-2:] == "00"
+    [address] = [line for line in station.said().splitlines() if line.startswith("to watch only:")]
+    station.kill()
+    station.start()
+    assert address in station.said()  # open pages keep their access
+    assert station.phase == "interrupted"
+    said(station, "resume")
+    completes_all_once(station)
+
+
+@pytest.mark.process
+def test_a_supervised_station_goes_on_by_itself_when_it_is_killed(run: Run) -> None:
+    station = flying(run("--supervise"))
+    before = station.get("/api/app")["server"]
+    serving = int((station.folder / "station" / "lock").read_text())
+    assert serving != station.pid
+    os.kill(serving, signal.SIGKILL)
+
+    def is_another() -> bool:
+        try:
+            return bool(station.get("/api/app")["server"] != before)
+        except OSError:
+            return False
+
+    until(is_another, "another process serves")
+    completes_all_once(station)
+
+
+@pytest.mark.long
+@pytest.mark.process
+def test_ctrl_c_lands_all_drones_and_says_so(run: Run) -> None:
+    station = flying(run())
+    station.end()
+    assert "stopping: the drones land where they are" in station.said()
+    station.start()
+    assert station.phase == "stopped"
+
+
+@pytest.mark.long
+@pytest.mark.process
+def test_a_station_whose_folder_is_gone_ends_and_says_what_it_could_not_write(run: Run) -> None:
+    station = run()
+    shutil.rmtree(station.folder)
+    station.stop()
+    assert "left: cannot be written: No such file or directory" in station.said()
+    assert "internal error" not in station.said()
+
+
+@pytest.mark.long
+@pytest.mark.process
+def test_no_other_station_serves_from_the_same_folder_nor_at_the_same_port(run: Run) -> None:
+    station = run()
+    with pytest.raises(AssertionError, match="another station is being served from there"):
+        replace(station, port=0).start()
+    elsewhere = station.folder.parent / "one" / "more"
+    elsewhere.parent.mkdir()
+    with pytest.raises(AssertionError, match=f"port {station.port} is taken"):
+        replace(station, folder=elsewhere).start()
+    assert elsewhere.stat().st_mode & 0o777 == 0o700
+
+
+@pytest.mark.long
+@pytest.mark.process
+def test_on_a_full_disk_a_flight_is_interrupted_and_goes_on_when_there_is_room(run: Run) -> None:
+    station = flying(run("--speed", "10"))
+    prlimit(station.pid, RLIMIT_FSIZE, (60_000, RLIM_INFINITY))  # room to read it, none to go on
+    comes_to(station, "interrupted")
+    assert "the journal cannot be written" in station.now()["state"]["said"]
+    prlimit(station.pid, RLIMIT_FSIZE, (RLIM_INFINITY, RLIM_INFINITY))
+    said(station, "resume")
+    completes_all_once(station)
+
+
+@pytest.mark.long
+@pytest.mark.process
+def test_no_start_flies_beside_what_a_command_goes_on_with_and_drones_are_brought_back_by_command(
+    run: Run,
+) -> None:
+    station = flying(run("--speed", "20"))
+    [who, *_] = [row["id"] for row in drones(station) if (row["z"] or 0.0) > 0.5]
+    assert said(station, "cut-motors", drone=who) == f"the motors of {who} are cut"
+    station.kill()
+    (journal,) = station.journals()
+    words = [os.fspath(station.app.program), "resume", os.fspath(journal)]
+    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT) as command:
+        until(lambda: holder(journal) == command.pid, "the command goes on with it")
+        station.start()
+        told = said(station, "start")
+        assert f"the last flight was gone on with elsewhere (process {command.pid})" in told
+    revision = station.get("/api/plan")["revision"]
+    assert "the plan has changed meanwhile" in said(station, "start", revision=revision)
+    assert station.phase == "over"
+    assert len(station.journals()) == 1
+    words = [os.fspath(station.app.program), "tell", os.fspath(journal), "bring-back", who]
+    told = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+    assert told.startswith(f"{who} is brought back")
+    until(
+        lambda: {row["id"]: row["status"] for row in drones(station)}[who] == "UNKNOWN",
+        "all pages see it",
+    )
+
+
+@pytest.mark.long
+@pytest.mark.process
+def test_simulated_crazyflies_join_and_begin_the_next_flight_where_the_last_one_has_left_them(
+    run: Run,
+) -> None:
+    """They are connected like real ones; mishaps are not for them."""
+    pytest.importorskip("cflib")
+    station = flying(run("--crtp-sim", "2"))
+    why = said(station, "mishap", drone="cf1", kind="crash")
+    assert why == "mishaps happen to drones that --sim simulates, and to no others"
+    category = station.get("/api/app")["drones"][0]["category"]
+    said(station, "join", drone="cf9", category=category, home=[10.0, 4.0])
+    until(lambda: drones(station)[-1]["status"] in ("FREE", "BUSY"), "cf9 is connected")
+    said(station, "stop", how="land")
+    comes_to(station, "stopped")
+    before = {row["id"]: (row["x"], row["y"]) for row in drones(station)}
+    said(station, "discard")
+    said(station, "start")
+    until(lambda: station.now()["missions"] != [], "the drones have been asked where they are")
+    for row in drones(station):
+        assert (row["x"], row["y"]) == pytest.approx(before[row["id"]], abs=0.3)

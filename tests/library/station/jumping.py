@@ -1,0 +1,110 @@
+"""An asyncio loop for whole stations: its clock jumps to what comes next, once no thread works for it."""
+
+from __future__ import annotations
+
+import asyncio
+import selectors
+from collections.abc import Callable
+from concurrent.futures import Executor
+from typing import Any
+
+from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.store import Store
+
+A_LOOK = 0.001
+"""Seconds between two looks at what a thread has done meanwhile."""
+A_STEP = 1e-6
+"""Seconds that each step of the loop takes: without them what is due in an instant would never be."""
+
+
+class _Selector(selectors.DefaultSelector):
+    """Lets time pass instead of waiting."""
+
+    passes: Callable[[float], float]
+    """Lets so many seconds pass at most, and returns for how many of them to wait."""
+
+    def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
+        """Return what can be read now."""
+        ready = super().select(0)
+        if ready or timeout == 0:
+            self.passes(A_STEP)
+            return ready
+        return super().select(self.passes(A_LOOK if timeout is None else timeout + A_STEP))
+
+
+class JumpingLoop(asyncio.SelectorEventLoop):
+    """Sockets are those of this process; what a thread is asked to do takes no time but its own."""
+
+    def __init__(self) -> None:
+        self.now = 1000.0
+        self._threads = 0
+        selector = _Selector()
+        selector.passes = self._pass
+        super().__init__(selector)
+
+    def time(self) -> float:
+        """Return the time as all here know it."""
+        return self.now
+
+    def _pass(self, seconds: float) -> float:
+        passed = min(seconds, A_LOOK) if self._threads else seconds
+        self.now += passed
+        return passed if self._threads else 0.0
+
+    def run_in_executor(  # type: ignore[override]  # as `asyncio` has it, but for a type variable
+        self, executor: Executor | None, func: Callable[..., Any], *args: Any
+    ) -> asyncio.Future[Any]:
+        """Do this in a thread, and let no time pass before it is done."""
+        self._threads += 1
+        done = super().run_in_executor(executor, func, *args)
+        done.add_done_callback(self._is_done)
+        return done
+
+    def _is_done(self, _: object) -> None:
+        self._threads -= 1
+
+
+class AtOnce:
+    """A `Writer` of a journal without a thread: what is added is durable in the loop's next step."""
+
+    def __init__(
+        self,
+        store: Store,
+        on_durable: Callable[[int], object],
+        on_failure: Callable[[JournalError], object],
+    ) -> None:
+        self._store, self._on_durable, self._on_failure = store, on_durable, on_failure
+        self._rows: list[str] = []
+        self._added = store.seq
+
+    def add(self, row: str) -> int:
+        """Add a row and return its number."""
+        if not self._rows:
+            asyncio.get_running_loop().call_soon(self._write)
+        self._rows.append(row)
+        self._added += 1
+        return self._added
+
+    def snapshot(self, state: str) -> None:
+        """Store a snapshot of the rows added so far."""
+        self.flush()
+        self._store.snapshot(state)
+
+    def flush(self) -> None:
+        """Make all added rows durable; raise a `JournalError` if that fails."""
+        rows, self._rows = self._rows, []
+        if self._store.failure is not None:
+            raise self._store.failure
+        if rows:
+            self._store.append(rows)
+            self._on_durable(self._added)
+
+    def _write(self) -> None:
+        try:
+            self.flush()
+        except JournalError as failure:
+            self._on_failure(failure)
+
+    def close(self) -> None:
+        """Write the rest."""
+        self._write()
