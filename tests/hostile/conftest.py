@@ -1,7 +1,7 @@
-"""The command line, as tests/compiler/cli calls it."""
+"""An app in a folder of its own, as tests/compiler/cli has it."""
 
 from __future__ import annotations
 
-from tests.compiler.cli.conftest import app, here, plutoc
+from tests.compiler.cli.conftest import app, here
 
-__all__ = ["app", "here", "plutoc"]
+__all__ = ["app", "here"]

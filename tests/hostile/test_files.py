@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.compiler.cli.conftest import APP, Call
+from tests.compiler.cli.conftest import APP
+from tests.kit.command import plutoc
 
 
 @pytest.mark.parametrize(
@@ -33,9 +34,7 @@ from tests.compiler.cli.conftest import APP, Call
     ],
     ids=range(17),
 )
-def test_an_odd_file_is_read_or_refused(
-    plutoc: Call, here: Path, data: bytes, code: int, said: str
-) -> None:
+def test_an_odd_file_is_read_or_refused(here: Path, data: bytes, code: int, said: str) -> None:
     """The same by `check` and by `compile`; what is refused leaves nothing behind."""
     Path("crop.pluto").write_bytes(data)
     checked = plutoc("check", "crop.pluto")
@@ -47,7 +46,7 @@ def test_an_odd_file_is_read_or_refused(
     assert sorted(os.listdir(here)) == (["crop", "crop.pluto"] if code == 0 else ["crop.pluto"])
 
 
-def test_what_is_no_file_is_refused(plutoc: Call, here: Path) -> None:
+def test_what_is_no_file_is_refused(here: Path) -> None:
     """A folder, a device that never ends, a pipe into which nothing is written, links in a circle."""
     Path("folder.pluto").mkdir()
     os.mkfifo("pipe.pluto")
@@ -75,7 +74,7 @@ def test_what_is_no_file_is_refused(plutoc: Call, here: Path) -> None:
             assert (done.code, words in done.err) == (code, True), (name, command, done)
 
 
-def test_a_pipe_into_which_something_is_written_is_read(plutoc: Call, here: Path) -> None:
+def test_a_pipe_into_which_something_is_written_is_read(here: Path) -> None:
     """As a shell hands it on: `plutoc check <(make-an-app)`."""
     reading, writing = os.pipe()
     os.write(writing, APP.encode())
@@ -112,9 +111,7 @@ def test_a_pipe_into_which_something_is_written_is_read(plutoc: Call, here: Path
     ],
     ids=range(20),
 )
-def test_much_of_anything_is_refused_in_a_few_lines(
-    plutoc: Call, here: Path, text: str, code: str
-) -> None:
+def test_much_of_anything_is_refused_in_a_few_lines(here: Path, text: str, code: str) -> None:
     """Deep brackets, long lines, long names, ten thousand mistakes."""
     Path("a.pluto").write_text(text)
     done = plutoc("check", "a.pluto")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.compiler.cli.conftest import Call
+from tests.kit.command import plutoc
 
 BLOCKS = 10_000
 
@@ -38,7 +38,7 @@ def chain(blocks: int) -> str:
 
 
 @pytest.mark.long  # half a minute; tests/test_benchmarks.py has large apps
-def test_ten_thousand_blocks_are_compiled(plutoc: Call, here: Path) -> None:
+def test_ten_thousand_blocks_are_compiled(here: Path) -> None:
     """Without an error, and to Python that Python reads."""
     Path("long.pluto").write_text(chain(BLOCKS))
     done = plutoc("compile", "long.pluto")

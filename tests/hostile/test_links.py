@@ -13,7 +13,8 @@ from plutoc.emit.lock import lock
 from plutoc.emit.package import Package
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.source import Source, Span
-from tests.compiler.cli.conftest import APP, Call, tree
+from tests.compiler.cli.conftest import APP, tree
+from tests.kit.command import plutoc
 
 SECRET = "-----BEGIN PRIVATE KEY-----\nxyzzy = (\n"
 PLACE = Place(source=Source("a.pluto", "app a {}"), span=Span(4, 5))
@@ -50,7 +51,7 @@ LINKED = [
 @pytest.mark.parametrize("target", ["outside", "moved", "nowhere"])
 @pytest.mark.parametrize("force", [[], ["--force"]], ids=["", "force"])
 def test_no_link_is_written_through(
-    plutoc: Call, app: Path, outside: Path, path: str, target: str, force: list[str]
+    app: Path, outside: Path, path: str, target: str, force: list[str]
 ) -> None:
     """Not to a folder, not to a file, not to what is not there yet; not by `--force` either."""
     plutoc("compile", app)
@@ -71,7 +72,7 @@ def test_no_link_is_written_through(
     assert place.is_symlink()
 
 
-def test_no_link_to_a_secret_is_read(plutoc: Call, app: Path, outside: Path) -> None:
+def test_no_link_to_a_secret_is_read(app: Path, outside: Path) -> None:
     """Neither shown in a message nor taken along into a package."""
     Path("hooks.py").symlink_to(outside / "secret")
     for command in ("check", "compile", "run"):
@@ -82,7 +83,7 @@ def test_no_link_to_a_secret_is_read(plutoc: Call, app: Path, outside: Path) -> 
     assert not Path("crop").exists()
 
 
-def test_add_stubs_writes_through_no_link(plutoc: Call, app: Path, outside: Path) -> None:
+def test_add_stubs_writes_through_no_link(app: Path, outside: Path) -> None:
     """The developer's own file may be one, and is still not ours to follow."""
     plutoc("compile", app)
     hooks = Path("crop/src/crop/hooks.py")
@@ -95,7 +96,7 @@ def test_add_stubs_writes_through_no_link(plutoc: Call, app: Path, outside: Path
 
 @pytest.mark.parametrize("name", ["..", ".", "/", "../..", "outside/../../outside"])
 def test_a_folder_with_other_things_in_it_stays_as_it_is(
-    plutoc: Call, app: Path, outside: Path, name: str
+    app: Path, outside: Path, name: str
 ) -> None:
     """`-o` may name any folder, but only an empty or new one, or a package of ours, is written."""
     before = tree(app.absolute().parent.parent)
@@ -104,7 +105,7 @@ def test_a_folder_with_other_things_in_it_stays_as_it_is(
     assert tree(app.absolute().parent.parent) == before
 
 
-def test_a_damaged_record_leads_to_no_other_file(plutoc: Call, app: Path, outside: Path) -> None:
+def test_a_damaged_record_leads_to_no_other_file(app: Path, outside: Path) -> None:
     """A stranger's pluto.lock may name any path: none outside is removed."""
     plutoc("compile", app)
     record = Path("crop/pluto.lock")
@@ -137,7 +138,7 @@ def test_a_link_that_is_swapped_in_stops_the_writing(tmp_path: Path, swapped: st
     assert not [name for name in os.listdir(tmp_path) if name.startswith(".plutoc")]
 
 
-def test_a_hard_link_is_parted_and_not_written_through(plutoc: Call, app: Path) -> None:
+def test_a_hard_link_is_parted_and_not_written_through(app: Path) -> None:
     """A file of ours that is another one, too: new text goes into a new file."""
     plutoc("compile", app)
     os.link("crop/README.md", "other.md")
@@ -148,7 +149,7 @@ def test_a_hard_link_is_parted_and_not_written_through(plutoc: Call, app: Path) 
     assert "Another title" in Path("crop/README.md").read_text()
 
 
-def test_a_pipe_or_a_folder_in_the_way_is_refused(plutoc: Call, app: Path) -> None:
+def test_a_pipe_or_a_folder_in_the_way_is_refused(app: Path) -> None:
     """Nothing waits for it."""
     plutoc("compile", app)
     for make in (os.mkfifo, os.mkdir):

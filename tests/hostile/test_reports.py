@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.compiler.cli.conftest import APP, Call
+from tests.compiler.cli.conftest import APP
 from tests.fuzz.texts import HOSTILE
+from tests.kit.command import plutoc
 
 WRONG = APP.replace("max_attempts: 3", 'max_attempts: "{}"').replace("Crop watch", "{}")
 NAMES = [
@@ -40,7 +41,7 @@ def every(texts: list[str]) -> list[Path]:
 TEXTS = [text for text in HOSTILE if "\n" not in text]
 
 
-def test_a_build_gets_no_command_but_ours(plutoc: Call, here: Path) -> None:
+def test_a_build_gets_no_command_but_ours(here: Path) -> None:
     """Each line is one of a finding, with its own file, and holds nothing that begins another."""
     paths = every(TEXTS)
     done = plutoc("check", *paths, "--format", "github")
@@ -58,7 +59,7 @@ def test_a_build_gets_no_command_but_ours(plutoc: Call, here: Path) -> None:
 
 
 @pytest.mark.parametrize("format", ["text", "json", "sarif"])
-def test_a_terminal_gets_nothing_that_acts(plutoc: Call, here: Path, format: str) -> None:
+def test_a_terminal_gets_nothing_that_acts(here: Path, format: str) -> None:
     """No escape sequence and nothing that reorders a line; JSON stays JSON."""
     done = plutoc("check", *every(TEXTS), "--format", format)
     assert done.code == 1
@@ -72,9 +73,7 @@ def test_a_terminal_gets_nothing_that_acts(plutoc: Call, here: Path, format: str
 
 
 @pytest.mark.parametrize("name", [*NAMES, "a\n::error::b"])
-def test_a_folder_with_an_odd_name_is_compiled_in_peace(
-    plutoc: Call, here: Path, name: str
-) -> None:
+def test_a_folder_with_an_odd_name_is_compiled_in_peace(here: Path, name: str) -> None:
     """Its name comes into what a person is told to type, too."""
     Path(name).mkdir()
     (Path(name) / "crop.pluto").write_text(APP)
