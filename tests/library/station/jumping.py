@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import asyncio
 import selectors
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from concurrent.futures import Executor
-from typing import Any
+from typing import Any, TypeVar
 
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.store import Store
 
+T = TypeVar("T")
+
 A_LOOK = 0.001
 """Seconds between two looks at what a thread has done meanwhile."""
+LONG = 5.0
+"""Seconds after which it is said that nothing happens any more."""
 A_STEP = 1e-6
 """Seconds that each step of the loop takes: without them what is due in an instant would never be."""
 
@@ -29,7 +33,11 @@ class _Selector(selectors.DefaultSelector):
         if ready or timeout == 0:
             self.passes(A_STEP)
             return ready
-        return super().select(self.passes(A_LOOK if timeout is None else timeout + A_STEP))
+        if timeout is not None:
+            return super().select(self.passes(timeout + A_STEP))
+        if not self.passes(A_LOOK) and not (ready := super().select(LONG)):
+            raise RuntimeError("nothing will ever happen again, and a task still waits")
+        return ready
 
 
 class JumpingLoop(asyncio.SelectorEventLoop):
@@ -62,6 +70,12 @@ class JumpingLoop(asyncio.SelectorEventLoop):
 
     def _is_done(self, _: object) -> None:
         self._threads -= 1
+
+
+def run(flight: Coroutine[Any, Any, T]) -> T:
+    """Run this to its end in time that jumps."""
+    with asyncio.Runner(loop_factory=JumpingLoop) as runner:
+        return runner.run(flight)
 
 
 class AtOnce:

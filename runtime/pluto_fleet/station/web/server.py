@@ -43,7 +43,7 @@ _BODY_WITHIN, _BYTES_A_SECOND = 10.0, 512 * 1024
 _FIELDS = 16
 _LONGEST_REASON = 120
 """The longest reason in a close frame, in bytes."""
-_CONNECTIONS = 256
+CONNECTIONS = 256
 """The most HTTP connections; WebSockets have limits of their own."""
 _LOOK_EVERY = 10.0
 """The interval of checks of a connection, and so the time-out of a request's head, in seconds."""
@@ -132,7 +132,7 @@ class LimitedConnection(H11Protocol):
         self._began = asyncio.get_running_loop().time()
         others = [each for each in self.connections if isinstance(each, LimitedConnection)]
         super().connection_made(transport)
-        if len(others) >= _CONNECTIONS:
+        if len(others) >= CONNECTIONS:
             least = min(others, key=_claim)
             if least.is_idle or not least.has_token:
                 least.let_go()

@@ -25,6 +25,7 @@ from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply, Request
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.station.wire_app import AppData
+from tests.library.station.jumping import run
 
 HOST = "127.0.0.1:8765"
 OURS = {
@@ -216,7 +217,7 @@ class Asked:
         **query: str,
     ) -> Reply:
         """Ask this, as a page of the station's own does, and return the answer."""
-        return asyncio.run(self.api.answer(request(method, path, body, headers, **query)))
+        return run(self.api.answer(request(method, path, body, headers, **query)))
 
 
 def request(
@@ -249,14 +250,17 @@ def asked(
     station: AStation | None = None,
     file: Path | None = None,
     logo: Logo | None = None,
+    gate: asyncio.Event | None = None,
     **guard: Any,
 ) -> Asked:
-    """Serve a station without a web server."""
+    """Serve a station without a web server; who guesses a token waits at the gate."""
     station = station or AStation()
     times, paused = [0.0], list[float]()
 
     async def pause(seconds: float) -> None:
         paused.append(seconds)
+        if gate is not None:
+            await gate.wait()
 
     def clock() -> float:
         return times[-1]

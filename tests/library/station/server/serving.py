@@ -18,6 +18,7 @@ from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.listening import listening, port_of
 from pluto_fleet.station.web.server import serve
+from tests.library.station.jumping import run
 
 from .asking import AStation
 
@@ -89,7 +90,7 @@ class Served:
 async def all_of(reader: asyncio.StreamReader) -> bytes:
     """Read until the other side hangs up, as it must."""
     found = b""
-    async with asyncio.timeout(60):
+    async with asyncio.timeout(600):
         with suppress(ConnectionError):
             while part := await reader.read(65536):
                 found += part
@@ -137,4 +138,4 @@ def play(scene: Scene, file: Path | None = None, **served_with: Any) -> None:
             await scene(station)
             await station.stop()
 
-    asyncio.run(whole())
+    run(whole())

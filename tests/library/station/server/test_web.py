@@ -8,17 +8,20 @@ import signal
 import socket
 import sys
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
-from pluto_fleet.cli import serve as command
+from pluto_fleet.cli.serve import serve
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.web import server
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.listening import address, listening, port_of
+from pluto_fleet.station.web.server import CONNECTIONS
+from tests.library.files.an_app import APP
 
 from .asking import SEEN
 from .serving import Served, play, served, status
@@ -39,26 +42,6 @@ def test_pages_and_answers_come_over_a_socket() -> None:
     play(scene)
 
 
-@pytest.mark.parametrize(
-    "path",
-    [
-        "/pages/..%2f..%2fhttp.py",
-        "/pages/%2e%2e/%2e%2e/http.py",
-        "/pages/main.js%00",
-        "/pages/..\\..\\http.py",
-        "//etc/passwd",
-        "/%ff%fe",
-        "http://evil.example/pages/../http.py",
-        "/nowhere?" + "&".join(f"a{n}=1" for n in range(100)),
-    ],
-)
-def test_a_path_leads_nowhere_else(path: str) -> None:
-    async def scene(station: Served) -> None:
-        assert status(await station.say(station.request("GET", path))) == 404
-
-    play(scene)
-
-
 LARGE = b"x" * (1024 * 1024 + 1)
 CHUNK = b"%x\r\n" % 65536 + b"x" * 65536 + b"\r\n"
 
@@ -70,6 +53,10 @@ def test_a_body_that_is_too_long_is_not_read() -> None:
         assert status(await station.say(plan, LARGE)) == 413
         endless = station.request("PUT", "/api/plan", Transfer_Encoding="chunked")
         assert status(await station.say(endless, *[CHUNK] * 40)) == 413
+        start = station.request("POST", "/api/start", Content_Length=str(len(LARGE) - 1))
+        body = b'{"id": "1"}' + b" " * (len(LARGE) - 1 - 11)
+        assert status(await station.say(start, body)) == 200
+        station.station.done.clear()
         huge = station.request("PUT", "/api/plan", Content_Length="9" * 19)
         assert status(await station.say(huge)) in (400, 413)
         assert station.station.untouched
@@ -77,121 +64,119 @@ def test_a_body_that_is_too_long_is_not_read() -> None:
     play(scene)
 
 
-def test_a_body_that_is_just_short_enough_is_read() -> None:
-    async def scene(station: Served) -> None:
-        start = station.request("POST", "/api/start", Content_Length=str(len(LARGE) - 1))
-        body = b'{"id": "1"}' + b" " * (len(LARGE) - 1 - 11)
-        assert status(await station.say(start, body)) == 200
-
-    play(scene)
-
-
-def test_a_body_that_does_not_come_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server, "_BODY_WITHIN", 0.05)
-
-    async def scene(station: Served) -> None:
-        start = station.request("POST", "/api/start", Content_Length="11")
-        assert status(await station.say(start, b'{"id"')) == 408
-        assert station.station.untouched
-
-    play(scene)
-
-
-def test_a_head_that_does_not_come_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server, "_LOOK_EVERY", 0.05)
-
-    async def scene(station: Served) -> None:
-        assert await station.say(b"") == b""
-        assert await station.say(b"GET / HTTP/1.1\r\nHost: ") == b""
-        kept = station.request("GET", "/", Connection="keep-alive")
-        assert status(await station.say(kept, b"GET")) == 200
-
-    play(scene)
-
-
-def test_who_does_not_read_the_answer_is_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
-    async def scene(station: Served) -> None:
-        async def endless() -> None:
-            await asyncio.Event().wait()
-
-        station.station.busy = endless
-        start = station.request("POST", "/api/start", {"id": "1"})
-        with monkeypatch.context() as hurried:
-            hurried.setattr(server, "_LOOK_EVERY", 0.02)
-            assert await station.say(start) == b""
-
-    play(scene)
-
-
-def test_many_who_say_nothing_keep_no_client_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server, "_CONNECTIONS", 16)
-
-    async def scene(station: Served) -> None:
-        silent = [await asyncio.open_connection("127.0.0.1", station.port) for _ in range(40)]
-        await station.stop()
-        for reader, writer in silent[:20]:
-            assert await reader.read() == b""
-            writer.close()
-        for _, writer in silent[20:]:
-            writer.close()
-
-    play(scene)
-
-
-@pytest.mark.parametrize(
-    "raw",
-    [
-        b"\r\n\r\n\r\n\r\n",
-        b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(range(256)),
-        b"GET\r\n\r\n",
-        b"GET / HTTP/9.9\r\nConnection: close\r\n\r\n",
-        b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n",
-        b"GET / HTTP/1.1\r\nHost : a\r\n\r\n",
-        b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: -1\r\n\r\n",
-        b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n",
-        b"GET /\xff HTTP/1.1\r\nHost: a\r\n\r\n",
-        b"GET / HTTP/1.1\r\nHost: a\r\nConnection: close\r\nX: " + b"x" * 100_000 + b"\r\n\r\n",
-        b"POST /api/start HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: gzip\r\n\r\n",
-    ],
-    ids=range(11),
+STRANGE_PATHS = (
+    "/pages/..%2f..%2fhttp.py",
+    "/pages/%2e%2e/%2e%2e/http.py",
+    "/pages/main.js%00",
+    "//etc/passwd",
+    "/%ff%fe",
+    "http://evil.example/pages/../http.py",
+    "/nowhere?" + "&".join(f"a{n}=1" for n in range(100)),
 )
-def test_what_is_no_http_is_refused(raw: bytes) -> None:
+NO_HTTP = (
+    b"\r\n\r\n\r\n\r\n",
+    b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(range(256)),
+    b"GET\r\n\r\n",
+    b"GET / HTTP/9.9\r\nConnection: close\r\n\r\n",
+    b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n",
+    b"GET / HTTP/1.1\r\nHost: a\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n",
+    b"GET /\xff HTTP/1.1\r\nHost: a\r\n\r\n",
+    b"GET / HTTP/1.1\r\nHost: a\r\nConnection: close\r\nX: " + b"x" * 100_000 + b"\r\n\r\n",
+    b"POST /api/start HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: gzip\r\n\r\n",
+)
+
+
+def test_what_is_no_http_and_what_leads_nowhere_is_refused() -> None:
     async def scene(station: Served) -> None:
-        answer = await station.say(raw)
-        assert 400 <= status(answer) < 500 or status(answer) == 501
-        assert b"Traceback" not in answer
+        for path in STRANGE_PATHS:
+            assert status(await station.say(station.request("GET", path))) == 404
+        for raw in NO_HTTP:
+            answer = await station.say(raw)
+            assert 400 <= status(answer) < 500 or status(answer) == 501
+            assert b"Traceback" not in answer
 
     play(scene)
 
 
-def test_what_comes_twice_in_a_header_counts_for_nothing() -> None:
+def test_what_is_said_twice_counts_for_nothing_and_no_proxy_is_believed(tmp_path: Path) -> None:
+    """A proxy may believe the other length: what follows could be another's request."""
+
     async def scene(station: Served) -> None:
         start = station.request("POST", "/api/start", {"id": "1"})
         twice = start.replace(b"X-Pluto", b"Origin: http://evil.example\r\nX-Pluto")
         assert status(await station.say(twice)) == 403
-        assert station.station.untouched
-
-    play(scene)
-
-
-def test_requests_in_a_row_are_not_smuggled_past_the_guard() -> None:
-    async def scene(station: Served) -> None:
         bad = station.request("POST", "/api/start", {"id": "1"}, Origin="http://evil.example")
         bad = bad.replace(b"close", b"keep-alive")
         answer = await station.say(bad + station.request("GET", "/nowhere"))
         assert answer.count(b"HTTP/1.1 403") == 1 and answer.count(b"HTTP/1.1 404") == 1
+        for method, path in (("POST", "/api/start"), ("GET", "/api/app")):
+            lengths = {"Content_Length": "4", "Transfer_Encoding": "chunked"}
+            both = station.request(method, path, Connection="keep-alive", **lengths)
+            answer = await station.say(both + b"0\r\n\r\n" + start)
+            assert status(answer) == 400 and answer.count(b"HTTP/1.1") == 1
+            assert b"says its length once" in answer
         assert station.station.untouched
+        proxied = station.request("POST", "/api/start", {"id": "1"}, X_Forwarded_For="6.6.6.6")
+        assert status(await station.say(proxied)) == 200
+
+    play(scene, tmp_path / "audit.log")
+    assert "6.6.6.6" not in (tmp_path / "audit.log").read_text()
+
+
+def test_what_does_not_come_is_not_waited_for_nor_who_does_not_read() -> None:
+    """Neither a head nor a body; and an answer that is not made in time is given up."""
+
+    async def scene(station: Served) -> None:
+        assert await station.say(b"") == b""
+        assert await station.say(b"GET / HTTP/1.1\r\nHost: ") == b""
+        start = station.request("POST", "/api/start", Content_Length="11")
+        assert status(await station.say(start, b'{"id"')) == 408
+        kept = station.request("GET", "/", Connection="keep-alive")
+        assert status(await station.say(kept, b"GET")) == 200
+        assert station.station.untouched
+        station.station.busy = asyncio.Event().wait
+        asks = station.request("POST", "/api/start", {"id": "1"})
+        assert await station.say(asks) == b""
 
     play(scene)
 
 
-def test_what_a_proxy_says_of_its_client_is_not_believed(tmp_path: Path) -> None:
-    async def scene(station: Served) -> None:
-        start = station.request("POST", "/api/start", {"id": "1"}, X_Forwarded_For="6.6.6.6")
-        assert status(await station.say(start)) == 200
+def test_strangers_keep_out_no_client_with_the_token() -> None:
+    """Those who say nothing, nor those who guess and do not read what they are answered."""
 
-    play(scene, tmp_path / "audit.log")
-    assert "6.6.6.6" not in (tmp_path / "audit.log").read_text()
+    async def scene(station: Served) -> None:
+        bearer = {"Authorization": "Bearer sesame", "Connection": "keep-alive"}
+        reader, writer = await asyncio.open_connection("127.0.0.1", station.port)
+        app = station.request("GET", "/api/app", None, {**station.headers, **bearer})
+        writer.write(app)
+        assert b"200 OK" in await reader.readline()
+        guess = {**station.headers, "Authorization": "Bearer guess"}
+        strangers = []
+        for number in range(CONNECTIONS + 20):
+            strangers.append(await asyncio.open_connection("127.0.0.1", station.port))
+            if number % 2:
+                strangers[-1][1].write(station.request("GET", "/api/app", None, guess))
+        writer.write(app)
+        while b"200 OK" not in (line := await reader.readline()):
+            assert line, "the connection with the token was closed"
+        await station.stop()
+        for _, each in (*strangers, (reader, writer)):
+            each.close()
+
+    play(scene, token="sesame")
+
+
+def test_tabs_without_the_token_that_say_nothing_keep_out_no_page_with_it() -> None:
+    async def scene(station: Served) -> None:
+        where = f"ws://{station.host}/api/live"
+        silent = [await connect(where, origin=station.origin) for _ in range(40)]
+        async with connect(where, origin=station.origin) as page:
+            await page.send(json.dumps({**SEEN, "token": "sesame"}))
+            assert json.loads(await page.recv())["version"] == 1
+        for each in silent:
+            await each.close()
+
+    play(scene, token="sesame")
 
 
 def test_a_page_stays_connected() -> None:
@@ -267,10 +252,15 @@ async def test_signals_are_left_to_those_who_fly() -> None:
         assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before
 
 
-def test_a_port_that_is_taken_is_said_in_words() -> None:
+def test_a_port_is_taken_once_and_free_again_at_once() -> None:
     taken = pytest.raises(BadInput, match="is taken, perhaps by another station")
-    with listening("127.0.0.1", 0) as first, taken:
-        listening("127.0.0.1", port_of(first))
+    with listening("127.0.0.1", 0) as first:
+        port = port_of(first)
+        with taken:
+            listening("127.0.0.1", port)
+        with socket.create_connection(("127.0.0.1", port)):
+            pass
+    listening("127.0.0.1", port).close()
 
 
 @pytest.mark.parametrize(
@@ -300,13 +290,6 @@ def test_the_address_is_what_one_types() -> None:
 def test_without_the_extra_it_says_how_to_come_by_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delitem(sys.modules, "pluto_fleet.station.web.server")
     monkeypatch.setitem(sys.modules, "starlette.requests", None)
+    options: Any = SimpleNamespace(refuse_what_is_simulated=lambda: None)
     with pytest.raises(BadInput, match=r"pip install 'alfalfa\[station\]'"):
-        command._web_server("alfalfa_")
-
-
-def test_a_station_comes_back_to_its_port_at_once() -> None:
-    with listening("127.0.0.1", 0) as first:
-        port = port_of(first)
-        with socket.create_connection(("127.0.0.1", port)):
-            pass
-    listening("127.0.0.1", port).close()
+        serve(APP, options)
