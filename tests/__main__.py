@@ -1,8 +1,16 @@
-"""`python -m tests --help`: every campaign, every measure, and every command that rewrites what must come out."""
+"""`python -m tests`: every campaign, every measure, and every command that rewrites what must come out.
+
+What a campaign and a measure are for is the first line of their docstring.
+"""
 
 from __future__ import annotations
 
+import ast
 import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from tests.paths import ROOT
 
 REWRITES = {
     "pytest tests/test_cases.py --update": "what must come out of tests/cases",
@@ -17,68 +25,81 @@ REWRITES = {
     "pytest tests/compiler/editor/browser --update": "the pictures of the graph editor",
     "python docs/tutorial/make_pictures.py": "the pictures and the quoted files in the pages",
 }
-CAMPAIGNS = {
-    "python -m tests.compiler.format --mutants 2000": "format many layouts of every example",
-    "python -m tests.compiler.lsp.holes": "cut a thousand holes into the examples: is what stood there offered?",
-    "python -m tests.fuzz --minutes 10": "feed the compiler with odd input",
-    "python -m tests.soundness --random 2000": "hold the checks against an oracle; also without arguments: all mutants of the thesis's graphs",
-    "python -m tests.soundness --loops 5000 --fly 50": "the same for apps full of loops, and fly those that are accepted",
-    "python -m tests.mutations": "plant mistakes in the checks and the passes: each must be found",
-    "python -m tests.equivalence --graphs 10000": "hold optimised packages against plain ones, some ten minutes",
-    "python -m tests.trials.campaign --seeds 20": "strike all examples at every row of their journals, some ten minutes",
-    "python -m tests.trials.strangers --apps 200": "try random apps in all weathers, some ten minutes",
-    "python -m tests.deadlines --plans 1000": "miss no more deadlines by earliest_deadline than by nearest",
-    "python -m tests.sizing --plans 100": "hold 100 promised fleets against 1,000 fresh runs each, an hour on two cores",
-    "python -m tests.kill --brain 500 --gateway 100": "kill the app and its gateway in real flights, some twenty minutes",
-    "python -m tests.kill.misbehaving --times 3": "let hooks misbehave in real flights under a supervisor",
-    "python -m tests.flights_crazyflie.campaign": "let each fault happen to a simulated Crazyflie, some twenty minutes",
-    "python -m tests.flights_crazyflie.examples": "fly every example with such Crazyflies, some ten minutes",
-    "python -m tests.areas --areas 1000": "cover random areas, half a minute: is anything left out, or forbidden?",
-    "python -m tests.calibrating --cases 100": "fit journals of drones whose motion is known: is it told right?",
-    "python -m tests.prediction": "hold what is promised of a plan against simulated Crazyflies, some ten minutes",
-    "python -m tests.prediction.phases": "what each phase of a Crazyflie's flight takes besides its trajectory, some ten minutes",
-    "python -m tests.library.station.browser.every_page": "look at all of a station's pages in all sizes and languages, by day and by night, some twenty minutes; needs Chromium",
-    "python -m tests.flights_crazyflie.pauses": "land and take off again, after pauses of 0 to 6 s",
-}
-MEASURES = {
-    "python benchmarks/graph_editor.py": "how fast 300 blocks are opened, dragged and tidied in the graph editor",
-    "python benchmarks/house.py": "how large the rooms are, and which import each other in a ring",
-    "python benchmarks/trip_path.py": "which files one trip enters, and how often it moves between them",
-    "python benchmarks/instructions.py": "a trip's instructions; --update keeps the new counts",
-    "python benchmarks/flow.py": "what a trip costs beside hand-written code; pip install -e '.[benchmarks]' first",
-    "python benchmarks/page.py": "write those figures into docs/benchmarks.md",
-    "python benchmarks/thesis_experiment.py": "the thesis's experiment in real time",
-    "python benchmarks/cold_start.py": "how long a command takes, in starts of an empty Python",
-    "python benchmarks/compile.py": "how long `compile` takes: anew, after an edit, for 10,000 blocks",
-    "python benchmarks/large_apps.py": "how the time of `check` grows from 1,000 blocks to 10,000",
-    "python benchmarks/typing_latency.py": "from a keystroke to what is published, at 100 and 1,000 blocks",
-    "python benchmarks/simulate.py": "what a trip of a simulation costs, and how that grows with drones and trips",
-    "python benchmarks/allocation.py": "how long 30 plans take with each policy, beside a routing solver's plans; some ten minutes",
-    "python benchmarks/choosing.py": "what it costs to choose drones, in large fleets and long queues",
-    "python benchmarks/traffic.py": "how near drones come to each other, and what keeping them apart costs",
-    "python benchmarks/station.py": "what it costs to watch a flight; needs Chromium",
-    "python benchmarks/journal.py": "what a journal costs, and how long going on from one takes",
-    "python benchmarks/crazyflie.py": "how long cflib holds up the event loop",
-    "python benchmarks/invariants.py": "how many missions a second are tried",
-}
-SECTIONS = {
-    "Rewrite, then read the diff": REWRITES,
-    "Campaigns: each must find nothing": CAMPAIGNS,
-    "Measures": MEASURES,
-}
+CAMPAIGNS = (
+    "python -m tests.compiler.format --mutants 2000",
+    "python -m tests.compiler.lsp.holes",
+    "python -m tests.fuzz --minutes 10",
+    "python -m tests.soundness --random 2000",
+    "python -m tests.soundness --loops 5000 --fly 50",
+    "python -m tests.mutations",
+    "python -m tests.equivalence --graphs 10000",
+    "python -m tests.trials.campaign --seeds 20",
+    "python -m tests.trials.strangers --apps 200",
+    "python -m tests.deadlines --plans 1000",
+    "python -m tests.sizing --plans 100",
+    "python -m tests.kill --brain 500 --gateway 100",
+    "python -m tests.kill.misbehaving --times 3",
+    "python -m tests.flights_crazyflie.campaign",
+    "python -m tests.flights_crazyflie.examples",
+    "python -m tests.flights_crazyflie.pauses",
+    "python -m tests.areas --areas 1000",
+    "python -m tests.calibrating --cases 100",
+    "python -m tests.prediction",
+    "python -m tests.prediction.phases",
+    "python -m tests.library.station.browser.every_page",
+    "python -m tests.planted",
+)
+MEASURES = (
+    "python benchmarks/graph_editor.py",
+    "python benchmarks/house.py",
+    "python benchmarks/trip_path.py",
+    "python benchmarks/instructions.py",
+    "python benchmarks/flow.py",
+    "python benchmarks/page.py",
+    "python benchmarks/thesis_experiment.py",
+    "python benchmarks/cold_start.py",
+    "python benchmarks/compile.py",
+    "python benchmarks/large_apps.py",
+    "python benchmarks/typing_latency.py",
+    "python benchmarks/simulate.py",
+    "python benchmarks/allocation.py",
+    "python benchmarks/choosing.py",
+    "python benchmarks/traffic.py",
+    "python benchmarks/station.py",
+    "python benchmarks/journal.py",
+    "python benchmarks/crazyflie.py",
+    "python benchmarks/invariants.py",
+)
 
 
-def listing() -> str:
-    """Return all of them, a line each."""
-    width = max(len(command) for commands in SECTIONS.values() for command in commands)
-    parts = []
-    for title, commands in SECTIONS.items():
-        parts.append(f"{title}:")
-        parts += [f"  {command:{width}}  {what}" for command, what in commands.items()]
-        parts.append("")
-    return "\n".join(["Each takes --help.", "", *parts])
+def file_of(command: str) -> Path:
+    """Return what a command of Python's runs, or what pytest is asked to test."""
+    target = next(word for word in command.split()[1:] if word != "-m")
+    if not command.startswith("python -m"):
+        return ROOT / target
+    place = ROOT / target.replace(".", "/")
+    return place / "__main__.py" if place.is_dir() else place.with_suffix(".py")
+
+
+def purpose(command: str) -> str:
+    """Return the first line of the docstring of what a command runs."""
+    tree = ast.parse(file_of(command).read_text(encoding="utf-8"))
+    return (ast.get_docstring(tree) or "").partition("\n")[0]
+
+
+def listing() -> Iterator[str]:
+    """Yield the lines of all of them."""
+    yield "Each takes --help."
+    for title, commands in (
+        ("Rewrite, then read the diff", REWRITES),
+        ("Campaigns: each must find nothing", dict.fromkeys(CAMPAIGNS)),
+        ("Measures", dict.fromkeys(MEASURES)),
+    ):
+        yield f"\n{title}:"
+        for command, what in commands.items():
+            yield f"  {command:50}  {what or purpose(command)}"
 
 
 if __name__ == "__main__":
-    print(listing(), end="")
+    print("\n".join(listing()))
     sys.exit(0 if sys.argv[1:] in ([], ["--help"], ["-h"]) else 2)

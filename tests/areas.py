@@ -11,7 +11,6 @@ or leads out of its area.
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -24,6 +23,7 @@ from pluto_fleet.files.reading import parsed
 from pluto_fleet.files.toml import toml_text
 from pluto_fleet.shared.domain.airspace import Airspace, Corner, Polygon, distance, inside
 from pluto_fleet.shared.domain.errors import BadInput
+from tests.kit.campaign import Campaign
 from tests.library.files.an_app import APP
 
 SIZE = (20.0, 15.0)
@@ -225,28 +225,27 @@ def _share(points: Sequence[Corner], targets: Sequence[Sequence[float]], spacing
     return covered / len(points)
 
 
-def main(argv: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Cover areas, and print what is wrong."""
-    parser = ArgumentParser(prog="python -m tests.areas", description=__doc__)
-    parser.add_argument("--areas", type=int, default=1000, help="how many (default 1000)")
-    parser.add_argument("--from", dest="first", type=int, default=0, help="the first one's number")
-    options = parser.parse_args(argv)
-    bad, least, trips, cells = 0, 1.0, 0, 0
-    for number in range(options.first, options.first + options.areas):
+    campaign = Campaign("tests.areas", __doc__)
+    campaign.draws("areas", 1000)
+    campaign.parse(arguments)
+    least, trips, cells = 1.0, 0, 0
+    for number, found in campaign.each(_one, campaign.numbers):
         area = drawn(number)
-        found = judged(area, number)
         least, trips = min(least, found.covered), trips + found.trips
         cells += _cells(area) if found.trips else 0
         if found.wrong or found.covered < ENOUGH:
-            bad += 1
-            print(f"area {number} ({area.kind}, {area.spacing:.3f} m): {found.covered:.1%} covered")
-            for said in found.wrong[:5]:
-                print(f"  {said}")
-    print(
-        f"{options.areas - bad} of {options.areas} areas are covered, each to {least:.2%} at least"
+            what = f"area {number} ({area.kind}, {area.spacing:.3f} m)"
+            campaign.found(f"{what}: {found.covered:.1%} covered", *found.wrong[:5])
+    return campaign.over(
+        f"each is covered to {least:.2%} at least",
+        f"{trips} trips, where boxes around the areas have {cells} squares",
     )
-    print(f"{trips} trips, where boxes around the areas have {cells} squares")
-    return int(bad > 0)
+
+
+def _one(number: int) -> Judged:
+    return judged(drawn(number), number)
 
 
 def _cells(area: Drawn) -> int:

@@ -1,4 +1,6 @@
-"""`python -m tests.deadlines --plans 1000`: does `earliest_deadline` miss no more deadlines than `nearest`?
+"""Misses no more deadlines by `earliest_deadline` than by `nearest`.
+
+    python -m tests.deadlines --plans 1000
 
 Each plan is drawn from its number: a fleet, missions of one to three trips, and deadlines of which few or most can be
 kept. It is flown with both policies, and the missions that end after their deadline are counted. The campaign fails if
@@ -8,8 +10,7 @@ in more than one of 20 plans `earliest_deadline` misses more.
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
-from collections.abc import Coroutine, Iterator, Mapping
+from collections.abc import Coroutine, Mapping
 from random import Random
 from typing import Any
 
@@ -20,6 +21,7 @@ from pluto_fleet.shared.fleet.earliest_deadline import earliest_deadline
 from pluto_fleet.shared.fleet.policies import Policy, nearest
 from pluto_fleet.shared.flow.run import Run
 from tests.kit import apps
+from tests.kit.campaign import Campaign
 
 SHARE = 0.95
 """In how many of the plans it is to miss no more, at least."""
@@ -91,24 +93,26 @@ class Drawn:
         return sum(deadline is not None and end > deadline for end, deadline in due)
 
 
-def results(count: int) -> Iterator[tuple[int, int]]:
-    """Yield of each plan how many deadlines are missed: by `nearest`, and by `earliest_deadline`."""
-    for number in range(count):
-        plan = Drawn(number)
-        yield plan.missed(nearest), plan.missed(earliest_deadline)
+def missed(number: int) -> tuple[int, int]:
+    """Return how many deadlines of a plan are missed: by `nearest`, and by `earliest_deadline`."""
+    plan = Drawn(number)
+    return plan.missed(nearest), plan.missed(earliest_deadline)
 
 
 def main() -> int:
     """Fly all plans, and tell what was missed."""
-    parser = ArgumentParser(description="Deadlines that two policies miss.")
-    parser.add_argument("--plans", type=int, default=1_000)
-    found = list(results(parser.parse_args().plans))
+    campaign = Campaign("tests.deadlines", __doc__)
+    campaign.draws("plans", 1000)
+    campaign.parse()
+    found = [each for _, each in campaign.each(missed, campaign.numbers)]
     fine = sum(after <= before for before, after in found)
     fewer = sum(after < before for before, after in found)
-    print(f"missed by nearest: {sum(before for before, _ in found):,}")
-    print(f"missed by earliest_deadline: {sum(after for _, after in found):,}")
-    print(f"plans in which it misses no more: {fine} of {len(found)}; fewer: {fewer}")
-    return 0 if fine >= SHARE * len(found) else 1
+    return campaign.over(
+        f"missed by nearest: {sum(before for before, _ in found):,}",
+        f"missed by earliest_deadline: {sum(after for _, after in found):,}",
+        f"plans in which it misses no more: {fine} of {len(found)}; fewer: {fewer}",
+        fails=["those are too few"] if fine < SHARE * len(found) else [],
+    )
 
 
 if __name__ == "__main__":

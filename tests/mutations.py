@@ -1,14 +1,15 @@
-"""One random mistake in an example, and what the compiler says of it.
+"""Makes one random mistake in an example: the compiler says one thing of it.
 
-`python -m tests.mutations --count 4000 --seed 1` prints how many broken files give exactly one
-diagnostic, and which give more.
+    python -m tests.mutations --count 4000 --seed 1
+
+Prints how many broken files give exactly one diagnostic, and which give more.
 """
 
 from __future__ import annotations
 
-import argparse
 import random
 import re
+import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -18,9 +19,11 @@ from plutoc.diagnostic import Diagnostic, Rejected, Severity
 from plutoc.source import Source
 from plutoc.syntax.parse import read
 from plutoc.syntax.tree import File
-from tests.paths import ROOT
+from tests.kit.campaign import Campaign
+from tests.paths import EXAMPLES
 
-EXAMPLES = ROOT / "examples"
+ENOUGH = 0.98
+"""The share of broken files of which exactly one thing is to be said."""
 
 _TOKEN = re.compile(r"\w+|->|\"[^\"\n]*\"|[^\w\s]")
 _CHARACTERS = "abcxyzAZ019 _-.,:;()[]{}<>=#\"'/\\%→é\t"
@@ -207,34 +210,39 @@ def share(outcomes: list[Outcome], only_errors: bool = False) -> float:
     return len(single) / len(broken)
 
 
-def main() -> None:
+def main() -> int:
     """Print the figures, and the worst."""
-    arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("--count", type=int, default=4000)
-    arguments.add_argument("--seed", type=int, default=1)
-    arguments.add_argument("--show", type=int, default=10, help="how many of the worst to print")
-    options = arguments.parse_args()
-    outcomes = [outcome(mutant) for mutant in mutants(options.count, options.seed)]
-    broken = [each for each in outcomes if each.broken]
-    several = [each for each in broken if len(each.found) > 1]
-    print(f"{len(outcomes)} mutants, {len(broken)} broken")
-    print(f"exactly one diagnostic: {share(outcomes):.2%} of the broken")
-    print(f"exactly one error:      {share(outcomes, only_errors=True):.2%} of the broken")
-    for mutation in MUTATIONS:
-        these = [each for each in outcomes if each.mutant.mutation == mutation]
-        if any(each.broken for each in these):
-            count = sum(each.broken for each in these)
-            print(f"  {share(these):7.2%} of {count:4} {mutation}")
-    kinds = Counter(" ".join(d.code for d in each.found) for each in several)
-    for codes, count in kinds.most_common(25):
-        print(f"{count:4} × {codes}")
+    campaign = Campaign("tests.mutations", __doc__)
+    campaign.option("--count", type=int, default=4000, help="how many files")
+    campaign.option("--seed", type=int, default=1)
+    campaign.option("--show", type=int, default=10, help="how many of the worst to print")
+    options = campaign.parse()
+    mutated = mutants(options.count, options.seed)
+    outcomes = [came for _, came in campaign.each(outcome, mutated)]
+    several = [each for each in outcomes if each.broken and len(each.found) > 1]
     several.sort(key=lambda each: (all(d.code >= "P2" for d in each.found), -len(each.found)))
     for each in several[: options.show]:
-        print(f"--- {each.mutant.example}: {each.mutant.mutation}")
+        print(f"{each.mutant.example}: {each.mutant.mutation}")
         for d in each.found:
             line, column = d.source.position(d.span.start)
             print(f"{d.code} {line}:{column} {d.message}\n      {d.source.line(line)}")
+    return campaign.over(
+        *_figures(outcomes, several),
+        fails=["those are too few"] if share(outcomes) < ENOUGH else [],
+    )
+
+
+def _figures(outcomes: list[Outcome], several: list[Outcome]) -> Iterator[str]:
+    for mutation in MUTATIONS:
+        these = [each for each in outcomes if each.mutant.mutation == mutation]
+        count = sum(each.broken for each in these)
+        if count:
+            yield f"  {share(these):7.2%} of {count:4} {mutation}"
+    kinds = Counter(" ".join(d.code for d in each.found) for each in several)
+    yield from (f"{count:4} × {codes}" for codes, count in kinds.most_common(25))
+    yield f"exactly one diagnostic: {share(outcomes):.2%} of the broken"
+    yield f"exactly one error:      {share(outcomes, only_errors=True):.2%} of the broken"
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from tests.compiler.emit.apps import TYPED
-from tests.mutations import mutants, outcome, share
-
-ENOUGH = 0.98
+from tests.mutations import ENOUGH, mutants, outcome, share
 
 
 def test_one_mistake_gives_one_diagnostic() -> None:

@@ -10,14 +10,12 @@ exits with 1 if there is one, or if something that should have occurred never di
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
 from collections.abc import Iterator
-from multiprocessing import get_context
-from time import perf_counter
 
 from tests.equivalence.campaign import Tally, blamed, differs, one_graph
 from tests.equivalence.coverage import missed
 from tests.equivalence.shrink import shrunk
+from tests.kit.campaign import Campaign
 
 SHOWN = 5
 """Findings that are made smaller and printed."""
@@ -25,26 +23,18 @@ SHOWN = 5
 
 def main() -> int:
     """Run the campaign that the command line asks for."""
-    parser = ArgumentParser(prog="python -m tests.equivalence")
-    parser.add_argument("--graphs", type=int, default=10_000, metavar="N")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--processes", type=int, default=2)
-    parser.add_argument("--only", metavar="SEED/NUMBER", help="one graph, as it was named")
-    options = parser.parse_args()
-    began = perf_counter()
-    names = [f"{options.seed}/{number}" for number in range(options.graphs)]
-    if options.only:
-        names = [options.only]
+    campaign = Campaign("tests.equivalence", __doc__)
+    campaign.draws("graphs", 10_000, seeded=True)
+    campaign.parser.set_defaults(at_once=2)
+    options = campaign.parse()
     tally = Tally()
-    with get_context("spawn").Pool(options.processes) as pool:
-        for each in pool.imap_unordered(one_graph, names, chunksize=min(50, len(names))):
-            tally.add(each)
-    print("\n".join(lines(tally)))
-    print(f"{perf_counter() - began:.0f} s")
+    for _, each in campaign.each(one_graph, campaign.names):
+        tally.add(each)
+    for finding in sorted(tally.findings, key=lambda finding: len(finding.text))[:SHOWN]:
+        small = shrunk(finding, differs)
+        campaign.found(finding.name, str(small), f"after the pass: {blamed(small)}")
     unseen = [] if options.only else missed(tally.seen)
-    for what in unseen:
-        print(f"never seen: {what}")
-    return 1 if tally.findings or unseen else 0
+    return campaign.over(*lines(tally), fails=[f"never seen: {what}" for what in unseen])
 
 
 def lines(tally: Tally) -> Iterator[str]:
@@ -54,11 +44,6 @@ def lines(tally: Tally) -> Iterator[str]:
     share = tally.graphs / max(1, tally.graphs + tally.refused)
     yield f"{tally.graphs} sound graphs ({share:.0%} of those drawn), {tally.flights} pairs of runs,"
     yield f"{tally.events} events; {len(tally.findings)} runs leave two traces"
-    for finding in sorted(tally.findings, key=lambda finding: len(finding.text))[:SHOWN]:
-        yield ""
-        small = shrunk(finding, differs)
-        yield str(small)
-        yield f"after the pass: {blamed(small)}"
 
 
 if __name__ == "__main__":

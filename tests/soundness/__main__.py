@@ -12,7 +12,6 @@ time and the first of them in real time; it exits with 1 as well where a mission
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
 from collections import Counter
 from collections.abc import Iterator
 from itertools import chain
@@ -20,6 +19,7 @@ from random import Random
 
 from plutoc.compile import analyse
 from plutoc.source import Source
+from tests.kit.campaign import Campaign
 from tests.soundness.app import App
 from tests.soundness.compare import Compared, compare
 from tests.soundness.endings import End, endings
@@ -32,35 +32,41 @@ from tests.soundness.thesis import thesis_graphs
 
 def main() -> int:
     """Compare, and print."""
-    parser = ArgumentParser(prog="python -m tests.soundness")
-    parser.add_argument("--random", type=int, default=0, metavar="N", help="random apps instead")
-    parser.add_argument(
-        "--loops", type=int, default=0, metavar="N", help="apps full of loops instead"
+    campaign = Campaign("tests.soundness", __doc__)
+    campaign.option("--random", type=int, default=0, metavar="N", help="random apps instead")
+    campaign.option("--loops", type=int, default=0, metavar="N", help="apps full of loops instead")
+    campaign.option("--fly", type=int, metavar="N", help="fly what is accepted, N in real time")
+    campaign.option("--seed", type=int, default=1, metavar="N", help="of the first; default: 1")
+    campaign.option(
+        "--only", action="store_true", help="that one alone: of each kind that is asked for"
     )
-    parser.add_argument("--fly", type=int, metavar="N", help="fly what is accepted, N in real time")
-    parser.add_argument("--seed", type=int, default=1)
-    options = parser.parse_args()
+    campaign.in_time()
+    options = campaign.parse()
     apps = edited()
     if options.random or options.loops:
-        apps = chain(randoms(options.random, options.seed), looping(options.loops, options.seed))
+        randoms, loops = (min(n, 1) if options.only else n for n in (options.random, options.loops))
+        apps = chain(drawn("random", randoms, options.seed), drawn("loops", loops, options.seed))
     tallies: dict[str, Tally] = {}
     ends: Counter[End] = Counter()
     left = options.fly or 0
-    for number, (name, what, app) in enumerate(apps):
-        compared = compare(app)
+    for number, ((name, what, app), compared) in enumerate(campaign.each(_one, apps)):
         tallies.setdefault(name, Tally()).add(compared)
         if options.fly is not None and not compared.codes:
             found = [*flown(app, number), *(flown(app, number, real=True) if left else ())]
             left = max(0, left - 1)
             ends.update(found)
             if End.HANGS in found:
-                print("\n".join([f"HANGS: {name}: {what}", app.text]), flush=True)
-        if not compared.agrees or (compared.judgement and compared.judgement.doubtful):
-            print("\n".join(said(f"{name}: {what}", app, compared)), flush=True)
-    print("\n".join(lines(tallies)))
-    for end in End if options.fly is not None else ():
-        print(f"{ends[end]:8} missions: {end}")
-    return 1 if ends[End.HANGS] or any(tally.disagreements for tally in tallies.values()) else 0
+                campaign.found(f"{name}: {what}: HANGS", app.text)
+        if not compared.agrees:
+            campaign.found(f"{name}: {what}", *said(app, compared))
+        elif compared.judgement and compared.judgement.doubtful:
+            print("\n".join([f"doubtful: {name}: {what}", *said(app, compared)]), flush=True)
+    flights = [f"{ends[end]:8} missions: {end}" for end in End if options.fly is not None]
+    return campaign.over(*lines(tallies), *flights)
+
+
+def _one(case: tuple[str, str, App]) -> Compared:
+    return compare(case[2])
 
 
 def edited() -> Iterator[tuple[str, str, App]]:
@@ -71,10 +77,11 @@ def edited() -> Iterator[tuple[str, str, App]]:
             yield name, f"{mutant.edit}: {mutant.what}", mutant.app
 
 
-def randoms(number: int, seed: int) -> Iterator[tuple[str, str, App]]:
-    """Yield random apps, each with a seed of its own."""
+def drawn(kind: str, number: int, seed: int) -> Iterator[tuple[str, str, App]]:
+    """Yield random apps, each with a seed of its own: some of any kind, or some full of loops."""
     for one in range(seed, seed + number):
-        yield "random", f"seed {one}", random_app(Random(one))
+        app = random_app(Random(one)) if kind == "random" else looping_app(Random(f"loops/{one}"))
+        yield kind, f"seed {one}", app
 
 
 def flown(app: App, seed: int, *, real: bool = False) -> tuple[End, ...]:
@@ -83,17 +90,10 @@ def flown(app: App, seed: int, *, real: bool = False) -> tuple[End, ...]:
     return endings(checked, seed, real=real)
 
 
-def looping(number: int, seed: int) -> Iterator[tuple[str, str, App]]:
-    """Yield random apps full of loops on which nothing is flown."""
-    for one in range(seed, seed + number):
-        yield "loops", f"seed {one}", looping_app(Random(f"loops/{one}"))
-
-
-def said(title: str, app: App, compared: Compared) -> Iterator[str]:
+def said(app: App, compared: Compared) -> Iterator[str]:
     """Yield what both say of an app on which they do not agree."""
     judgement = compared.judgement
     assert judgement
-    yield f"{'doubtful' if judgement.doubtful else 'DISAGREEMENT'}: {title}"
     yield f"  the compiler: {', '.join(compared.codes) or 'accepted'}"
     for verdict, run in judgement.runs.items():
         yield f"  the oracle: {verdict}: {' · '.join(run)}"

@@ -11,16 +11,14 @@ is 1; so it is where one of the faults has never struck.
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import attrgetter
 from pathlib import Path
 from random import Random
-from time import perf_counter, process_time
+from time import process_time
 from typing import Any
 
 from pluto_fleet.app import App
@@ -41,6 +39,7 @@ from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import smallest_case
 from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
 from tests.kit.apps import NAMES
+from tests.kit.campaign import Campaign
 from tests.trials.examples import example, fleet_of, missions_of
 
 HEADER = ("example", "runs", "rows", "lives", "completed", "failed", "cancelled", "found", "s")
@@ -119,59 +118,41 @@ def struck(name: str, seeds: range, own: bool = False) -> Struck:
         sentences = first_the_same(first, tried(app, small).violations)
         options = Options(file=Path("examples") / name / "app.pluto")
         smallest = smallest_case(app, options, Finding(case=small, sentences=sentences))
-        said = [f"--- {name}", *first.sentences, "The smallest case:", *smallest]
+        said = [*first.sentences, "The smallest case:", *smallest]
     seconds = process_time() - began
     return Struck(name=name, tally=tally, found=len(findings), said=tuple(said), seconds=seconds)
 
 
-def report(results: Sequence[Struck]) -> Iterator[str]:
-    """Yield the lines of both tables, and what was found."""
-    yield from table(HEADER, [result.row for result in results], right=range(1, len(HEADER)))
-    yield ""
-    fired = fired_in(results)
-    yield from table(
-        ("what struck", "how often"), [(what, str(fired[what])) for what in WORDS], right=(1,)
-    )
-    yield ""
-    for result in results:
-        yield from result.said
-
-
-def fired_in(results: Sequence[Struck]) -> Counter[str]:
-    """Return how often everything has struck."""
-    return sum((result.tally.fired for result in results), Counter[str]())
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
     """Try what the command line asks for."""
-    parser = ArgumentParser(
-        prog="python -m tests.trials.campaign", description=(__doc__ or "").splitlines()[0]
+    campaign = Campaign("tests.trials.campaign", __doc__)
+    campaign.option(
+        "examples", nargs="*", metavar="EXAMPLE", help=f"{', '.join(NAMES)}; default: all"
     )
-    parser.add_argument("examples", nargs="*", metavar="EXAMPLE", help="default: all")
-    parser.add_argument("--seeds", type=int, default=20, metavar="N", help="default: 20")
-    parser.add_argument("--first", type=int, default=0, metavar="SEED", help="the first seed")
-    parser.add_argument("--own", action="store_true", help="its own missions, everywhere")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes")
-    options = parser.parse_args(arguments)
+    campaign.option("--seeds", type=int, default=20, metavar="N", help="default: 20")
+    campaign.option("--first", type=int, default=0, metavar="SEED", help="the first seed")
+    campaign.option("--own", action="store_true", help="its own missions, everywhere")
+    campaign.side_by_side()
+    options = campaign.parse(arguments)
     unknown = sorted(set(options.examples) - set(NAMES))
     if unknown:
-        parser.error(f"no such example: {', '.join(unknown)} (there are {', '.join(NAMES)})")
-    names, began = options.examples or NAMES, perf_counter()
+        campaign.parser.error(f"no such example: {', '.join(unknown)}")
     seeds = range(options.first, options.first + options.seeds)
-    try_one = partial(struck, seeds=seeds, own=options.own)
-    if options.jobs > 1:
-        with ProcessPoolExecutor(options.jobs) as pool:
-            results = list(pool.map(try_one, names))
-    else:
-        results = [try_one(name) for name in names]
-    for line in report(results):
-        print(line)
-    found, runs = sum(each.found for each in results), sum(each.tally.runs for each in results)
-    never = [what for what in WORDS if not fired_in(results)[what]]
-    print(f"{runs} runs in {perf_counter() - began:.0f} s, {found} violations")
-    if never and not options.own:
-        print(f"never struck: {', '.join(never)}")
-    return 1 if found or (never and not options.own) else 0
+    one = partial(struck, seeds=seeds, own=options.own)
+    results: list[Struck] = []
+    for name, came in campaign.each(one, options.examples or NAMES):
+        results.append(came)
+        if came.said:
+            campaign.found(name, *came.said)
+    fired = sum((result.tally.fired for result in results), Counter[str]())
+    never = [what for what in WORDS if not fired[what]]
+    return campaign.over(
+        *table(HEADER, [result.row for result in results], right=range(1, len(HEADER))),
+        "",
+        *table(("what struck", "how often"), [(w, str(fired[w])) for w in WORDS], right=(1,)),
+        f"{sum(each.tally.runs for each in results)} runs",
+        fails=[f"never struck: {', '.join(never)}"] if never and not options.own else [],
+    )
 
 
 if __name__ == "__main__":

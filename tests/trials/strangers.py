@@ -11,15 +11,12 @@ gets; the exit code is 1 then.
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from functools import partial
 from operator import attrgetter
 from pathlib import Path
 from random import Random
-from time import perf_counter
 from typing import TYPE_CHECKING
 
 from pluto_fleet.trials.case import Case, Weather
@@ -28,6 +25,7 @@ from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.report import smallest_case
 from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
+from tests.kit.campaign import Campaign
 from tests.trials.random_apps import random_app, random_fleet, random_source
 
 if TYPE_CHECKING:
@@ -59,7 +57,7 @@ def bad_radio(rng: Random) -> Weather:
     )
 
 
-def strange(number: int, share: int = CASES, *, whole: bool = True) -> tuple[int, list[str]]:
+def strange(number: int, *, share: int = CASES, whole: bool = True) -> tuple[int, list[str]]:
     """Try one app; return how many runs that were, and what was found, in words."""
     app = random_app(Random(f"{number}/app"))
     fleet, tally = random_fleet(Random(f"{number}/fleet")), Tally()
@@ -69,34 +67,26 @@ def strange(number: int, share: int = CASES, *, whole: bool = True) -> tuple[int
     for first in tally.findings:
         small = shrunk(first.case, shows_the_same(app, first, attrgetter("wrong")))
         finding = Finding(case=small, sentences=first_the_same(first, tried(app, small).wrong))
-        said = [f"--- app {number}", random_source(Random(f"{number}/app")), *first.sentences]
+        said = [random_source(Random(f"{number}/app")), *first.sentences]
         said += smallest_case(app, Options(file=Path("app.pluto")), finding)
     return tally.runs, said
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Try what the command line asks for."""
-    parser = ArgumentParser(
-        prog="python -m tests.trials.strangers", description=(__doc__ or "").splitlines()[0]
+    campaign = Campaign("tests.trials.strangers", __doc__)
+    campaign.draws("apps", 200)
+    campaign.option(
+        "--cases", dest="share", type=int, default=CASES, help="of each kind, for each app"
     )
-    parser.add_argument("--apps", type=int, default=200, metavar="N", help="default: 200")
-    parser.add_argument("--first", type=int, default=0, metavar="N", help="the first app")
-    parser.add_argument("--cases", type=int, default=CASES, metavar="N", help="of each kind")
-    parser.add_argument("--drawn", action="store_true", help="strike none everywhere")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes")
-    options = parser.parse_args(arguments)
-    began, numbers = perf_counter(), range(options.first, options.first + options.apps)
-    one = partial(strange, share=options.cases, whole=not options.drawn)
-    with ProcessPoolExecutor(options.jobs) as pool:
-        results = map(one, numbers) if options.jobs == 1 else pool.map(one, numbers)
-        runs = found = 0
-        for tried_so_often, said in results:
-            runs, found = runs + tried_so_often, found + bool(said)
-            for line in said:
-                print(line, flush=True)
-    seconds = perf_counter() - began
-    print(f"{options.apps} apps, {runs} runs in {seconds:.0f} s, {found} apps with violations")
-    return 1 if found else 0
+    campaign.option("--drawn", action="store_true", help="strike none everywhere")
+    options = campaign.parse(arguments)
+    runs, one = 0, partial(strange, share=options.share, whole=not options.drawn)
+    for number, (tried_so_often, said) in campaign.each(one, campaign.numbers):
+        runs += tried_so_often
+        if said:
+            campaign.found(f"app {number}", *said)
+    return campaign.over(f"{runs} runs")
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ def test_no_example_does_what_no_run_may_do(capsys: pytest.CaptureFixture[str]) 
     code = campaign.main(["alfalfa", "night_round", "--seeds", "1"])
     said = capsys.readouterr().out
     assert code == 0, said
-    assert " 0 violations" in said
+    assert " 0 findings" in said
 
 
 def test_an_unknown_example_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
@@ -39,7 +39,7 @@ def test_no_random_app_does_what_no_run_may_do(capsys: pytest.CaptureFixture[str
     code = strangers.main(["--apps", "40", "--cases", "3", "--drawn"])
     said = capsys.readouterr().out
     assert code == 0, said
-    assert "40 apps" in said and "0 apps with violations" in said
+    assert "40 apps in" in said and " 0 findings" in said
 
 
 def test_a_mistake_in_the_world_is_found_by_them_and_shown_as_it_is(
