@@ -11,7 +11,13 @@ from pluto_fleet.station.wire import Alert, DroneRow, MissionRow, Result, Words
 from pluto_fleet.station.words import words
 
 
-def drone(id: str, status: str, why: str = "", ready_in: float | None = None) -> DroneRow:
+def drone(
+    id: str,
+    status: str,
+    why: str = "",
+    ready_in: float | None = None,
+    retired: bool = False,
+) -> DroneRow:
     row: DroneRow = {
         "id": id,
         "status": status,
@@ -22,7 +28,7 @@ def drone(id: str, status: str, why: str = "", ready_in: float | None = None) ->
         "battery": 0.4,
         "mission": None,
         "trips": 0,
-        "retired": False,
+        "retired": retired,
         "why": why,
     }
     if ready_in is not None:

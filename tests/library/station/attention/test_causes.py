@@ -92,6 +92,17 @@ def test_why_all_wait_is_said_in_total() -> None:
     assert of_waiting(109, [drone("cf1", "BUSY"), drone("cf2", "FREE")], None) is None
 
 
+def test_each_drone_that_keeps_missions_waiting_is_counted_once() -> None:
+    """A lost one that was retired as well is lost; nothing is told while some drone can fly."""
+    drones = [drone("cf1", "LOST", retired=True), drone("cf2", "FREE", retired=True)]
+    drones += [drone("cf3", "RECOVERING"), drone("cf4", "OFFLINE"), drone("cf5", "RETURNING")]
+    cause = of_waiting(1, drones, None)
+    assert cause is not None
+    assert cause.said["text"] == (
+        "1 mission waits: 1 being recovered, 1 lost, 1 not asked yet, 1 retired, 1 flying"
+    )
+
+
 def test_a_battery_that_does_not_charge_says_where_to_look() -> None:
     [cause] = of_batteries([drone("cf3", "LOW")], True)
     assert cause.said["text"] == (

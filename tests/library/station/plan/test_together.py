@@ -11,6 +11,7 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import MissionPlan, Stale
+from pluto_fleet.station.plan.problems import PlanProblem
 from tests.library.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
 
 KEYS = ["mission-one", "mission-two"]
@@ -94,6 +95,20 @@ def test_a_launched_mission_and_a_new_one_may_not_share_a_name() -> None:
     plan.replace(plan.revision, [mission("mission-two", name="mission-one")])
     with pytest.raises(BadInput, match="names must differ"):
         plan.launchable()
+
+
+def test_what_is_wrong_with_the_whole_plan_holds_up_every_start(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """What is wrong with another mission does not, nor what is not chosen."""
+    plan = drawn(*map(mission, KEYS), mission("mission-six", trip("trip-six", target=None)))
+    assert plan.launchable(KEYS)[1] == KEYS
+    words = {"trip": None, "field": None, "text": "x", "alone": "The plan is no plan"}
+    whole = PlanProblem(mission=None, **words)
+    monkeypatch.setattr("pluto_fleet.station.plan.plan.read", lambda *_: ([], [whole]))
+    plan.replace(plan.revision, [*map(mission, KEYS)])
+    with pytest.raises(BadInput, match="The plan is no plan"):
+        plan.launchable(KEYS[:1])
 
 
 def test_missions_to_fly_are_new_ones_each_time() -> None:
