@@ -7,8 +7,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.shared.domain.model import Category, Item
-from pluto_fleet.shared.domain.status import DroneStatus
-from pluto_fleet.shared.fleet.telemetry import Charge
+from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons
 from pluto_fleet.station.wire import Words
 from tests.kit import apps
@@ -21,7 +20,7 @@ def living(*missions: apps.Mission, low: float | None = None, **on: Any) -> Livi
     """Return a fleet of three that has just been asked how it is, with so much in its batteries."""
     fleet = Living(enterable(), *missions, on=apps.fleet(*HOMES, **on))
     for body in fleet.navigation.bodies.values() if low is not None else ():
-        vars(body)["_charge"] = Charge(low or 0.0, 0.0, 1.0 / body.drone.category.charge_time)
+        body.stand(body.drone.home, low or 0.0, 0.0)
     fleet.run(0.5)
     return fleet
 
@@ -46,7 +45,9 @@ def reasons(fleet: Living) -> list[Words]:
     waiting, where = looking(fleet), fleet.life.brain.whereabouts()
     missions = fleet.life.records.missions.items()
     found = [
-        waiting.why(name, one["todo"]) for name, one in missions if where[name]["drone"] is None
+        waiting.why(name, one["todo"])
+        for name, one in missions
+        if name in where and where[name]["drone"] is None
     ]
     return [one for one in found if one is not None]
 
@@ -61,18 +62,20 @@ def test_drones_that_are_free_but_too_low_are_not_what_a_mission_waits_for_witho
     assert facts == [{"low": 3, "takes": int(percent) / 100, "has": 0.25} for percent in takes]
 
 
-def test_when_a_drone_is_ready_that_is_too_low_is_when_its_queue_looks_at_it_again() -> None:
+def test_when_a_drone_is_ready_that_is_too_low_is_when_it_flies() -> None:
     fleet = living(far("a"), far("b"), low=0.25)
-    waiting, brain = looking(fleet), fleet.life.brain
+    waiting, now = looking(fleet), fleet.life.kernel.time()
     for name, one in fleet.life.records.missions.items():
         waiting.why(name, one["todo"])
-    until = {one.id: at for one, (at, _) in brain._core.fleet.queue.low.items()}
-    assert len(until) == 3 and waiting.takes is not None and 0.25 < waiting.takes < 1
-    for id, drone in brain.drones().items():
-        ready = waiting.ready_in(id, drone, True)
-        assert ready == pytest.approx(until[id] - fleet.life.kernel.time(), abs=2.0)
+    assert waiting.takes is not None and 0.25 < waiting.takes < 1
+    drones = fleet.life.brain.drones()
+    found = [waiting.ready_in(id, drone, True) for id, drone in drones.items()]
+    for id, drone in drones.items():
         assert waiting.ready_in(id, {**drone, "at": [9.0, 9.0, 0.0]}, True) is None
         assert waiting.ready_in(id, drone, False) is None
+    fleet.run()
+    ready = min(one for one in found if one is not None)
+    assert fleet.times("trip.launched")[0] == pytest.approx(now + ready, abs=5.0)
 
 
 def test_drones_that_can_never_fly_it_are_counted_apart_with_the_reason() -> None:
@@ -83,8 +86,7 @@ def test_drones_that_can_never_fly_it_are_counted_apart_with_the_reason() -> Non
     kinds = ["scout", "scout", "carrier"]
     fleet = Living(app, mission, on=apps.fleet(*HOMES, categories=kinds))
     fleet.at(0.2, lambda: fleet.life.control.retire("cf3"))
-    body = fleet.navigation.bodies["cf3"]
-    vars(body)["_charge"] = Charge(0.05, 0.0)  # it cannot be given: the mission waits
+    fleet.navigation.bodies["cf3"].stand(HOMES[2], 0.05, 0.0)  # it cannot be given: they wait
     fleet.run(0.5)
     (why,) = reasons(fleet)
     cannot = "2 cannot: scout carries at most 10 g, the item weighs 500 g"
@@ -98,7 +100,8 @@ def test_who_is_busy_lost_or_kept_on_the_ground_by_the_limit_is_said() -> None:
     assert said(full) == ["waits for a drone (2 free, but no more may fly at once; 1 flying)"] * 2
     assert {one["key"] for one in reasons(full)} == {"wait.drone-full"}
     fleet = living(*missions, apps.mission("d", apps.trip("1", 9.0)))
-    fleet.life.brain._core.fleet.drones[0].status = DroneStatus.LOST
+    fleet.kernel.spawn(fleet.gateway.cut_motors("cf1"), FLEET, "the motors of one are cut")
+    fleet.run(5.0)
     assert said(fleet) == ["waits for a drone (1 lost; 2 flying)"]
     assert [one["facts"] for one in reasons(fleet)] == [{"lost": 1, "flying": 2}]
 
