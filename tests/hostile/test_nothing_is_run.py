@@ -14,7 +14,7 @@ import plutoc
 import plutoc_blocks
 import plutoc_grammar
 import plutoc_runtime
-from tests.kit import command
+from tests.kit import command as commands
 
 FOLDERS = [Path(one.__path__[0]) for one in (plutoc, plutoc_runtime, plutoc_blocks, plutoc_grammar)]
 MODULES = [path for folder in FOLDERS for path in sorted(folder.rglob("*.py"))]
@@ -95,7 +95,7 @@ def test_hooks_are_read_and_never_run(app: Path) -> None:
         "def find_blooms(mission, results): ...\n"
     )
     for command in (["check"], ["compile"], ["compile", "--add-stubs"], ["graph"]):
-        assert command.plutoc(*command, app).code == 0, command
+        assert commands.plutoc(*command, app).code == 0, command
     assert not trap.exists()
 
 

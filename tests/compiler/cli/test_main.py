@@ -154,6 +154,7 @@ SHOWN = [
 """What is printed line by line, by argparse, and as a report."""
 
 
+@pytest.mark.long
 @pytest.mark.process
 @pytest.mark.parametrize("words", SHOWN)
 def test_a_closed_pipe_is_silent(app: Path, words: list[str]) -> None:

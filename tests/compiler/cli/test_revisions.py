@@ -124,6 +124,7 @@ def test_where_there_is_no_repository_it_is_told(
     assert "git says: not a git repository" in said
 
 
+@pytest.mark.long
 def test_without_git_it_is_told(app: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """All else needs none."""
     monkeypatch.setenv("PATH", str(Path.cwd()))

@@ -12,7 +12,7 @@ import pytest
 from tests.kit.apps import EXAMPLES
 from tests.kit.command import plutoc
 
-pytestmark = pytest.mark.process
+pytestmark = [pytest.mark.long, pytest.mark.process]
 
 
 @pytest.fixture
@@ -36,7 +36,6 @@ def broken() -> None:
     edit("if not isinstance(result.value, Photo):", "if result.value.sees is None:")
 
 
-@pytest.mark.long
 def test_a_sound_app_is_sound() -> None:
     """It says how often what has struck, and what came of all runs."""
     app = EXAMPLES / "drugs_distribution" / "app.pluto"  # a fourth of the runs that others need
@@ -75,7 +74,6 @@ def test_a_mistake_in_a_hook_is_found_and_shown_small(app: Path) -> None:
         assert sentence in again.out
 
 
-@pytest.mark.long
 def test_a_hook_that_raises_keyboard_interrupt_interrupts_nothing(app: Path) -> None:
     """It is found as anything else that a hook raises: only a person interrupts."""
     begins = "    for result in results.new:"
@@ -86,7 +84,6 @@ def test_a_hook_that_raises_keyboard_interrupt_interrupts_nothing(app: Path) -> 
     assert "interrupted" not in said.err
 
 
-@pytest.mark.long
 def test_a_case_is_said_to_show_it_only_if_its_command_does(app: Path) -> None:
     """What hooks.py keeps from run to run is not there when the command is typed."""
     begins = "    done = {result.trip.target"
@@ -104,7 +101,6 @@ def test_a_case_is_said_to_show_it_only_if_its_command_does(app: Path) -> None:
     assert "The smallest case" not in said.out
 
 
-@pytest.mark.long
 def test_a_program_gets_one_object(app: Path) -> None:
     """With every finding, and the smallest case as text."""
     broken()
@@ -118,7 +114,6 @@ def test_a_program_gets_one_object(app: Path) -> None:
     assert list(data["smallest"]) == ["what", "seed", "strike", "weather", "missions", "fleet"]
 
 
-@pytest.mark.long
 def test_its_own_missions_are_tried_when_asked_for(app: Path) -> None:
     """What would repeat for ever repeats once."""
     Path("mine.toml").write_text(

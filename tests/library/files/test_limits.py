@@ -89,7 +89,7 @@ def test_the_ends_are_accepted(tmp_path: Path, fleet: str) -> None:
     load(tmp_path, fleet, TRIP)
 
 
-@settings(max_examples=120, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(number=st.integers(0, len(CATEGORIES) - 1), seed=st.integers(0, 10**6))
 def test_what_is_accepted_flies(tmp_path: Path, number: int, seed: int) -> None:
     """In the simulated world, with all that goes wrong there, and under any Stop: nothing is raised."""

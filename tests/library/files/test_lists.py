@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from io import StringIO
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -12,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.files import lists
-from pluto_fleet.files.missions import load_missions
+from pluto_fleet.files.missions import load_missions, missions_of
 from pluto_fleet.files.missions_text import missions_text
 from pluto_fleet.files.reading import parsed, read
 from pluto_fleet.shared.domain.airspace import Airspace
@@ -152,8 +153,6 @@ def test_they_are_written_as_plain_missions(tmp_path: Path) -> None:
 
 
 def load_missions_of(text: str) -> list[Any]:
-    from pluto_fleet.files.missions import missions_of
-
     return missions_of(parsed("m.toml", text), APP, MAP)
 
 
@@ -165,40 +164,21 @@ def test_a_plan_that_is_no_file_has_no_list_beside_it() -> None:
     )
 
 
-UNUSABLE: list[tuple[str | bytes, str]] = [
-    ("", "is empty: its first line names the columns"),
-    (" \n\n", "is empty: its first line names the columns"),
-    ("nr,x,y\n", "has no row below the one that names its columns"),
-    ("nr,x,y\n,,\n", "has no row below the one that names its columns"),
-    ("nr,x,\n1,2,3\n", "has no name for its column 3: its first line names the columns"),
-    ("nr,x,x\n1,2,3\n", 'has two columns "x": names must differ'),
-    ("1,2.5,3\n7,4,3.25\n", "has no line that names its columns: its first line holds numbers"),
-    ("nr,x,y\n1,2\n7,4,3\n", "has 2 values in row 2, and its first line names 3"),
-    ("nr,x,y\n1,2,3\n7,4,3,5\n", "has 4 values in row 3, and its first line names 3"),
-    ("nr,x,y\n1\n", "has 1 value in row 2, and its first line names 3"),
-    (
-        'nr,x,y\n1,"2,3\n',
-        "cannot be read in row 2: a quoted value begins there, and no quote ends it",
-    ),
-    ('nr,x,y\n1,"2"3,4\n', "cannot be read in row 2: something stands behind a quoted value"),
-    ('nr;x;y\n1;"2"3;4\n', "cannot be read in row 2: something stands behind a quoted value"),
-    ("nr\tx\ty\n1\t2\t3\n", "has tabs between its columns: separate them by commas or semicolons"),
-    ("nr,x,y\n1,ä,3\n".encode("latin-1"), "cannot be used: is not UTF-8 text"),
-    ("nr,x,y\n1,2,3\n".encode("utf-16"), "cannot be used: is not UTF-8 text"),
-    ("nr,{x},y\n1,2,3\n", 'has a column "{x}": a column\'s name has no braces'),
-]
-
-
-@pytest.mark.parametrize(("rows", "sentence"), UNUSABLE)
-def test_of_an_unusable_list_it_is_said_why(
+@pytest.mark.parametrize(
+    ("rows", "sentence"),
+    [
+        (" \n\n", "is empty: its first line names the columns"),
+        ("nr\tx\n1\t2\n", "has tabs between its columns: separate them by commas or semicolons"),
+        ("nr,x,y\n1,ä,3\n".encode("latin-1"), "cannot be used: is not UTF-8 text"),
+        ("nr,x,y\n1,2,3\n".encode("utf-16"), "cannot be used: is not UTF-8 text"),
+    ],
+)
+def test_of_a_list_in_another_form_it_is_said_why(
     tmp_path: Path, rows: str | bytes, sentence: str
 ) -> None:
+    """What can be shown of lists that cannot be used is in `sentences/lists.txt`."""
     [told] = said(tmp_path, rows=rows)
     assert told.startswith(f'm.toml:4: mission "Bed {{nr}}": each "beds.csv" {sentence}')
-
-
-def test_all_rows_of_another_width_are_told(tmp_path: Path) -> None:
-    assert len(said(tmp_path, rows="nr,x,y\n1,2\n2,3,4\n3\n4,5,6,7\n")) == 3
 
 
 def test_of_each_wrong_value_the_row_and_the_column_are_told(tmp_path: Path) -> None:
@@ -228,47 +208,6 @@ def test_of_each_wrong_value_the_row_and_the_column_are_told(tmp_path: Path) -> 
             ' a length: write a number and a unit (mm, cm, m, km) (column "x": "")'
         ),
     ]
-
-
-def test_what_no_row_can_mend_is_told_once(tmp_path: Path) -> None:
-    """However many rows there are."""
-    [told] = said(tmp_path, BEDS.replace("take_photo", "take_foto"))
-    assert told == (
-        'm.toml:7: mission "Bed 1" (beds.csv, row 2), trip 1: unknown action "take_foto";'
-        ' did you mean "take_photo"?'
-    )
-    [told] = said(tmp_path, BEDS.replace("each =", 'note = "{x}"\neach ='))
-    assert told.startswith(
-        'm.toml:4: mission "Bed 1" (beds.csv, row 2): unknown key "note"; a mission'
-    )
-
-
-TEMPLATES = [
-    ('"{x}"', '"{xx}"', 8, 'target has an unknown column "xx"; did you mean "x"?'),
-    ("{nr}", "{number}", 3, 'name has an unknown column "number"'),
-    ('"{x}"', '"{}"', 8, 'target has an unknown column ""'),
-    ('"{x}"', '"{x"', 8, "target has a brace that is not one of a pair: a brace itself is written {{ or }}"),
-    ("Bed {nr}", "Bed nr}", 3, "name has a brace that is not one of a pair"),
-    ("Bed {nr}", "Bed", 3, 'name is the same for every row, and names must differ: put a column into it, such as "Bed {nr}"'),
-    ("beds.csv", "../beds.csv", 4, 'each "../beds.csv" lies elsewhere: a list is in the folder of its missions file'),
-    ("beds.csv", "/tmp/beds.csv", 4, 'each "/tmp/beds.csv" lies elsewhere'),
-    ("beds.csv", "C:/beds.csv", 4, 'each "C:/beds.csv" lies elsewhere'),
-    ("beds.csv", "a/../../beds.csv", 4, 'each "a/../../beds.csv" lies elsewhere'),
-    ('"beds.csv"', "3", 4, "each 3 is not a text: put it in quotes"),
-    ('"beds.csv"', '""', 4, 'each "" is empty'),
-    ("beds.csv", "bed.csv", 4, 'each "bed.csv" cannot be used: there is no such file'),
-    ("beds.csv", ".", 4, 'each "." cannot be used: is a folder, not a file'),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("old", "new", "line", "sentence"), TEMPLATES)
-def test_what_is_wrong_with_the_mission_is_told_with_its_line(
-    tmp_path: Path, old: str, new: str, line: int, sentence: str
-) -> None:
-    [told] = said(tmp_path, BEDS.replace(old, new))
-    start, _, rest = told.partition(": mission ")
-    assert start == f"m.toml:{line}"
-    assert rest.partition(": ")[2].startswith(sentence)
 
 
 def test_a_list_makes_only_so_many_missions(
@@ -323,8 +262,6 @@ def test_any_text_of_a_row_comes_into_the_mission(names: list[str], mark: str) -
     writer = csv.writer(out, delimiter=mark)
     writer.writerow(["note", "n"])
     writer.writerows([name, str(n)] for n, name in enumerate(names))
-    from tempfile import TemporaryDirectory
-
     with TemporaryDirectory() as folder:
         (Path(folder) / "l.csv").write_bytes(out.getvalue().encode())
         text = (
