@@ -78,7 +78,7 @@ def test_words_stand_where_there_is_something_to_choose() -> None:
 
 def test_every_app_has_a_picture_without_mistakes() -> None:
     """Random graphs, some of them large and tangled."""
-    for app in random_graphs(25):
+    for app in random_graphs(10):
         picture = picture_of(graph_of(app))
         assert list(mistakes(picture.laid, picture.ways)) == [], app.graph.source.text
         assert list(lying_together(picture.laid)) == [], app.graph.source.text
@@ -104,7 +104,7 @@ def tangles(
     return sizes, ways, widths
 
 
-@settings(max_examples=100)
+@settings(max_examples=40)
 @given(tangles())
 def test_any_boxes_and_ways_are_drawn(
     tangle: tuple[list[tuple[float, float]], list[tuple[int, int]], list[float]],

@@ -76,7 +76,7 @@ def check(recorded: Recorded, scenes: Sequence[Scene]) -> None:
             assert scene_at(recorded, number * 20.0 + later) == named(one)
 
 
-slow = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=40)
+slow = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=20)
 
 
 @slow

@@ -82,33 +82,6 @@ def test_what_is_the_same_is_no_change(tmp_path: Path) -> None:
     assert (drawn.revision, (tmp_path / "fleet.toml").stat().st_mtime_ns) == (0, before)
 
 
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        ({"places": [{"name": "A", "x": 30, "y": 1}]}, 'place "A": at (30, 1) is outside the map'),
-        ({"places": [BED, BED]}, 'place "Bed 1": there is another place or zone "Bed 1"'),
-        ({"places": [{"name": "A", "x": 1}]}, 'place "A": at […] is not a list of 2 or 3 numbers'),
-        ({"places": [{**BED, "colour": 1}]}, 'place "Bed 1": unknown key "colour"'),
-        ({"places": 3}, "places must be a list of objects"),
-        (
-            {"zones": [{"name": "A", "corners": [[0, 0], [4, 4], [4, 0], [1, 3]]}]},
-            "crosses or touch",
-        ),
-        ({"north": "up"}, 'the map: north "up" is not a number'),
-        ({"image": {"x": 0, "y": 0, "width": 0, "height": 1}}, "image: size […] has an element"),
-        ({"image": 3}, "image must be null"),
-        ({"size": [1, 1]}, "the map has no size"),
-    ],
-)
-def test_what_is_no_map_is_refused(tmp_path: Path, given: dict[str, object], said: str) -> None:
-    """In words, and nothing is written."""
-    drawn = ward(tmp_path)
-    with pytest.raises(BadInput) as caught:
-        change(drawn, **given)
-    assert said in str(caught.value)
-    assert (text(tmp_path), drawn.revision) == (FLEET, 0)
-
-
 def test_a_file_that_was_changed_by_hand_counts(tmp_path: Path) -> None:
     """A page that has not seen that is told; what does not concern the map is no conflict."""
     drawn = ward(tmp_path)

@@ -59,7 +59,7 @@ METRES = st.floats(-50, 50)
 PIXELS = st.floats(0, 1000)
 
 
-@settings(max_examples=200, derandomize=True, deadline=None)
+@settings(max_examples=60, derandomize=True, deadline=None)
 @given(
     first=st.tuples(PIXELS, PIXELS),
     second=st.tuples(PIXELS, PIXELS),

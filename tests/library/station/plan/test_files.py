@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,7 @@ from pluto_fleet.files.landmarks import Landmarks, NamedPlace
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Mission
-from pluto_fleet.station.plan.plan import MissionPlan, Stale
+from pluto_fleet.station.plan.plan import MissionPlan
 from tests.library.files.an_app import APP
 from tests.library.files.test_missions import FULL
 from tests.library.station.plan.drawing import (
@@ -154,7 +153,7 @@ def test_a_file_may_name_places_of_the_map() -> None:
 
 
 @given(missions=SOUND_PLANS)
-@settings(max_examples=100, derandomize=True, deadline=None)
+@settings(max_examples=40, derandomize=True, deadline=None)
 def test_what_is_exported_flies_the_same(
     tmp_path_factory: pytest.TempPathFactory, missions: list[Json]
 ) -> None:
@@ -184,45 +183,6 @@ def test_hostile_texts_stay_texts(tmp_path: Path) -> None:
     file.write_bytes(text.replace(', "a.b" = 1', "").encode())
     [read] = load_missions(file, APP, FLEET.airspace)
     assert read.trips[0].parameters["note"] == hostile
-
-
-def test_an_unfinished_plan_is_exported_as_it_is() -> None:
-    """What is not drawn yet is not there."""
-    begun = mission("mission-one", trip(target=None, item={}), safe_time="3 m", name="")
-    assert drawn(begun, mission("mission-two", trips=[])).export_toml() == (
-        '[[mission]]\nname = ""\nsafe_time = "3 m"\n\n'
-        '  [[mission.trip]]\n  action = "take_photo"\n  item = {}\n\n'
-        '[[mission]]\nname = "mission-two"\n'
-    )
-
-
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        ("", "missions.toml: has no [[mission]]: nothing to fly"),
-        ("[[mission]", "missions.toml:1: is not valid TOML: "),
-        (FILE.replace('"3 min"', '"3 m"'),
-         ('missions.toml:3: mission "North field": safe_time "3 m" is a length, not a time: '
-          "it takes ms, s, min, h")),
-        (FILE.replace("[1, 1]", "[1, 99]"),
-         ('missions.toml:36: mission "2", trip 1: target (1, 99) is outside the map: '
-          "x goes from 0 to 20 m, y from 0 to 20 m")),
-    ],
-)  # fmt: skip
-def test_a_bad_file_is_refused_as_check_refuses_it(text: str, sentence: str) -> None:
-    """With its lines; and nothing changes."""
-    plan = drawn(mission())
-    before = plan.data()
-    with pytest.raises(BadInput) as caught:
-        plan.import_toml(text, plan.revision)
-    assert str(caught.value).startswith(sentence)
-    assert plan.data() == before
-
-
-def test_a_bad_file_is_told_by_the_name_that_it_has() -> None:
-    plan = drawn(mission())
-    with pytest.raises(BadInput, match=r"^north\.toml:1: is not valid TOML"):
-        asyncio.run(plan.import_file("[[mission]", plan.revision, "north.toml"))
 
 
 def test_what_unflyable_trips_is_taken_and_told() -> None:
@@ -262,7 +222,7 @@ def test_what_was_handed_out_in_flight_may_come_back_in_flight() -> None:
         st.text(max_size=4), st.sampled_from(["nan", "-inf", "1979-05-27", "[[]]", "{}"])
     ),
 )
-@settings(max_examples=300, derandomize=True, deadline=None)
+@settings(max_examples=80, derandomize=True, deadline=None)
 def test_any_text_is_a_plan_or_refused(at: int, gone: int, new: str) -> None:
     """Wherever a file was cut or written over; what is taken is handed out again."""
     plan = a_plan()
@@ -272,16 +232,6 @@ def test_any_text_is_a_plan_or_refused(at: int, gone: int, new: str) -> None:
         assert str(error).startswith("missions.toml:")
     else:
         assert imported(plan.export_toml()).export_toml() == plan.export_toml()
-
-
-def test_a_file_is_not_taken_on_an_old_plan() -> None:
-    """Nor is an example."""
-    plan = drawn(mission())
-    with pytest.raises(Stale):
-        plan.import_toml(FILE, plan.revision - 1)
-    with pytest.raises(Stale):
-        plan.example(plan.revision - 1)
-    assert plan.launchable()[1] == ["mission-one"]
 
 
 def test_some_missions_alone_are_a_file_too() -> None:

@@ -43,7 +43,7 @@ def kept(file: Path, *missions: Json) -> MissionPlan:
 
 
 @given(missions=PLANS)
-@settings(max_examples=50, derandomize=True, deadline=None)
+@settings(max_examples=25, derandomize=True, deadline=None)
 def test_a_restart_finds_everything_as_it_was(
     tmp_path_factory: pytest.TempPathFactory, missions: list[Json]
 ) -> None:
@@ -125,7 +125,7 @@ def test_what_is_no_file_is_put_aside(file: Path, make: str) -> None:
 
 
 @given(place=st.floats(0, 1, exclude_max=True), bit=st.integers(0, 7))
-@settings(max_examples=100, derandomize=True, deadline=None)
+@settings(max_examples=40, derandomize=True, deadline=None)
 def test_a_damaged_plan_is_a_plan_or_put_aside(
     tmp_path_factory: pytest.TempPathFactory, place: float, bit: int
 ) -> None:

@@ -59,24 +59,24 @@ def test_a_plan_is_a_missions_file(tmp_path: Path) -> None:
     assert file.stat().st_mode & 0o077 == 0
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "",
-        " ",
-        "../x",
-        "a/b",
-        "a\\b",
-        ".hidden",
-        "..",
-        "a\0",
-        "a\n",
-        "a:b",
-        "x" * 81,
-        "é" * 150,
-        "C:",
-    ],
+NO_NAMES = (
+    "",
+    " ",
+    "../x",
+    "a/b",
+    "a\\b",
+    ".hidden",
+    "..",
+    "a\0",
+    "a\n",
+    "a:b",
+    "C:",
+    81 * "x",
+    150 * "é",
 )
+
+
+@pytest.mark.parametrize("name", NO_NAMES)
 def test_a_name_is_no_path(tmp_path: Path, name: str) -> None:
     """For nothing that can be done with it."""
     shelf = library(tmp_path)

@@ -246,5 +246,5 @@ class Drawing(RuleBasedStateMachine):
 
 TestDrawing = Drawing.TestCase
 TestDrawing.settings = settings(
-    max_examples=60, stateful_step_count=25, derandomize=True, deadline=None
+    max_examples=25, stateful_step_count=25, derandomize=True, deadline=None
 )

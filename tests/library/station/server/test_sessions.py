@@ -1,6 +1,7 @@
 """What is answered at each address: requests and answers as a text, in sessions/; `--update` writes them anew.
 
-A request is `> METHOD address body`; a line `: name: value` below it gives it another header, or none.
+A request is `> METHOD address body`; a line `: name: value` below it gives it another header, or none. `$now`
+in it is the plan's revision. Of a plan its names and its problems are shown.
 """
 
 from __future__ import annotations
@@ -37,12 +38,21 @@ def told(reply: Reply) -> str:
     """Return what there is to see of an answer."""
     text = reply.body.decode(errors="replace")
     if reply.type == "application/json":
-        text = json.dumps(json.loads(text), ensure_ascii=False)
+        text = json.dumps(_in_short(json.loads(text)), ensure_ascii=False)
         text = re.sub(r'"saved_at": \d+', '"saved_at": 0', text)
         text = re.sub(r"/map\?v=[0-9a-f]+", "/map?v=0", text)
     else:
         text = f"{reply.type} {text!r}"
     return f"{reply.status} {text}"
+
+
+def _in_short(data: Any) -> Any:
+    match data:
+        case {"revision": revision, "missions": missions, "problems": problems}:
+            names = [one["name"] for one in missions]
+            said = [{key: one for key, one in each.items() if one} for each in problems]
+            return {"revision": revision, "missions": names, "problems": said}
+    return data
 
 
 def talked(ask: Asked, session: str) -> str:
@@ -53,6 +63,8 @@ def talked(ask: Asked, session: str) -> str:
         if not request.startswith("> "):
             continue
         first, *others = request.splitlines()
+        plan: Any = ask.station.plan
+        first = first.replace("$now", str(plan.revision))
         _, method, address, *body = first.split(" ", 3)
         headers = dict(OURS)
         for line in others:

@@ -29,8 +29,6 @@ NOWHERE = [
     "/pages//main.js",
     "//pages/main.js",
     "/pages/main.js/",
-    "/pages/main.js\x00",
-    "/pages/\x00",
     "/pages//etc/passwd",
     "/pages/%2e%2e/http.py",
     "/pages/__init__.py",
@@ -38,12 +36,11 @@ NOWHERE = [
     "/../../../etc/passwd",
     "/etc/passwd",
     "pages/main.js",
-    "",
     ".",
     "/map/",
     "/map/../pages/main.js",
-    "/pages/" + "a" * 10_000,
 ]
+NOWHERE += ["", "/pages/main.js\x00", "/pages/\x00", "/pages/" + "a" * 10_000]
 
 
 @pytest.mark.parametrize("path", NOWHERE, ids=range(len(NOWHERE)))
@@ -176,25 +173,23 @@ def test_a_floor_plan_that_is_gone_is_not_there(tmp_path: Path) -> None:
     assert asked(AStation(image=tmp_path / "gone.png"))("GET", "/map").status == 404
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "",
-        ".",
-        "missions.toml",
-        "ward.svg.exe",
-        "ward.html",
-        "gone.png",
-        "folder.png",
-        "../outside.png",
-        "inside/../../outside.png",
-        "link.png",
-        "linked/outside.png",
-        "/etc/passwd",
-        "a\x00.png",
-        "large.png",
-    ],
-)
+NO_PICTURES = [
+    ".",
+    "missions.toml",
+    "ward.svg.exe",
+    "ward.html",
+    "gone.png",
+    "folder.png",
+    "../outside.png",
+    "link.png",
+    "inside/../../outside.png",
+    "linked/outside.png",
+    "/etc/passwd",
+    "large.png",
+]
+
+
+@pytest.mark.parametrize("name", ["", "a\x00.png", *NO_PICTURES])
 def test_a_fleet_file_names_no_file_but_a_picture_beside_it(tmp_path: Path, name: str) -> None:
     folder = tmp_path / "fleet"
     (folder / "folder.png").mkdir(parents=True)
