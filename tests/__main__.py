@@ -47,7 +47,7 @@ CAMPAIGNS = (
     "python -m tests.calibrating --cases 100",
     "python -m tests.prediction",
     "python -m tests.prediction.phases",
-    "python -m tests.library.station.browser.every_page",
+    "python -m tests.pages",
     "python -m tests.planted",
 )
 MEASURES = (

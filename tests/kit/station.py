@@ -100,6 +100,8 @@ class Station:
     """Where the page is, token and all."""
     lives: int = 0
     port: int = 0
+    first_plan: list[dict[str, Any]] = field(default_factory=list)
+    """What it was started with."""
     before: frozenset[Path] = frozenset()
     """The journals of those who had it before."""
     _life: subprocess.Popen[bytes] | None = field(default=None)
@@ -180,7 +182,7 @@ class Station:
         unhurt = all(one["status"] != "LOST" and not one["retired"] for one in now["drones"])
         if now["state"]["phase"] != "idle" or now["state"]["map"] or not unhurt:
             return False
-        self.plan([])
+        self.plan(self.first_plan)
         self.before = frozenset(self.folder.glob("**/*.journal"))
         return True
 
@@ -314,6 +316,7 @@ class Stations:
         if station is None:
             station = self.fresh(name, *options)
             station.start()
+            station.first_plan = station.missions
         self._kept[name, *options] = station
         while len(self._kept) > self.MOST:
             self._kept.pop(next(iter(self._kept))).end()

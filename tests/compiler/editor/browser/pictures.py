@@ -6,7 +6,7 @@ from pathlib import Path
 
 from playwright.sync_api import Page
 
-from tests.library.station.browser import pictures
+from tests.kit import pictures
 from tests.release.environments import ROOT
 
 FOLDER = ROOT / "docs" / "graph-editor"

@@ -13,9 +13,9 @@ from playwright.sync_api import expect
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.pictures import FOLDER, kept, picture
 from tests.compiler.editor.browser.scenes import scenes
+from tests.kit.axe import violations
 from tests.kit.browser import DESKTOP, LAPTOP, Scheme
-from tests.library.station.browser.axe import violations
-from tests.library.station.browser.layout import cut_off, wider_than_the_screen
+from tests.kit.layout import cut_off, wider_than_the_screen
 from tests.release.environments import ROOT
 
 SHOWN: dict[str, Scheme] = {

@@ -10,6 +10,7 @@ from playwright.sync_api import Page
 
 from tests.kit.browser import LAPTOP, Contexts, Scheme
 from tests.kit.station import Station, Stations
+from tests.library.station.browser.exercise import put_in
 
 APP = "drugs_distribution"
 
@@ -78,6 +79,12 @@ def visit(contexts: Contexts) -> Visit:
         return page
 
     return visit
+
+
+@pytest.fixture
+def planned(ward: Station) -> Station:
+    """A station with the exercise's plan, in which nothing is wrong."""
+    return put_in(ward)
 
 
 @pytest.fixture

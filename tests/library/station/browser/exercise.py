@@ -46,29 +46,30 @@ DONE = {("pick_item", "Mission 3/1/0"): 1, ("release_item", "Mission 3/2/0"): 1}
 
 def put_in(station: Station) -> Station:
     """Give a station the whole plan, behind the page's back; return it."""
-    revision = station.get("/api/plan")["revision"]
-    status, answer = station.put("/api/plan", {"revision": revision, "missions": missions()})
-    assert status == 200, answer
-    assert answer["problems"] == []
+    assert station.plan([mission(n, name) for n, name in enumerate(PLAN)]) == []
     return station
 
 
-def missions() -> list[dict[str, Any]]:
-    """Return the plan as a page would send it."""
-    return [
+def mission(number: int, name: str) -> dict[str, Any]:
+    """Return a mission of the plan as a page would send it."""
+    trips = [
         {
-            "key": f"mission-{number}",
-            "name": name,
-            "trips": [
-                {
-                    "key": f"trip-{number}-{index}",
-                    "action": trip.action,
-                    "target": list(trip.at),
-                    "parameters": {},
-                    "item": {"name": trip.item, "mass": "8 g"} if trip.item else None,
-                }
-                for index, trip in enumerate(trips)
-            ],
+            "key": f"trip-{number}-{index}",
+            "action": trip.action,
+            "target": list(trip.at),
+            "parameters": {},
+            "item": {"name": trip.item, "mass": "8 g"} if trip.item else None,
         }
-        for number, (name, trips) in enumerate(PLAN.items())
+        for index, trip in enumerate(PLAN[name])
     ]
+    return {"key": f"mission-{number}", "name": name, "trips": trips}
+
+
+def names(station: Station) -> list[str]:
+    """Return what the missions of a station's plan are called."""
+    return [one["name"] for one in station.missions]
+
+
+def targets(station: Station) -> list[list[tuple[float, ...]]]:
+    """Return where the trips of each mission go."""
+    return [[tuple(trip["target"][:2]) for trip in one["trips"]] for one in station.missions]

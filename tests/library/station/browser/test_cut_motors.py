@@ -65,6 +65,7 @@ def test_clicks_and_half_a_slide_drop_nothing_and_a_whole_one_does(
     expect(page.get_by_role("button", name="Bring back")).to_be_visible()
 
 
+@pytest.mark.long
 def test_a_key_that_repeats_drops_nothing_and_the_arrow_pressed_to_the_end_does(
     aloft: tuple[Station, Page, str],
 ) -> None:
@@ -80,6 +81,7 @@ def test_a_key_that_repeats_drops_nothing_and_the_arrow_pressed_to_the_end_does(
     until(lambda: status(station, drone) == "LOST", "its motors are cut")
 
 
+@pytest.mark.long
 def test_a_word_does_it_for_voices_and_screen_readers_and_another_word_does_not(
     aloft: tuple[Station, Page, str],
 ) -> None:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from playwright.sync_api import FileChooser, Page, expect
 
 from tests.kit.browser import Watch
-from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import PLAN, put_in
 from tests.library.station.browser.steps import missions_listed, open_page
 from tests.release.environments import succeed
+
+pytestmark = pytest.mark.long
 
 
 def choose(page: Page, button: str, file: Path) -> None:
@@ -59,11 +61,3 @@ def test_a_file_that_is_no_plan_is_refused_with_its_lines_and_nothing_changes(
     open_page(page, "Missions")
     expect(missions_listed(page)).to_have_text(list(PLAN))
     assert station.get("/api/plan") == before
-
-
-def test_an_example_of_the_app_is_read_as_it_is(serve: Serve, visit: Visit) -> None:
-    station = serve("alfalfa")
-    page = visit(station)
-    choose(page, "Import a missions file", station.app.missions)
-    until(lambda: station.missions != [], "the file is read")
-    assert station.get("/api/plan")["problems"] == []

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.kit.station import Station, until
+from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.exercise import COMPLETED, DONE, PLAN, put_in
+from tests.library.station.browser.exercise import COMPLETED, DONE, PLAN, names, put_in, targets
 from tests.library.station.browser.steps import (
     card_of,
     drag,
@@ -52,30 +52,18 @@ def draw(page: Page) -> None:
                 page.keyboard.type("8 g")
 
 
-def is_drawn(station: Station) -> None:
-    """Hold the plan that the station keeps against the exercise."""
-    until(lambda: sizes(station) == [3, 2, 4], "the plan is kept")
-    until(lambda: station.get("/api/plan")["problems"] == [], "it is sound")
-    plan = station.missions
-    assert [mission["name"] for mission in plan] == list(PLAN)
-    for mission in plan:
-        for kept, drawn in zip(mission["trips"], PLAN[mission["name"]], strict=True):
-            assert kept["action"] == drawn.action
-            assert kept["target"][:2] == pytest.approx(drawn.at, abs=NEAR)
-
-
-def sizes(station: Station) -> list[int]:
-    """Return the number of trips of each mission in the plan."""
-    return [len(mission["trips"]) for mission in station.missions]
-
-
 def test_three_missions_are_drawn_by_drag_and_drop_and_flown_to_their_end(
     serve: Serve, visit: Visit
 ) -> None:
     station = serve("drugs_distribution", "--speed", "60")
     page = visit(station, prepare=lambda page: page.add_init_script(COUNTED))
     draw(page)
-    is_drawn(station)
+    wanted = [[pytest.approx(trip.at, abs=NEAR) for trip in trips] for trips in PLAN.values()]
+    until(lambda: targets(station) == wanted, lambda: f"all is drawn: {targets(station)}")
+    until(lambda: station.get("/api/plan")["problems"] == [], "it is sound")
+    assert names(station) == list(PLAN)
+    kinds = [[trip["action"] for trip in mission["trips"]] for mission in station.missions]
+    assert kinds == [[trip.action for trip in trips] for trips in PLAN.values()]
     start(page)
     presses = page.evaluate("() => Number(sessionStorage.presses)")
     assert presses <= MOST_ACTIONS

@@ -18,12 +18,13 @@ from tests.library.station.browser.steps import (
     start,
 )
 
+pytestmark = pytest.mark.long
 
-@pytest.mark.parametrize("app", ["night_ward", "pm10"])
+
 def test_the_example_plan_of_an_app_is_sound_and_flies_to_its_end(
-    serve: Serve, visit: Visit, app: str
+    serve: Serve, visit: Visit
 ) -> None:
-    station = serve(app, "--speed", "80")
+    station = serve("pm10", "--speed", "80")
     page = visit(station)
     page.get_by_role("button", name="Use the example plan").click()
     expect(missions_listed(page).first).to_be_visible()
@@ -76,18 +77,3 @@ def test_an_app_with_all_of_them_shows_all_of_their_fields(serve: Serve, visit: 
     mission, trip = fields(visit(serve("alfalfa")))
     assert mission >= {"Name", "Safe time", "Repeat", "Evaluator", "Start at", "Repeat every"}
     assert trip >= {"Delay", "Priority"}
-
-
-def test_what_is_not_needed_is_not_in_what_the_station_says_of_its_app(serve: Serve) -> None:
-    """Nor is there any evaluator to choose, nor an action that no drone can do."""
-    app = serve("drugs_distribution").get("/api/app")
-    assert app["fields"] == {"mission": [], "trip": []}
-    assert app["evaluators"] == []
-    assert {action["name"] for action in app["actions"]} == {
-        "pick_item",
-        "release_item",
-        "take_photo",
-        "measure",
-    }
-    assert not app["retries"]
-    assert not app["rounds"]

@@ -5,13 +5,16 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.kit.axe import violations
 from tests.kit.station import Station, until
-from tests.library.station.browser.axe import violations
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import PLAN, put_in
 from tests.library.station.browser.steps import open_page
+
+pytestmark = pytest.mark.long
 
 INSTANTS = 5
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.kit.station import Station
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.steps import missions_listed, open_page, sees_all, start
+from tests.library.station.browser.steps import open_page, sees_all, start
 
 SCRIPT = "<img src=x onerror=window.ran=1>"
 HOSTILE = (
@@ -21,48 +23,27 @@ HOSTILE = (
 )
 
 
-def mission(number: int, text: str) -> dict[str, object]:
+def mission(number: int, text: str) -> dict[str, Any]:
     """Return a mission with a text in each place that holds one."""
-    trip = {"name": text, "item": None}
-    return {
-        "key": f"mission-{number}",
-        "name": text,
-        "trips": [
-            {
-                **trip,
-                "key": f"measure-{number}",
-                "action": "measure",
-                "target": [3.0, 5.0],
-                "parameters": {"quantity": text},
-            },
-            {
-                **trip,
-                "key": f"pick-item-{number}",
-                "name": f"{text} pick",
-                "action": "pick_item",
-                "target": [2.5, 3.0],
-                "parameters": {},
-                "item": {"name": text, "mass": "1 g"},
-            },
-            {
-                **trip,
-                "key": f"release-item-{number}",
-                "name": f"{text} release",
-                "action": "release_item",
-                "target": [3.0, 5.0],
-                "parameters": {},
-                "item": {"name": text, "mass": "1 g"},
-            },
-        ],
-    }
+    item = {"name": text, "mass": "1 g"}
+    places = {"measure": [3.0, 5.0], "pick_item": [2.5, 3.0], "release_item": [3.0, 5.0]}
+    trips = [
+        {
+            "key": f"{action}-{number}",
+            "name": f"{text} {action}",
+            "action": action,
+            "target": place,
+            "parameters": {"quantity": text} if action == "measure" else {},
+            "item": None if action == "measure" else item,
+        }
+        for action, place in places.items()
+    ]
+    return {"key": f"mission-{number}", "name": text, "trips": trips}
 
 
 def put(station: Station, texts: tuple[str, ...]) -> None:
     """Give the station a plan with these texts."""
-    missions = [mission(number, text) for number, text in enumerate(texts)]
-    revision = station.get("/api/plan")["revision"]
-    status, answer = station.put("/api/plan", {"revision": revision, "missions": missions})
-    assert status == 200, answer
+    station.plan([mission(number, text) for number, text in enumerate(texts)])
 
 
 def nothing_ran(page: Page) -> None:
@@ -97,22 +78,7 @@ def test_script_in_every_text_is_shown_as_text_and_never_runs(serve: Serve, visi
         nothing_ran(page)
 
 
-def test_a_text_that_turns_the_writing_around_is_refused_or_kept_where_it_is(
-    serve: Serve, visit: Visit
-) -> None:
-    """No mission can make the words beside it read otherwise."""
-    station = serve("drugs_distribution")
-    put(station, ("safe \u202egpj.exe", "zero\u200bwidth", "line\u2028end"))
-    page = visit(station)
-    expect(missions_listed(page)).to_have_count(3)
-    problems = [one["text"] for one in station.get("/api/plan")["problems"]]
-    isolated = page.evaluate(
-        "() => [...document.querySelectorAll('[role=option] strong')]"
-        ".every((one) => getComputedStyle(one).unicodeBidi.match(/isolate|plaintext/))"
-    )
-    assert isolated or len(problems) >= 3
-
-
+@pytest.mark.long
 def test_a_name_without_end_breaks_no_page(serve: Serve, visit: Visit) -> None:
     """Sixty letters without a space: nothing is pushed out of sight."""
     station = serve("drugs_distribution")

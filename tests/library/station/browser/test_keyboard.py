@@ -7,7 +7,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.exercise import DONE, PLAN, Place
+from tests.library.station.browser.exercise import DONE, PLAN, Place, targets
 from tests.library.station.browser.steps import (
     ADD_MISSION,
     action_called,
@@ -17,7 +17,9 @@ from tests.library.station.browser.steps import (
     sees_all,
 )
 
-PLACES = {mission: [trip.at for trip in trips] for mission, trips in PLAN.items()}
+pytestmark = pytest.mark.long
+
+PLACES = [[trip.at for trip in trips] for trips in PLAN.values()]
 
 FAR = 150
 """Presses of Tab: what has not come by then never will."""
@@ -47,14 +49,6 @@ def add(page: Page) -> None:
     """Add a mission: the first one where the page says what to do first."""
     tab_to(page, page.get_by_role("button", name=ADD_MISSION).first)
     page.keyboard.press("Enter")
-
-
-def drawn(station: Station) -> dict[str, list[Place]]:
-    """Return where the trips of each mission go, as the station keeps it."""
-    return {
-        mission["name"]: [tuple(trip["target"][:2]) for trip in mission["trips"]]
-        for mission in station.missions
-    }
 
 
 MOST_PRESSES = 70
@@ -96,7 +90,6 @@ class Putting:
         press_keys(self._page, *keys, "Enter")
 
 
-@pytest.mark.long  # a whole flight once more
 def test_the_exercise_is_drawn_and_flown_by_few_keys_and_without_a_mouse(
     serve: Serve, visit: Visit
 ) -> None:
@@ -126,7 +119,7 @@ def test_the_exercise_is_drawn_and_flown_by_few_keys_and_without_a_mouse(
                 expect(card_of(page, number).get_by_label("Item")).to_be_focused()
                 press_keys(page, *trip.item, "Tab", "8")
         press_keys(page, "Escape")
-    until(lambda: drawn(station) == PLACES, "the plan is kept")
+    until(lambda: targets(station) == PLACES, "the plan is kept")
     until(lambda: station.get("/api/plan")["problems"] == [], "the plan is sound")
     press_keys(page, "Shift+Tab")
     expect(page.get_by_role("button", name="Start 3 missions")).to_be_focused()

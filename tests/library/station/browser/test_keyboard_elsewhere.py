@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
 from tests.library.station.browser.test_keyboard import press, tab_to
+
+pytestmark = pytest.mark.long
 
 
 def page_by_keys(page: Page, name: str) -> None:

@@ -78,6 +78,7 @@ def test_a_mission_is_paused_goes_on_and_is_cancelled_at_the_second_press(
     expect(row_of(page, "South-east arc")).not_to_contain_text("Cancelled")
 
 
+@pytest.mark.long
 def test_a_trip_is_weighed_anew_and_another_left_out_while_the_mission_flies(
     flying: tuple[Station, Page],
 ) -> None:
@@ -94,6 +95,7 @@ def test_a_trip_is_weighed_anew_and_another_left_out_while_the_mission_flies(
     expect(page.get_by_role("button", name="Skip trip D")).to_have_count(0)
 
 
+@pytest.mark.long
 def test_a_drone_is_retired_and_brought_back(flying: tuple[Station, Page]) -> None:
     station, page = flying
     its = card(page, "carrier2")
@@ -105,6 +107,7 @@ def test_a_drone_is_retired_and_brought_back(flying: tuple[Station, Page]) -> No
     expect(its.get_by_role("button", name="Retire")).to_be_visible()
 
 
+@pytest.mark.long
 def test_a_drone_pressed_on_the_map_opens_its_card_and_leads_to_its_mission(
     flying: tuple[Station, Page],
 ) -> None:
@@ -118,6 +121,7 @@ def test_a_drone_pressed_on_the_map_opens_its_card_and_leads_to_its_mission(
     expect(row_of(page, name).locator(".opener")).to_have_attribute("aria-expanded", "true")
 
 
+@pytest.mark.long
 def test_the_graph_is_for_those_who_want_it_and_says_what_each_block_does(
     flying: tuple[Station, Page],
 ) -> None:
@@ -135,33 +139,7 @@ def test_the_graph_is_for_those_who_want_it_and_says_what_each_block_does(
     expect(graph.locator(".token.picked").first).to_have_text("3")
 
 
-WAYS = """
-async ([graph, ways]) => {
-  const { wayFinder } = await import("/pages/monitor/graph_way.js");
-  const way = wayFinder(graph);
-  return ways.map((given) => way(...given).map((edge) => edge.target).join(" "));
-}
-"""
-
-
-def test_only_arrows_are_lit_that_the_mission_can_have_taken(serve: Serve, visit: Visit) -> None:
-    """A mission is seen ten times a second only, and may pass several blocks in between."""
-    station = serve("alfalfa")
-    flight = ["watch", "timer"]
-    expected = {
-        ("COMPLETED", "end", "COMPLETED"): "first judge again end",
-        ("COMPLETED", "allocate", "STANDBY"): "first judge allocate",
-        ("COMPLETED", "wait", "STANDBY"): "first judge again wait",
-        ("STANDBY", "allocate", "STANDBY"): "first allocate",
-        ("FAILED", "allocate", "STANDBY"): "first retry allocate",
-        ("FAILED", "end", "FAILED"): "first retry end",
-        ("STANDBY", "end", "CANCELLED"): "",
-    }
-    ways = [[flight, *given] for given in expected]
-    found = visit(station).evaluate(WAYS, [station.get("/api/app")["graph"], ways])
-    assert found == list(expected.values())
-
-
+@pytest.mark.long
 def test_lines_are_found_in_the_console_and_all_are_downloaded(
     flying: tuple[Station, Page], tmp_path: Path
 ) -> None:
@@ -178,7 +156,10 @@ def test_lines_are_found_in_the_console_and_all_are_downloaded(
     assert "South-east arc" in (tmp_path / "console.txt").read_text()
 
 
-def test_missions_are_sifted_and_walked_through_by_keys(flying: tuple[Station, Page]) -> None:
+@pytest.mark.long
+def test_missions_are_sifted_walked_through_by_keys_and_folded_away(
+    flying: tuple[Station, Page],
+) -> None:
     _, page = flying
     names = page.get_by_role("list", name="Missions").locator(".opener .called")
     which = page.get_by_role("group", name="Which missions")
@@ -191,22 +172,13 @@ def test_missions_are_sifted_and_walked_through_by_keys(flying: tuple[Station, P
     page.keyboard.press("Enter")
     expect(row_of(page, MISSIONS[1]).locator(".opener")).to_be_focused()
     expect(page.get_by_role("button", name="Pause", exact=True)).to_be_visible()
-
-
-def test_lists_that_were_folded_stay_so_and_the_map_takes_their_room(
-    flying: tuple[Station, Page],
-) -> None:
-    _, page = flying
-    picture = page.locator(".floor-picture")
-    before = picture.bounding_box()
     page.get_by_role("button", name="Hide the lists").click()
-    after = picture.bounding_box()
-    assert before and after and after["width"] > before["width"] + 300
     page.reload()
     expect(page.get_by_role("button", name="Show the lists")).to_be_visible()
     expect(page.get_by_role("list", name="Missions")).to_be_hidden()
 
 
+@pytest.mark.long
 def test_a_drone_joins_by_a_form(flying: tuple[Station, Page]) -> None:
     station, page = flying
     drones = lists(page, "Drones")
@@ -219,6 +191,7 @@ def test_a_drone_joins_by_a_form(flying: tuple[Station, Page]) -> None:
     assert station.get("/api/app")["drones"][-1]["home"] == [1.0, 1.0, 0.0]
 
 
+@pytest.mark.long
 def test_the_fall_of_a_drone_is_rehearsed_on_its_card(flying: tuple[Station, Page]) -> None:
     station, page = flying
     until(lambda: bool(mission(station, "North arc")["drone"]), "North arc has a drone")

@@ -19,6 +19,8 @@ from tests.library.station.browser.steps import (
     start,
 )
 
+pytestmark = pytest.mark.long
+
 
 def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
     serve: Serve, visit: Visit
@@ -52,23 +54,6 @@ def test_a_start_that_is_answered_late_does_not_take_one_away_from_where_one_has
     expect(page.get_by_role("tab", name="Trips")).to_have_attribute("aria-selected", "true")
 
 
-@pytest.mark.long  # whole flights, as in tests/library/station/flights/test_again.py
-def test_the_whole_plan_flies_again_when_all_has_ended_and_nothing_old_is_shown(
-    serve: Serve, visit: Visit
-) -> None:
-    station = put_in(serve("drugs_distribution"))
-    page = visit(station)
-    start(page)
-    until(lambda: station.phase == "over", "the first flight is over")
-    sees_all(page, "Completed")
-    start(page)
-    expect(row_of(page, "Mission 1")).not_to_contain_text("Completed")
-    until(lambda: len(station.journals()) == 2, "another flight has begun")
-    sees_all(page, "Completed")
-    assert set(station.done().values()) == {2}
-
-
-@pytest.mark.long  # whole flights, as in tests/library/station/flights/test_again.py
 def test_what_was_stopped_is_put_away_and_the_plan_begins_anew(serve: Serve, visit: Visit) -> None:
     """Its missions can be changed again."""
     station = put_in(serve("drugs_distribution"))
@@ -84,16 +69,3 @@ def test_what_was_stopped_is_put_away_and_the_plan_begins_anew(serve: Serve, vis
     expect(missions_listed(page)).to_have_count(2)
     start(page)
     sees_all(page, "Completed", ("Mission 2", "Mission 3"))
-
-
-@pytest.mark.long  # a slow flight; test_first_flight.py calls drones home
-def test_landing_now_is_heard_while_all_fly_home(serve: Serve, visit: Visit) -> None:
-    station = put_in(serve("drugs_distribution", "--speed", "5"))
-    page = visit(station)
-    start(page)
-    until(lambda: any(one["x"] > 6 for one in station.now()["drones"]), "one is far away")
-    page.get_by_role("button", name="Stop: fly home").click()
-    page.get_by_role("button", name="Stop: land now").click()
-    until(lambda: station.phase == "stopped", "all are down")
-    assert any(one["x"] > 2 for one in station.now()["drones"])
-    expect(page.get_by_role("button", name="Resume")).to_be_visible()

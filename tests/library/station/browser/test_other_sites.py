@@ -11,7 +11,6 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from tests.kit.browser import ARGUMENTS, chromium
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve
 from tests.library.station.browser.exercise import put_in
@@ -100,7 +99,9 @@ def page(chrome: Browser) -> Iterator[Page]:
     context.close()
 
 
-@pytest.mark.parametrize("host", ["localhost", "127.0.0.1"])  # another site; another port of ours
+@pytest.mark.parametrize(
+    "host", ["localhost", pytest.param("127.0.0.1", marks=pytest.mark.long)]  # another port of ours
+)
 def test_a_page_elsewhere_can_neither_stop_nor_see_what_flies(
     station: Station, page: Page, elsewhere: int, host: str
 ) -> None:
@@ -125,52 +126,3 @@ def test_a_page_elsewhere_can_neither_stop_nor_see_what_flies(
     }
     assert {line["status"] for line in refused} == {403}
     assert not any("evil" in json.dumps(line.get("given")) for line in station.audit())
-
-
-def test_a_name_that_was_bent_to_this_machine_shows_nothing(
-    station: Station, chrome: Browser
-) -> None:
-    bent = [
-        "--host-resolver-rules=MAP rebound.example 127.0.0.1",
-        "--disable-features=LocalNetworkAccessChecks",  # not every browser asks first
-    ]
-    with chrome.browser_type.launch(
-        executable_path=chromium(), args=[*ARGUMENTS, *bent]
-    ) as browser:
-        page = browser.new_page()
-        site = f"http://rebound.example:{station.port}"
-        page.route(f"{site}/before", lambda route: route.fulfill(body="<p>Before it was bent</p>"))
-        page.goto(f"{site}/before")
-        came = page.evaluate(
-            """async () => Promise.all(["/api/app", "/api/stop"].map(async (path) => (
-              await fetch(path, path === "/api/app" ? {} : {
-                method: "POST", body: '{"id": "evil", "how": "land"}',
-                headers: { "Content-Type": "application/json", "X-Pluto": "1" },
-              })).status))"""
-        )
-        assert came == [403, 403]
-        answer = page.goto(f"{site}/")
-        assert answer is not None and answer.status == 403
-    assert station.phase == "flying"
-
-
-HOLDS = """async (token) => {
-  const line = () => new WebSocket(`ws://${location.host}/api/live`);
-  const open = (one) => new Promise((done) => { one.onopen = done; });
-  await Promise.all(Array.from({ length: 40 }, () => open(line())));
-  const polls = Array.from({ length: 40 }, () => fetch("/api/live").then((answer) => answer.status));
-  const asked = { flight: "", seen: 0, log: 0, results: 0, token };
-  const mine = line();
-  await open(mine);
-  const told = new Promise((done) => { mine.onmessage = () => done(1); mine.onclose = () => done(0); });
-  mine.send(JSON.stringify(asked));
-  return { told: await told, polls: [...new Set(await Promise.all(polls))] };
-}"""
-
-
-def test_a_tab_without_the_token_takes_no_place_of_one_with_it(serve: Serve, page: Page) -> None:
-    """It holds forty connections that say nothing, and asks for forty answers."""
-    station = serve("drugs_distribution", "--name", "ward.example")
-    page.goto(f"http://127.0.0.1:{station.port}/")
-    _, _, token = station.url.partition("#token=")
-    assert page.evaluate(HOLDS, token) == {"told": 1, "polls": [401]}

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import os
-import signal
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
-from tests.kit.browser import Watch
+from tests.kit.browser import BREAKS, Watch
 from tests.kit.station import Station, until
 from tests.library.station.browser.cable import Cable
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.exercise import COMPLETED, DONE, put_in
+from tests.library.station.browser.exercise import COMPLETED, DONE, names, put_in
 from tests.library.station.browser.steps import (
     add_mission,
     drag,
     open_page,
-    row_of,
     sees_all,
     start,
 )
@@ -57,22 +53,10 @@ def completes_all_once(page: Page, station: Station) -> None:
     assert station.done() == DONE
 
 
-@pytest.mark.long  # a whole flight once more
-def test_a_browser_that_is_closed_changes_nothing_and_another_one_sees_the_flight(
-    station: Station, visit: Visit
-) -> None:
-    page = visit(station)
-    flies_until_the_pills_are_picked(page, station)
-    page.context.close()
-    again = visit(station)
-    open_page(again, "Monitor")
-    completes_all_once(again, station)
-
-
 def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_itself(
     station: Station, visit: Visit, watch: Watch, cable: Cable
 ) -> None:
-    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    watch.expected += BREAKS
     page = visit(station, port=cable.port)
     flies_until_the_pills_are_picked(page, station)
     cable.cut()
@@ -88,7 +72,7 @@ def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_i
 def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
     station: Station, visit: Visit, watch: Watch
 ) -> None:
-    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    watch.expected += BREAKS
     page = visit(station)
     flies_until_the_pills_are_picked(page, station)
     station.kill()
@@ -102,34 +86,11 @@ def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
 
 
 @pytest.mark.long  # a whole flight once more
-def test_a_server_that_is_supervised_goes_on_by_itself(
-    serve: Serve, visit: Visit, watch: Watch
-) -> None:
-    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
-    station = put_in(serve("drugs_distribution", "--supervise", own=True))
-    page = visit(station)
-    flies_until_the_pills_are_picked(page, station)
-    os.kill(brain_of(station.pid), signal.SIGKILL)
-    completes_all_once(page, station)
-
-
-def brain_of(supervisor: int) -> int:
-    """Return the process that a supervisor has started to serve."""
-    children = Path(f"/proc/{supervisor}/task/{supervisor}/children").read_text().split()
-    (brain,) = (int(child) for child in children if _serves(int(child)))
-    return brain
-
-
-def _serves(process: int) -> bool:
-    return b"serve" in Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
-
-
-@pytest.mark.long  # a whole flight once more
 def test_an_answer_that_is_lost_starts_nothing_twice(
     station: Station, visit: Visit, watch: Watch
 ) -> None:
     """The page asks again, and names the same command."""
-    watch.expected += ["ERR_", "Failed to load resource"]
+    watch.expected += BREAKS
     page = visit(station)
     asked: list[str] = []
     page.route("**/api/start", lambda route: _lose_first(route, asked))
@@ -142,69 +103,26 @@ def test_an_answer_that_is_lost_starts_nothing_twice(
     assert station.done() == DONE
 
 
-@pytest.mark.long  # a whole flight once more
-def test_an_answer_that_is_lost_skips_one_trip_and_not_two(
-    station: Station, visit: Visit, watch: Watch
-) -> None:
-    watch.expected += ["ERR_", "Failed to load resource"]
-    page = visit(station)
-    asked: list[str] = []
-    page.route("**/api/skip", lambda route: _lose_first(route, asked))
-    start(page)
-    row_of(page, "Mission 1").get_by_role("button", name="Mission 1").click()
-    page.get_by_role("button", name="Skip").last.click()
-    sees_all(page, "Completed")
-    assert len(asked) == 2
-    assert asked[0] == asked[1]
-    (mission,) = (row for row in station.now()["missions"] if row["name"] == "Mission 1")
-    assert [trip["status"] for trip in mission["trips"]] == ["COMPLETED", "COMPLETED"]
-
-
-def test_an_answer_that_is_lost_draws_nothing_twice(
-    serve: Serve, visit: Visit, watch: Watch
-) -> None:
-    watch.expected += ["ERR_", "Failed to load resource"]
-    station = serve("drugs_distribution")
-    page = visit(station)
-    asked: list[str] = []
-    page.route("**/api/plan", lambda route: _lose_first(route, asked))
-    with page.expect_response(lambda answer: answer.url.endswith("/api/plan") and answer.ok):
-        add_mission(page, "Once")
-    page.unroute_all()
-    drag(page, "measure", (3.0, 5.0))
-    assert len(asked) > 1
-    until(lambda: trips_of(station) == {"Once": 1}, "it is kept, and its trip")
-
-
+@pytest.mark.long
 def test_what_is_drawn_without_a_network_is_kept_and_saved_when_it_is_back(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
-    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    watch.expected += BREAKS
     station = serve("drugs_distribution")
     cable = Cable(station.port)
     page = visit(station, port=cable.port)
     add_mission(page, "Before")
-    until(lambda: named(station) == ["Before"], "it is kept")
+    until(lambda: names(station) == ["Before"], "it is kept")
     page.locator("html[data-loaded=all]").wait_for()
     cable.cut()
     add_mission(page, "Meanwhile")
     drag(page, "measure", (3.0, 5.0))
     expect(page.get_by_text("Not saved yet")).to_be_visible()
-    assert named(station) == ["Before"]
+    assert names(station) == ["Before"]
     cable.mend()
-    until(lambda: named(station) == ["Before", "Meanwhile"], "it is saved by itself")
+    until(lambda: names(station) == ["Before", "Meanwhile"], "it is saved by itself")
     expect(page.get_by_text("Not saved yet")).to_be_hidden()
     cable.close()
-
-
-def trips_of(station: Station) -> dict[str, int]:
-    """Return how many trips each mission of the plan has."""
-    return {one["name"]: len(one["trips"]) for one in station.missions}
-
-
-def named(station: Station) -> list[str]:
-    """Return what the missions of the plan are called."""
-    return [mission["name"] for mission in station.missions]
 
 
 def _lose_first(route: Route, asked: list[str]) -> None:
@@ -238,7 +156,7 @@ def test_stop_is_heard_though_nothing_is_seen_any_more(
     station: Station, visit: Visit, watch: Watch
 ) -> None:
     """Neither WebSocket nor polling answers; the button is there, and what it sends arrives."""
-    watch.expected += ["WebSocket", "ERR_", "Failed to load resource"]
+    watch.expected += BREAKS
     page = visit(station)
     start(page)
     until(lambda: station.phase == "flying", "it flies")

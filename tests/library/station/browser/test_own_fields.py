@@ -5,13 +5,14 @@ from __future__ import annotations
 import tomllib
 from typing import Any
 
+import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.kit.browser import Scheme
+from tests.kit.axe import violations
+from tests.kit.browser import SCHEMES
+from tests.kit.layout import covered, cut_off
 from tests.kit.station import Station, until
-from tests.library.station.browser.axe import violations
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.layout import covered, cut_off
 from tests.library.station.browser.steps import (
     A_FLIGHT,
     card_of,
@@ -24,7 +25,8 @@ from tests.library.station.browser.steps import (
     start,
 )
 
-SCHEMES: tuple[Scheme, ...] = ("light", "dark")
+pytestmark = pytest.mark.long
+
 BED, OTHER = "Bed 1", "Bed 2"
 BEDS = {BED: (5.5, 8.5), OTHER: (9.5, 8.5)}
 
@@ -52,9 +54,7 @@ def beds(**given: object) -> list[dict[str, Any]]:
 
 def ward(serve: Serve, missions: list[dict[str, Any]]) -> Station:
     station = serve("night_ward")
-    revision = station.get("/api/plan")["revision"]
-    status, answer = station.put("/api/plan", {"revision": revision, "missions": missions})
-    assert status == 200, answer
+    station.plan(missions)
     return station
 
 
@@ -91,14 +91,6 @@ def test_what_is_not_filled_in_is_said_before_start(serve: Serve, visit: Visit) 
     expect(listed(page, BED).locator(".chip")).to_be_hidden()
     select_mission(page, OTHER)
     expect(page.get_by_text("Bed 2: Patient is not filled in yet")).to_be_visible()
-
-
-def test_a_mission_that_only_lacks_a_value_is_to_do(serve: Serve, visit: Visit) -> None:
-    page = visit(ward(serve, beds(softly=True)))
-    expect(listed(page, BED).locator(".chip")).to_have_text("To do")
-    select_mission(page, BED)
-    page.get_by_label("Margin").fill("soon")
-    expect(listed(page, BED).locator(".chip")).to_have_text("To mend")
 
 
 def test_each_field_takes_its_type_and_its_units(serve: Serve, visit: Visit) -> None:

@@ -1,29 +1,32 @@
-"""On a phone everything fits, can be hit by a finger, and a swipe does what it does elsewhere."""
+"""Fingers do what the mouse does; on a phone everything fits, and can be hit."""
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
-from playwright.sync_api import Page, ViewportSize, expect
+from playwright.sync_api import FloatRect, Locator, Page, ViewportSize, expect
 
+from tests.kit.browser import PHONE, TABLET
+from tests.kit.layout import sideways, too_small, wider_than_the_screen
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.layout import sideways, too_small, wider_than_the_screen
-from tests.library.station.browser.scenes import PAGES
+from tests.library.station.browser.exercise import DONE, PLAN, targets
 from tests.library.station.browser.steps import (
     action_called,
     add_mission,
+    card_of,
     missions_listed,
+    new_mission,
     on_the_screen,
     open_page,
+    pin_of,
+    sees_all,
     settled,
 )
 from tests.library.station.browser.test_monitor import FIELD
-from tests.library.station.browser.test_touch import middle, slide, target
+from tests.pages.scenes import PAGES
 
-PHONE = (390, 844)
+pytestmark = pytest.mark.long
+
 SMALL: ViewportSize = {"width": 360, "height": 640}
 NAMELESS = """
 () => [...document.querySelectorAll("button")]
@@ -49,10 +52,10 @@ def test_before_the_station_has_answered_no_button_is_shown_that_says_nothing(
 
 def test_long_names_and_large_graphs_fit_on_a_phone(serve: Serve, visit: Visit) -> None:
     station = serve("alfalfa", "--missions", str(FIELD))
-    plan = station.get("/api/plan")
-    for mission, name in zip(plan["missions"], ("Long " * 40, "Long" * 50), strict=False):
+    missions = station.missions
+    for mission, name in zip(missions, ("Long " * 40, "Long" * 50), strict=False):
         mission["name"] = mission["trips"][0]["name"] = name.strip()
-    assert station.put("/api/plan", plan_of(plan))[0] == 200
+    station.plan(missions)
     page = visit(station, size=PHONE, touch=True)
     for name in PAGES:
         open_page(page, name)
@@ -65,22 +68,10 @@ def test_long_names_and_large_graphs_fit_on_a_phone(serve: Serve, visit: Visit) 
             assert sideways(page) == [], name
 
 
-def plan_of(data: dict[str, Any]) -> dict[str, object]:
-    """Return a plan as a page would send it."""
-    return {"revision": data["revision"], "missions": data["missions"]}
-
-
-@pytest.fixture
-def drawn(ward: Station) -> Station:
-    """A station with a plan that is longer than a phone."""
-    put_in(ward)
-    return ward
-
-
 def test_a_swipe_over_the_map_moves_it_and_one_over_the_cards_scrolls_them(
-    drawn: Station, visit: Visit
+    planned: Station, visit: Visit
 ) -> None:
-    page = visit(drawn, size=PHONE, touch=True)
+    page = visit(planned, size=PHONE, touch=True)
     open_page(page, "Trips")
     page.get_by_label("Mission", exact=True).select_option(label="Mission 3 (4 trips)")
     page.get_by_role("button", name="Zoom in").click()
@@ -100,12 +91,69 @@ def test_a_swipe_over_the_map_moves_it_and_one_over_the_cards_scrolls_them(
     assert page.evaluate("() => scrollY") == 0
 
 
-def test_an_action_is_dropped_on_the_map_of_a_phone_by_a_finger(
-    ward: Station, visit: Visit
+def slide(page: Page, start: tuple[float, float], end: tuple[float, float]) -> None:
+    """Put a finger down, move it, and lift it, as the browser hears it from a screen."""
+    finger = page.context.new_cdp_session(page)
+    steps = 8
+    for number in range(steps + 1):
+        x = start[0] + (end[0] - start[0]) * number / steps
+        y = start[1] + (end[1] - start[1]) * number / steps
+        kind = "touchMove" if number else "touchStart"
+        finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y}]})
+    finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+def middle(box: FloatRect) -> tuple[float, float]:
+    """Return the middle of a box."""
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_a_finger_drags_an_action_onto_the_map_and_its_pin_elsewhere(
+    serve: Serve, visit: Visit
 ) -> None:
-    page = visit(ward, size=PHONE, touch=True)
+    station = serve("drugs_distribution")
+    page = visit(station, size=TABLET, touch=True)
     add_mission(page, "By hand")
     box = action_called(page, "take_photo").bounding_box()
     assert box is not None
-    slide(page, middle(box), on_the_screen(page, (9.0, 6.5)))  # no named place is near
-    until(lambda: target(ward) == pytest.approx([9.0, 6.5], abs=0.15), "it is where it was put")
+    slide(page, middle(box), on_the_screen(page, (3.0, 7.5)))
+    until(lambda: targets(station) == [[pytest.approx((3.0, 7.5), abs=0.15)]], "it is there")
+    assert pin_of(page, 1).is_visible()
+    slide(page, on_the_screen(page, (3.0, 7.5)), on_the_screen(page, (9.0, 2.5)))
+    until(lambda: targets(station) == [[pytest.approx((9.0, 2.5), abs=0.15)]], "it has moved")
+
+
+def hold(page: Page, what: Locator) -> None:
+    """Put a finger on something, and leave it there until the flight is asked for."""
+    box = what.bounding_box()
+    assert box is not None
+    x, y = middle(box)
+    finger = page.context.new_cdp_session(page)
+    with page.expect_request("**/api/start"):
+        finger.send(
+            "Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]}
+        )
+    finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+def test_the_exercise_is_drawn_and_flown_by_fingers_on_a_phone(serve: Serve, visit: Visit) -> None:
+    station = serve("drugs_distribution", "--speed", "60")
+    page = visit(station, size=PHONE, touch=True)
+    for number, (mission, trips) in enumerate(PLAN.items()):
+        if number:
+            new_mission(page, mission)
+        else:
+            add_mission(page, mission)
+        for count, trip in enumerate(trips, start=1):
+            box = action_called(page, trip.action).bounding_box()
+            assert box is not None
+            slide(page, middle(box), on_the_screen(page, trip.at))
+            expect(pin_of(page, count)).to_be_visible()
+            if trip.action == "pick_item":
+                card_of(page, count).get_by_label("Mass").fill("8 g")
+    wanted = [[pytest.approx(trip.at, abs=0.3) for trip in trips] for trips in PLAN.values()]
+    until(lambda: targets(station) == wanted, lambda: f"the plan is whole: {targets(station)}")
+    until(lambda: station.get("/api/plan")["problems"] == [], "it is sound")
+    hold(page, page.get_by_role("button", name="Start 3 missions"))
+    sees_all(page, "Completed")
+    assert station.done() == DONE

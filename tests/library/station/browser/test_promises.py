@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import tomllib
 
+import pytest
 from playwright.sync_api import Page, expect
 
-from tests.kit.browser import Watch
 from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import PLAN, put_in
@@ -18,6 +18,8 @@ from tests.library.station.browser.steps import (
     select_mission,
     start,
 )
+
+pytestmark = pytest.mark.long
 
 FIRST, SECOND, *_ = PLAN
 
@@ -96,14 +98,3 @@ def test_what_is_wrong_with_a_promise_is_told_beside_it(serve: Serve, visit: Vis
     promise(page, FIRST)
     field = page.locator('.field[data-field="after"]')
     expect(field.locator(".problem")).to_contain_text("none of them can begin")
-
-
-def test_one_mission_alone_is_not_started_before_the_one_that_it_comes_after(
-    serve: Serve, visit: Visit, watch: Watch
-) -> None:
-    watch.expected += ["409"]
-    page = visit(put_in(serve("drugs_distribution")))
-    promise(page, SECOND)
-    tick(page, FIRST)
-    start(page, "Start only this")
-    expect(page.locator(".notices [role=alert]")).to_contain_text("is not started: start both")

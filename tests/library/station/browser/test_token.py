@@ -17,6 +17,7 @@ from tests.library.station.browser.steps import missions_listed, open_page, row_
 LOGO_IS_DRAWN = "() => document.querySelector('.head img').naturalWidth > 0"
 
 
+@pytest.mark.long
 def test_the_printed_address_lets_one_fly_and_the_token_leaves_it(
     serve: Serve, visit: Visit
 ) -> None:
@@ -39,6 +40,7 @@ def test_the_printed_address_lets_one_fly_and_the_token_leaves_it(
     assert station.audit()
 
 
+@pytest.mark.long
 def test_without_the_token_one_sees_where_to_find_it_and_can_paste_the_whole_address(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
@@ -57,6 +59,7 @@ def test_without_the_token_one_sees_where_to_find_it_and_can_paste_the_whole_add
     until(lambda: station.phase == "idle", "nothing has happened")
 
 
+@pytest.mark.long
 def test_one_browser_is_told_the_token_once_until_it_is_told_to_forget_it(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
@@ -113,26 +116,3 @@ def test_who_may_only_watch_sees_all_and_no_button_that_commands(
         open_page(page, name)
         expect(page.get_by_role("tabpanel", name=name, exact=True)).not_to_be_empty()
         expect(buttons).to_have_count(0)
-
-
-@pytest.mark.long  # a slow flight once more
-def test_a_token_that_is_forgotten_or_replaced_elsewhere_leaves_no_page_whose_stop_fails(
-    serve: Serve, visit: Visit, watch: Watch
-) -> None:
-    """A page that is open keeps its own; if that is forgotten, it is closed, too."""
-    watch.expected += ["401"]
-    station = put_in(serve("drugs_distribution", "--name", "ward.example", "--speed", "2"))
-    one = visit(station)
-    another = one.context.new_page()
-    another.goto(f"http://127.0.0.1:{station.port}/#token=wrong")
-    expect(another.get_by_role("heading")).to_contain_text("asks for its token")
-    start(one)
-    until(lambda: station.phase == "flying", "it flies")
-    one.get_by_role("button", name="Stop: land now").click()
-    until(lambda: station.phase in ("stopping", "stopped"), "the Stop is heard")
-    another.get_by_label("Address or token").fill(station.url)
-    another.get_by_role("button", name="Open the station").click()
-    open_page(another, "Help")
-    another.get_by_role("button", name="Forget the token").click()
-    for page in (one, another):
-        expect(page.get_by_role("heading")).to_contain_text("asks for its token")

@@ -6,7 +6,8 @@ import re
 from functools import partial
 from typing import Any
 
-from playwright.sync_api import Locator, Page, expect
+import pytest
+from playwright.sync_api import Page, expect
 
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
@@ -23,19 +24,6 @@ from tests.library.station.browser.steps import (
 
 WALL = (6.0, 8.0)
 """In the first no-fly area of the ward."""
-
-
-FIRST_FRAME = """
-() => new Promise((seen) => {
-  document.querySelector("[role=tab][aria-controls=page-trips]").click();
-  requestAnimationFrame(function look() {
-    const world = document.querySelector("#page-trips svg.floor-picture g.world");
-    if (world) setTimeout(() => seen(world.getScreenCTM().a));
-    else requestAnimationFrame(look);
-  });
-})
-"""
-"""Goes to the trips, and says how many pixels a metre takes when that has been painted once."""
 
 
 def trips(station: Station) -> list[dict[str, Any]]:
@@ -76,6 +64,7 @@ def draw(station: Station, visit: Visit, *actions: tuple[str, Place]) -> Page:
     return page
 
 
+@pytest.mark.long
 def test_a_pin_goes_with_the_mouse_in_steps_of_ten_centimetres_and_of_one_with_shift(
     ward: Station, visit: Visit
 ) -> None:
@@ -96,6 +85,7 @@ def test_a_pin_goes_with_the_mouse_in_steps_of_ten_centimetres_and_of_one_with_s
     assert abs(y - 1.5) < 0.05
 
 
+@pytest.mark.long
 def test_the_arrow_keys_move_a_pin_and_delete_removes_it_and_undo_brings_it_back(
     ward: Station, visit: Visit
 ) -> None:
@@ -128,6 +118,7 @@ def test_a_pin_over_a_no_fly_area_says_so_while_it_is_still_held(
     assert targets(station) == [[3.0, 7.5]]
 
 
+@pytest.mark.long
 def test_what_is_released_is_what_was_picked_before_it(ward: Station, visit: Visit) -> None:
     """In name and in mass, though others are written later, and however the trips are ordered."""
     station, page = drawn(
@@ -151,15 +142,7 @@ def test_what_is_released_is_what_was_picked_before_it(ward: Station, visit: Vis
     assert station.get("/api/plan")["problems"] == []
 
 
-def test_trips_at_one_place_have_pins_side_by_side(ward: Station, visit: Visit) -> None:
-    _, page = drawn(ward, visit, ("take_photo", (16.0, 2.5)), ("measure", (16.0, 2.5)))
-    first, second = middle(pin_of(page, 1)), middle(pin_of(page, 2))
-    assert abs(first[0] - on_the_screen(page, (16.0, 2.5))[0]) < 2
-    assert second[0] - first[0] > 20
-    pin_of(page, 1).click()
-    expect(card_of(page, 1)).to_have_class(re.compile("chosen"))
-
-
+@pytest.mark.long
 def test_the_map_is_zoomed_about_the_pointer_and_goes_with_the_hand(
     ward: Station, visit: Visit
 ) -> None:
@@ -179,14 +162,7 @@ def test_the_map_is_zoomed_about_the_pointer_and_goes_with_the_hand(
     until(lambda: scale(page) < 60, "all is seen again")
 
 
-def test_the_map_fills_its_box_in_the_first_frame_that_shows_it(
-    ward: Station, visit: Visit
-) -> None:
-    page = visit(ward)
-    page.get_by_role("tab", name="Trips").wait_for()
-    assert page.evaluate(FIRST_FRAME) > 20, "pixels that a metre takes"
-
-
+@pytest.mark.long
 def test_of_a_mission_that_flies_only_what_has_not_flown_can_be_changed(
     serve: Serve, visit: Visit
 ) -> None:
@@ -213,6 +189,7 @@ def test_of_a_mission_that_flies_only_what_has_not_flown_can_be_changed(
     expect(x).to_be_disabled()
 
 
+@pytest.mark.long
 def test_several_pins_are_selected_by_a_rectangle_and_go_together(
     ward: Station, visit: Visit
 ) -> None:
@@ -244,6 +221,7 @@ def test_several_pins_are_selected_by_a_rectangle_and_go_together(
     until(lambda: targets(station) == [list(place) for place in places], "all is as it was drawn")
 
 
+@pytest.mark.long
 def test_a_row_and_a_grid_are_drawn_over_the_map_and_added_at_once(
     ward: Station, visit: Visit
 ) -> None:
@@ -274,10 +252,3 @@ def test_a_row_and_a_grid_are_drawn_over_the_map_and_added_at_once(
 def scale(page: Page) -> float:
     """Return how many pixels a metre takes."""
     return on_the_screen(page, (1.0, 0.0))[0] - on_the_screen(page, (0.0, 0.0))[0]
-
-
-def middle(pin: Locator) -> tuple[float, float]:
-    """Return the middle of a pin's disc."""
-    box = pin.locator(".disc").bounding_box()
-    assert box is not None
-    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

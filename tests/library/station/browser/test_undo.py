@@ -7,19 +7,8 @@ from playwright.sync_api import Page, expect
 
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Visit
-from tests.library.station.browser.exercise import put_in
+from tests.library.station.browser.exercise import names
 from tests.library.station.browser.steps import missions_listed, open_page, select_mission
-
-
-@pytest.fixture
-def planned(ward: Station) -> Station:
-    """A station with the exercise's plan."""
-    return put_in(ward)
-
-
-def names(station: Station) -> list[str]:
-    """Return the names of the missions in the plan."""
-    return [mission["name"] for mission in station.missions]
 
 
 def rename(page: Page, mission: str, name: str) -> None:
@@ -55,6 +44,7 @@ def test_all_is_undone_and_done_again_step_by_step_over_a_reload(
     until(lambda: names(planned) == ["Beds"], "both are done again")
 
 
+@pytest.mark.long
 def test_what_another_page_has_drawn_since_is_not_undone(planned: Station, visit: Visit) -> None:
     one, other = visit(planned), visit(planned)
     rename(one, "Mission 1", "Beds")
@@ -67,6 +57,7 @@ def test_what_another_page_has_drawn_since_is_not_undone(planned: Station, visit
     assert names(planned) == ["Photos", "Air", "Mission 3"]
 
 
+@pytest.mark.long
 def test_who_else_is_here_is_seen_with_what_they_have_selected(
     planned: Station, visit: Visit
 ) -> None:

@@ -10,8 +10,7 @@ from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.kit.browser import Watch
 from tests.kit.station import Station, until
-from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.exercise import put_in
+from tests.library.station.browser.conftest import Visit
 from tests.library.station.browser.steps import (
     ANOTHER_WAS_QUICKER,
     card_of,
@@ -19,14 +18,6 @@ from tests.library.station.browser.steps import (
     open_page,
     select_mission,
 )
-
-
-@pytest.fixture
-def planned(ward: Station) -> Station:
-    """A station with a plan in which nothing is wrong."""
-    put_in(ward)
-    return ward
-
 
 Two = tuple[Page, Page, list[Route]]
 
@@ -70,7 +61,9 @@ def notices(page: Page) -> Locator:
     return page.locator(".notices [role=alert]")
 
 
-@pytest.mark.parametrize("wrong", ["abc", "", "1e300"])
+@pytest.mark.parametrize(
+    "wrong", ["abc", *(pytest.param(one, marks=pytest.mark.long) for one in ("", "1e300"))]
+)
 def test_a_wrong_coordinate_is_marked_and_start_waits_for_it(
     planned: Station, visit: Visit, wrong: str
 ) -> None:
@@ -100,6 +93,7 @@ def test_a_wrong_coordinate_is_marked_and_start_waits_for_it(
     until(lambda: target(planned, 1, 0) == [8.5, 1.5], "it is in the plan")
 
 
+@pytest.mark.long
 def test_a_mission_with_a_wrong_coordinate_is_not_started_alone_either(
     planned: Station, visit: Visit
 ) -> None:
@@ -114,6 +108,7 @@ def test_a_mission_with_a_wrong_coordinate_is_not_started_alone_either(
     assert planned.journals() == []
 
 
+@pytest.mark.long
 def test_what_keeps_a_plan_from_starting_leads_to_its_field_wherever_that_is(
     planned: Station, visit: Visit
 ) -> None:
@@ -131,6 +126,7 @@ def test_what_keeps_a_plan_from_starting_leads_to_its_field_wherever_that_is(
     expect(page.get_by_role("textbox", name="Name")).to_be_focused()
 
 
+@pytest.mark.long
 def test_a_height_that_cannot_be_flown_is_marked_itself_and_not_the_place_below(
     planned: Station, visit: Visit
 ) -> None:
@@ -148,6 +144,7 @@ def test_a_height_that_cannot_be_flown_is_marked_itself_and_not_the_place_below(
     expect(card_of(page, 1).get_by_label("Height (m)")).to_be_focused()
 
 
+@pytest.mark.long
 def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
     planned: Station, two: Two
 ) -> None:
@@ -172,25 +169,7 @@ def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
     expect(name).not_to_have_attribute("aria-invalid", "true")
 
 
-def test_two_who_move_one_trip_along_x_and_along_y_both_find_it_there(
-    planned: Station, two: Two
-) -> None:
-    one, other, held = two
-    x, y = (
-        opened(one, "Mission 2", 1).get_by_label("x (m)"),
-        opened(other, "Mission 2", 1).get_by_label("y (m)"),
-    )
-    with other.expect_request(lambda request: request.method == "PUT"):
-        y.fill("2.5")
-    x.fill("8.5")
-    until(lambda: target(planned, 1, 0) == [8.5, 1.5], "it is kept")
-    go_on(other, held)
-    until(lambda: target(planned, 1, 0) == [8.5, 2.5], "both are kept")
-    expect(card_of(other, 1).get_by_label("x (m)")).to_have_value("8.5")
-    for page in (one, other):
-        expect(notices(page)).to_have_text("")
-
-
+@pytest.mark.long
 def test_who_writes_into_a_mission_that_another_one_deletes_is_told(
     planned: Station, two: Two
 ) -> None:
@@ -203,38 +182,3 @@ def test_who_writes_into_a_mission_that_another_one_deletes_is_told(
     until(lambda: len(planned.missions) == 2, "it is gone")
     go_on(other, held)
     expect(notices(other)).to_contain_text("You wrote “Beta”, but another page has")
-
-
-def test_who_types_into_a_mission_that_another_one_starts_is_told(
-    serve: Serve, visit: Visit, watch: Watch
-) -> None:
-    """All that is drawn is there already, but what was typed is not."""
-    watch.expected.append(ANOTHER_WAS_QUICKER)
-    station = put_in(serve("drugs_distribution"))
-    page = visit(station)
-    held = holding_the_first(page)
-    select_mission(page, "Mission 2")
-    name = page.get_by_role("textbox", name="Name")
-    with page.expect_request(lambda request: request.method == "PUT"):
-        name.fill("Beta")
-    assert station.post("/api/start", {"id": "of another one"})[0] == 200
-    expect(page.get_by_role("button", name="Stop: fly home")).to_be_enabled()
-    go_on(page, held)
-    expect(notices(page)).to_contain_text(
-        "You wrote “Beta”, but another page has removed or started that meanwhile."
-    )
-    expect(name).to_have_value("Mission 2")
-
-
-def test_one_who_changes_another_field_hears_nothing(planned: Station, two: Two) -> None:
-    one, other, held = two
-    select_mission(one, "Mission 1")
-    select_mission(other, "Mission 2")
-    with other.expect_request(lambda request: request.method == "PUT"):
-        other.get_by_role("textbox", name="Name").fill("Beta")
-    one.get_by_role("textbox", name="Name").fill("Alpha")
-    until(lambda: planned.missions[0]["name"] == "Alpha", "it is kept")
-    go_on(other, held)
-    until(lambda: planned.missions[1]["name"] == "Beta", "both are kept")
-    expect(other.get_by_role("option", name="Alpha")).to_be_visible()
-    expect(notices(other)).to_have_text("")

@@ -15,5 +15,5 @@ Object.assign(globalThis, {
 });
 Object.defineProperty(globalThis, "navigator", { value: { languages: ["en-GB"] }, configurable: true });
 
-const { speak } = await import("../../../runtime/pluto_fleet/station/pages/core/i18n.js");
+const { speak } = await import("../../../../runtime/pluto_fleet/station/pages/core/i18n.js");
 await speak("en");

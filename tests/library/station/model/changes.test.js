@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import * as changes from "../../../runtime/pluto_fleet/station/pages/core/changes.js";
+import * as changes from "../../../../runtime/pluto_fleet/station/pages/core/changes.js";
 
 /** @param {string} key @param {string} name @param {string[]} [trips] @returns {any} */
 const mission = (key, name, trips = []) => ({

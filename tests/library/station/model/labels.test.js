@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { LINE, placed } from "../../../runtime/pluto_fleet/station/pages/map/labels.js";
+import { LINE, placed } from "../../../../runtime/pluto_fleet/station/pages/map/labels.js";
 
 const BOX = { width: 800, height: 500 };
 

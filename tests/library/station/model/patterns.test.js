@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { grid, row } from "../../../runtime/pluto_fleet/station/pages/trips/patterns.js";
-import { placeNear, snapped } from "../../../runtime/pluto_fleet/station/pages/trips/snapping.js";
-import { linked } from "../../../runtime/pluto_fleet/station/pages/trips/carried.js";
+import { grid, row } from "../../../../runtime/pluto_fleet/station/pages/trips/patterns.js";
+import { placeNear, snapped } from "../../../../runtime/pluto_fleet/station/pages/trips/snapping.js";
+import { linked } from "../../../../runtime/pluto_fleet/station/pages/trips/carried.js";
 
 test("a row has both its ends, and the places between them evenly", () => {
   assert.deepEqual(row({ x: 0, y: 0 }, { x: 3, y: 1.5 }, 4), [[0, 0], [1, 0.5], [2, 1], [3, 1.5]]);

@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { World } from "../../../runtime/pluto_fleet/station/pages/core/world.js";
-import { marksOf, nextMark } from "../../../runtime/pluto_fleet/station/pages/history/incidents.js";
-import { linesOf } from "../../../runtime/pluto_fleet/station/pages/history/levels.js";
-import { Playback } from "../../../runtime/pluto_fleet/station/pages/history/playback.js";
-import { countUntil, Replayer } from "../../../runtime/pluto_fleet/station/pages/history/replayer.js";
+import { World } from "../../../../runtime/pluto_fleet/station/pages/core/world.js";
+import { marksOf, nextMark } from "../../../../runtime/pluto_fleet/station/pages/history/incidents.js";
+import { linesOf } from "../../../../runtime/pluto_fleet/station/pages/history/levels.js";
+import { Playback } from "../../../../runtime/pluto_fleet/station/pages/history/playback.js";
+import { countUntil, Replayer } from "../../../../runtime/pluto_fleet/station/pages/history/replayer.js";
 
 const STATE = { phase: "flying", time: 0, plan: 1, map: 0, said: "", how: null, busy: "" };
 const LENGTH = 100;

@@ -1,11 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { colourAt, shareOf } from "../../../runtime/pluto_fleet/station/pages/results/colours.js";
-import { Field, heatAt, newest, pixelsOf, rasterOf, samplesOf } from "../../../runtime/pluto_fleet/station/pages/results/heat.js";
-import { hit, spotsOf } from "../../../runtime/pluto_fleet/station/pages/results/hit.js";
+import { colourAt, shareOf } from "../../../../runtime/pluto_fleet/station/pages/results/colours.js";
+import { Field, heatAt, newest, pixelsOf, rasterOf, samplesOf } from "../../../../runtime/pluto_fleet/station/pages/results/heat.js";
+import { hit, spotsOf } from "../../../../runtime/pluto_fleet/station/pages/results/hit.js";
 import {
   countsOf, layersOn, photosOf, pinsOf, placeOf, shownLayers,
-} from "../../../runtime/pluto_fleet/station/pages/results/layers.js";
+} from "../../../../runtime/pluto_fleet/station/pages/results/layers.js";
 
 const NOTHING = { title: null, quantity: null, unit: null, low: null, high: null, reach: null };
 const MEASURE = { ...NOTHING, id: "measure", action: "measure", kind: "heat", reach: 3 };

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { World } from "../../../runtime/pluto_fleet/station/pages/core/world.js";
-import { ALL, choices, filtered, sorted, windowOf } from "../../../runtime/pluto_fleet/station/pages/results/table_model.js";
+import { World } from "../../../../runtime/pluto_fleet/station/pages/core/world.js";
+import { ALL, choices, filtered, sorted, windowOf } from "../../../../runtime/pluto_fleet/station/pages/results/table_model.js";
 
 const row = (number, some = {}) => {
   const { what = "Photo", value = "", place = "", mission = "M", tags = [], quantity } = some;

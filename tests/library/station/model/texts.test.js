@@ -4,7 +4,7 @@ import "./browser.js";
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
-const PAGES = "../../../runtime/pluto_fleet/station/pages";
+const PAGES = "../../../../runtime/pluto_fleet/station/pages";
 const { bestLanguage, has, language, LANGUAGES, speak, t } = await import(`${PAGES}/core/i18n.js`);
 const { isTranslated, say } = await import(`${PAGES}/core/said.js`);
 const names = Object.keys(LANGUAGES);

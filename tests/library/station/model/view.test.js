@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import * as view from "../../../runtime/pluto_fleet/station/pages/map/view.js";
+import * as view from "../../../../runtime/pluto_fleet/station/pages/map/view.js";
 
 const BOX = { width: 1000, height: 600 };
 const SIZE = /** @type {const} */ ([18, 10]);

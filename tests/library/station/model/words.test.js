@@ -4,7 +4,7 @@ import "./browser.js";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-const { startWords } = await import("../../../runtime/pluto_fleet/station/pages/start/words.js");
+const { startWords } = await import("../../../../runtime/pluto_fleet/station/pages/start/words.js");
 
 /** @param {object} [more] @returns {any} */
 const state = (more) => ({ known: true, phase: "idle", time: 0, plan: 1, map: 0, said: "", how: null, busy: "", ...more });

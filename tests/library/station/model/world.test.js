@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { effect } from "../../../runtime/node_modules/@preact/signals-core/dist/signals-core.mjs";
-import { World } from "../../../runtime/pluto_fleet/station/pages/core/world.js";
+import { effect } from "../../../../runtime/node_modules/@preact/signals-core/dist/signals-core.mjs";
+import { World } from "../../../../runtime/pluto_fleet/station/pages/core/world.js";
 
 /** @type {any} */
 const STATE = { phase: "flying", time: 3, plan: 1, map: 0, said: "", how: null, busy: "" };

@@ -6,13 +6,11 @@ from collections.abc import Callable
 
 from playwright.sync_api import Page
 
-from tests.kit.browser import Scheme
-from tests.library.station.browser.axe import COLOURS, violations
-from tests.library.station.browser.layout import laid_out_badly
-from tests.library.station.browser.pictures import picture
+from tests.kit.axe import COLOURS, violations
+from tests.kit.browser import SCHEMES, Scheme
+from tests.kit.layout import laid_out_badly
+from tests.kit.pictures import picture
 from tests.library.station.browser.steps import settled
-
-SCHEMES: tuple[Scheme, ...] = ("light", "dark")
 
 SPEAK = """
 async (language) => {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from playwright.sync_api import Page, expect
@@ -19,11 +19,11 @@ from tests.library.station.browser.steps import (
     settled,
     start,
 )
+from tests.pages.crowd import crowd
+
+Scenes = Callable[[Page, Station], Iterator[str]]
 
 PAGES = ("Missions", "Trips", "Monitor", "Results", "History", "Map", "Help")
-
-BREAKS = ("WebSocket", "ERR_", "Failed to load resource")
-"""What a browser complains of while the station is away."""
 
 BY_A_PERSON = "Mission 3"
 """Its second trip releases what the first one has picked: whether that was done, only a person can know."""
@@ -187,6 +187,7 @@ def heat(page: Page, station: Station) -> Iterator[str]:
 
 def crowded(page: Page, station: Station) -> Iterator[str]:
     """Show many drones and missions in flight."""
+    crowd(station)
     open_page(page, "Missions")
     yield "crowd-missions"
     open_page(page, "Trips")

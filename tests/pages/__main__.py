@@ -1,4 +1,4 @@
-"""`python -m tests.library.station.browser.every_page`: look at every page in every phase, size, scheme and language.
+"""`python -m tests.pages`: look at every page in every phase, size, scheme and language.
 
 Pictures of all of it are kept in a folder; what lies over something else, sticks out, is cut off, or is a
 violation of WCAG A or AA, is printed, and fails the campaign.
@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import sys
 from argparse import ArgumentParser
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from tests.paths import ROOT
+from tests.paths import EXAMPLES, ROOT
 
 sys.path.append(str(ROOT / "benchmarks"))  # the crowd is that of a benchmark
 
@@ -20,18 +20,15 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.apart import apart
 from tests.kit.browser import A_STEP, ARGUMENTS, Scheme, chromium
-from tests.kit.station import App, Station, installed
-from tests.library.station.browser.crowd import crowded_station
-from tests.library.station.browser.looking import in_language, looked_at
-from tests.library.station.browser.scenes import crowded, heat, scenes
-from tests.release.environments import ROOT
+from tests.kit.station import Station, Stations
+from tests.pages.crowd import crowded_station
+from tests.pages.looking import in_language, looked_at
+from tests.pages.scenes import Scenes, crowded, heat, scenes
 
 SIZES = ("360x740", "390x844", "1366x768", "1920x1080")
 LANGUAGES = ("en", "it", "de")
 PHONE = 760
 """Pixels of width below which a screen is touched."""
-
-Scenes = Callable[[Page, Station], Iterator[str]]
 
 
 class Matrix:
@@ -67,32 +64,24 @@ class Matrix:
             print(self.wrong[-1], flush=True)
 
 
-def stations(apps: dict[str, App], folder: Path) -> Iterator[tuple[Station, Scenes]]:
+def served(stations: Stations) -> Iterator[tuple[Station, Scenes]]:
     """Serve one station after another, each with the scenes that it is for."""
-    missions = ("--missions", str(ROOT / "examples" / "pm10" / "missions.toml"), "--speed", "60")
-    wanted: list[tuple[str, tuple[str, ...], Scenes]] = [
-        ("drugs_distribution", ("--speed", "2"), scenes),
-        ("pm10", missions, heat),
-    ]
-    for app, options, play in wanted:
-        station = Station(app=apps[app], folder=folder / app, options=options)
-        station.folder.mkdir(parents=True)
+    missions = str(EXAMPLES / "pm10" / "missions.toml")
+    for station, play in (
+        (stations.fresh("drugs_distribution", "--speed", "2"), scenes),
+        (stations.fresh("pm10", "--missions", missions, "--speed", "60"), heat),
+        (crowded_station(stations), crowded),
+    ):
         station.start()
         try:
             yield station, play
         finally:
             station.end()
-    many = folder / "crowd"
-    many.mkdir()
-    with crowded_station(apps["drugs_distribution"], many) as station:
-        yield station, crowded
 
 
 def main() -> int:
     """Run the campaign."""
-    parser = ArgumentParser(
-        prog="python -m tests.library.station.browser.every_page", description=__doc__
-    )
+    parser = ArgumentParser(prog="python -m tests.pages", description=__doc__)
     parser.add_argument("--sizes", nargs="+", default=SIZES, help="of the screens")
     parser.add_argument("--languages", nargs="+", choices=LANGUAGES, default=LANGUAGES)
     parser.add_argument("--pictures", type=Path, default=Path("every-page"), help="their folder")
@@ -100,11 +89,11 @@ def main() -> int:
     given.pictures.mkdir(parents=True, exist_ok=True)
     expect.set_options(timeout=A_STEP)
     with TemporaryDirectory() as temporary, apart(), sync_playwright() as driver:
-        apps = installed(("drugs_distribution", "pm10"), Path(temporary) / "apps")
         browser = driver.chromium.launch(executable_path=chromium(), args=ARGUMENTS)
         matrix = Matrix(browser, given.pictures, list(given.languages))
+        stations = Stations(Path(temporary))
         for size in given.sizes:
-            for station, play in stations(apps, Path(temporary) / size):
+            for station, play in served(stations):
                 matrix.look(station, play, size)
         browser.close()
     print(f"{matrix.looks} looks, {len(matrix.wrong)} of them wrong; pictures in {given.pictures}")

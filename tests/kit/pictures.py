@@ -1,4 +1,4 @@
-"""Pictures of the pages for the docs: few colours, so that they are small."""
+"""Pictures of pages for the docs: few colours, so that they are small."""
 
 from __future__ import annotations
 
@@ -8,9 +8,6 @@ from pathlib import Path
 from PIL import Image
 from playwright.sync_api import Page
 
-from tests.release.environments import ROOT
-
-FOLDER = ROOT / "docs" / "station"
 COLOURS = 192
 
 
@@ -23,6 +20,7 @@ def picture(page: Page, colours: int = COLOURS) -> bytes:
     return out.getvalue()
 
 
-def kept(name: str) -> Path:
+def kept(folder: Path, name: str) -> Path:
     """Return where a picture is kept."""
-    return FOLDER / f"{name}.png"
+    folder.mkdir(exist_ok=True)
+    return folder / f"{name}.png"
