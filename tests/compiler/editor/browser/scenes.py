@@ -11,6 +11,11 @@ from tests.compiler.editor.browser.hand import Hand, block, edge, port
 from tests.compiler.editor.browser.texts import type_below
 from tests.kit.editor import Editor
 from tests.kit.station import until
+from tests.paths import ROOT
+
+FOLDER = ROOT / "docs" / "graph-editor"
+COLOURS = 224
+"""Of a picture: it has more colours than the station's pages."""
 
 
 def scenes(edit: Edit, visit: Visit, size: tuple[int, int]) -> Iterator[tuple[str, Page]]:

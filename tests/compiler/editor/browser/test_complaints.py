@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.compiler.editor.browser.conftest import Edit, Visit
@@ -48,6 +49,7 @@ def test_a_problem_leads_to_its_blocks_and_walks_the_way_that_fails(
     expect(page.locator('.edge.lit[data-edge^="launch>watch"]')).to_have_count(1)
 
 
+@pytest.mark.long
 def test_what_is_greyed_out_says_why(edit: Edit, visit: Visit) -> None:
     page = visit(edit(text=STUCK))
     for name, why in {
@@ -71,6 +73,7 @@ def test_a_wire_that_is_not_legal_says_why(edit: Edit, visit: Visit) -> None:
     assert edge(page, "watch", "create").count() == 0
 
 
+@pytest.mark.long
 def test_paste_keeps_the_wires(edit: Edit, visit: Visit) -> None:
     editor = edit("drugs_distribution_retry")
     page = visit(editor)
@@ -106,6 +109,7 @@ def test_the_text_leads_and_keeps_its_comments(edit: Edit, visit: Visit) -> None
     assert order == sorted(order)
 
 
+@pytest.mark.long
 def test_the_cursor_shows_in_both(edit: Edit, visit: Visit) -> None:
     page = visit(edit("alfalfa"))
     text_of(page).locator(".cm-line", has_text="judge = MissionEvaluator").click()
@@ -131,17 +135,7 @@ def test_what_is_not_known_is_not_shown_as_nothing(edit: Edit, visit: Visit) -> 
     expect(page.get_by_role("dialog")).to_contain_text("P1012")
 
 
-def test_where_the_mend_is_certain_a_button_does_it(edit: Edit, visit: Visit) -> None:
-    editor = edit("alfalfa")
-    page = visit(editor)
-    before = editor.text
-    type_below(page, "retry -> allocate when STANDBY", "retry -> allocate when STANDBY")
-    problem(page, "twice|again|already")
-    page.get_by_role("tabpanel").get_by_role("button", name="Mend it").first.click()
-    expect(page.get_by_text("Sound", exact=True)).to_be_visible()
-    until(lambda: editor.text.split() == before.split(), lambda: editor.text)
-
-
+@pytest.mark.long
 def test_problems_are_gone_through_both_ways(edit: Edit, visit: Visit) -> None:
     page = visit(
         edit(text=STUCK.replace("TripMonitor", "TripMonitr").replace("MissionC", "MisionC"))

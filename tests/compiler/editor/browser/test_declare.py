@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.compiler.editor.browser.conftest import Edit, Visit
-from tests.compiler.editor.browser.hand import block
 from tests.kit.station import until
+
+pytestmark = pytest.mark.long
 
 
 def declare(page: Page, what: str) -> None:
@@ -55,37 +57,6 @@ def test_fields_of_missions_and_trips(edit: Edit, visit: Visit) -> None:
         page.get_by_role("button", name=f"Remove {name}", exact=True).click()
         expect(line_of(page, name)).to_have_count(0)
     until(lambda: editor.text.split() == before.split(), lambda: editor.text)
-
-
-def test_another_name_goes_into_the_code_and_not_into_plans(edit: Edit, visit: Visit) -> None:
-    editor = edit("night_round")
-    page = visit(editor)
-    write(line_of(page, "mission.patient"), 'client: text = ""')
-    expect(
-        page.get_by_role("status").filter(has_text="Missions files are not changed")
-    ).to_contain_text("where one has `patient`, write `client`")
-    until(
-        lambda: 'mission has client: text = "", most: float = 20' in editor.text,
-        lambda: editor.text,
-    )
-    until(lambda: "{mission.client} sleeps" in editor.hooks, lambda: editor.hooks)
-    assert "mission.patient" not in editor.hooks
-    assert 'patient = "{patient}"' in editor.file.with_name("missions.toml").read_text()
-
-
-def test_an_evaluator_takes_values(edit: Edit, visit: Visit) -> None:
-    """What it declares is a field of the block that asks it."""
-    editor = edit("alfalfa")
-    page = visit(editor)
-    write(line_of(page, "find_blooms"), "evaluator find_blooms(least: int = 2)")
-    until(lambda: "evaluator find_blooms(least: int = 2)" in editor.text, lambda: editor.text)
-    block(page, "judge").locator(".face").click()
-    field = page.locator('.field[data-field="least"]')
-    expect(field.locator("input")).to_have_attribute("placeholder", "2")
-    field.locator("input").fill("many")
-    expect(field.locator(".field-problem")).to_have_text("This must be a whole number.")
-    write(field.locator("input"), "3")
-    until(lambda: "hook: find_blooms, least: 3" in editor.text, lambda: editor.text)
 
 
 def test_an_action_says_what_it_gives(edit: Edit, visit: Visit) -> None:

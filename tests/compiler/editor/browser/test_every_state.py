@@ -11,12 +11,12 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.compiler.editor.browser.conftest import Edit, Visit
-from tests.compiler.editor.browser.pictures import FOLDER, kept, picture
-from tests.compiler.editor.browser.scenes import scenes
+from tests.compiler.editor.browser.scenes import COLOURS, FOLDER, scenes
 from tests.kit.axe import violations
-from tests.kit.browser import DESKTOP, LAPTOP, Scheme
+from tests.kit.browser import DESKTOP, LAPTOP, SCHEMES, Scheme
 from tests.kit.layout import cut_off, wider_than_the_screen
-from tests.release.environments import ROOT
+from tests.kit.pictures import kept, picture
+from tests.paths import ROOT
 
 SHOWN: dict[str, Scheme] = {
     "empty": "light",
@@ -31,19 +31,12 @@ SHOWN: dict[str, Scheme] = {
 """What the docs have pictures of, and by which light."""
 
 SIZES = {"laptop": LAPTOP, "desk": DESKTOP}
-SCHEMES: tuple[Scheme, ...] = ("light", "dark")
 SMALL = 150_000
 """Bytes of a picture."""
 
 
-@pytest.mark.parametrize(
-    "device",
-    [
-        # half a minute each
-        pytest.param(device, marks=[] if device == "laptop" else [pytest.mark.long])
-        for device in SIZES
-    ],
-)
+@pytest.mark.long  # half a minute each
+@pytest.mark.parametrize("device", SIZES)
 def test_no_state_breaks_wcag_a_or_aa(edit: Edit, visit: Visit, device: str, update: bool) -> None:
     """Axe finds no violation, nothing is cut off, and nothing asks another machine."""
     wrong: dict[tuple[str, Scheme], list[str]] = {}
@@ -56,11 +49,10 @@ def test_no_state_breaks_wcag_a_or_aa(edit: Edit, visit: Visit, device: str, upd
                 found.append(f"{wide} pixels wider than the screen")
             wrong[scene, scheme] = found
             if device == "laptop" and SHOWN.get(scene) == scheme:
-                taken = picture(page)
+                taken = picture(page, COLOURS)
                 assert len(taken) < SMALL, (scene, len(taken))
                 if update:
-                    FOLDER.mkdir(exist_ok=True)
-                    kept(scene).write_bytes(taken)
+                    kept(FOLDER, scene).write_bytes(taken)
         page.emulate_media(color_scheme="light", reduced_motion="no-preference")
     assert {where: said for where, said in wrong.items() if said} == {}
 
@@ -71,6 +63,7 @@ def test_the_docs_show_every_picture_and_no_other() -> None:
     assert {path.stem for path in FOLDER.glob("*.png")} == {*SHOWN, "large"}
 
 
+@pytest.mark.long
 def test_an_explanation_that_scrolls_is_reached_by_keyboard(edit: Edit, visit: Visit) -> None:
     """One that the mouse has called up is read to its end without a mouse, too."""
     page = visit(edit("alfalfa"))

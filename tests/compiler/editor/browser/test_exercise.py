@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from plutoc.compile import analyse
@@ -11,6 +12,8 @@ from plutoc.diagnostic import Rejected
 from plutoc.source import Source
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import Hand, block, port, statuses
+from tests.compiler.editor.browser.texts import text_of
+from tests.kit.command import plutoc
 from tests.kit.editor import Editor
 from tests.kit.station import until
 
@@ -53,7 +56,7 @@ def sees_the_flight(page: Page) -> None:
     assert found is not None and found[1] == found[2] != "0", result.inner_text()
 
 
-def test_by_mouse_in_few_gestures(edit: Edit, visit: Visit) -> None:
+def test_by_mouse_in_few_gestures_drawn_flown_and_compiled(edit: Edit, visit: Visit) -> None:
     editor = edit()
     page = visit(editor)
     hand = Hand(page)
@@ -73,8 +76,13 @@ def test_by_mouse_in_few_gestures(edit: Edit, visit: Visit) -> None:
     hand.click((box["x"] + box["width"] / 2, box["y"] + box["height"] / 2))
     expect(page.locator(".block .token").first).to_be_visible()
     assert hand.gestures <= FEW, hand.gestures
+    page.get_by_role("button", name="Compile", exact=True).click()
+    page.get_by_role("button", name=re.compile("^Write ")).click()
+    expect(page.get_by_text("The package is written to drugs.")).to_be_visible()
+    assert plutoc("compile", editor.file, "--check").code == 0
 
 
+@pytest.mark.long
 def test_by_keyboard_alone(edit: Edit, visit: Visit) -> None:
     editor = edit()
     page = visit(editor)
@@ -114,6 +122,7 @@ def test_by_keyboard_alone(edit: Edit, visit: Visit) -> None:
     expect(page.locator(".run-missions .where").first).to_have_text("not begun")
 
 
+@pytest.mark.long
 def test_what_is_typed_ahead_counts(edit: Edit, visit: Visit) -> None:
     editor = edit("drugs_distribution")
     page = visit(editor)
@@ -133,6 +142,7 @@ def test_what_is_typed_ahead_counts(edit: Edit, visit: Visit) -> None:
     expect(page.get_by_role("combobox", name="Connect create to")).to_be_hidden()
 
 
+@pytest.mark.long
 def test_the_arrow_keys_lead_along_edges(edit: Edit, visit: Visit) -> None:
     page = visit(edit("drugs_distribution"))
     keys = page.keyboard
@@ -148,3 +158,23 @@ def test_the_arrow_keys_lead_along_edges(edit: Edit, visit: Visit) -> None:
     expect(page.get_by_role("button", name="Edge from watch to end")).to_be_focused()
     keys.press("Enter")
     expect(page.get_by_role("radio", name="otherwise")).to_be_checked()
+
+
+@pytest.mark.long
+def test_f12_leads_to_the_definition(edit: Edit, visit: Visit) -> None:
+    page = visit(edit("drugs_distribution_timer"))
+    lines = text_of(page).locator(".cm-line")
+    at = text_of(page).locator(".cm-activeLine")
+    lines.filter(has_text="retry -> allocate").click(position={"x": 30, "y": 8})
+    page.keyboard.press("F12")
+    expect(at).to_have_text("  retry = PriorityManager(max_attempts: 3)")
+    page.keyboard.press("F12")
+    expect(page.get_by_text("This is its definition.")).to_be_visible()
+    # a hook is declared here, and written there
+    lines.filter(has_text="modifier limit_trip").click(position={"x": 115, "y": 8})
+    page.keyboard.press("F12")
+    code = page.get_by_role("textbox", name="hooks.py: your own code")
+    expect(code).to_be_focused()
+    expect(code.locator(".cm-activeLine")).to_contain_text("async def limit_trip(")
+    page.keyboard.press("F1")
+    expect(page.get_by_role("dialog")).to_contain_text("to the definition of a name")

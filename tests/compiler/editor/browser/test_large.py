@@ -8,13 +8,15 @@ from playwright.sync_api import expect
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import Hand, block
 from tests.compiler.editor.browser.large import large
-from tests.compiler.editor.browser.pictures import FOLDER, kept, picture
+from tests.compiler.editor.browser.scenes import COLOURS, FOLDER
 from tests.kit.browser import DESKTOP
+from tests.kit.pictures import kept, picture
 from tests.kit.station import until
 
 BLOCKS = 300
 
 
+@pytest.mark.long
 def test_three_hundred_blocks(edit: Edit, visit: Visit, update: bool) -> None:
     editor = edit(text=large())
     page = visit(editor, size=DESKTOP)
@@ -25,8 +27,7 @@ def test_three_hundred_blocks(edit: Edit, visit: Visit, update: bool) -> None:
     expect(block(page, "allocate_9")).to_be_in_viewport()
     if update:
         page.emulate_media(reduced_motion="reduce")
-        FOLDER.mkdir(exist_ok=True)
-        kept("large").write_bytes(picture(page))
+        kept(FOLDER, "large").write_bytes(picture(page, COLOURS))
     before = block(page, "allocate_9").bounding_box()
     assert before is not None
     Hand(page).drag(block(page, "allocate_9").locator(".face"), (before["x"] + 40, before["y"]))
@@ -34,13 +35,9 @@ def test_three_hundred_blocks(edit: Edit, visit: Visit, update: bool) -> None:
     until(lambda: layout.exists() and "allocate_9" in layout.read_text(), "it is kept")
     page.get_by_role("button", name="Tidy").click()
     until(lambda: not layout.exists() or not layout.read_text(), "it is forgotten")
-
-
-@pytest.mark.parametrize("key", ["f", "-", "+", "0"])
-def test_keys_zoom(edit: Edit, visit: Visit, key: str) -> None:
-    page = visit(edit(text=large()))
     page.keyboard.press("F6")
     percent = page.locator(".percent")
-    before = percent.inner_text()
-    page.keyboard.press(key)
-    expect(percent).not_to_have_text(before)
+    for key in ("f", "-", "+", "0"):
+        before = percent.inner_text()
+        page.keyboard.press(key)
+        expect(percent).not_to_have_text(before)

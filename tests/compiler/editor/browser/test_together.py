@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from urllib.parse import urlsplit
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import Hand, block, edge, port
 from tests.compiler.editor.browser.texts import shown, text_of, type_below
 from tests.kit.browser import Watch
-from tests.kit.editor import Editor
+from tests.kit.editor import Edited, EditorProcess, fresh
 from tests.kit.station import until
 
 SOURCE = """\
@@ -32,7 +34,7 @@ app drugs "Drugs" {
 """
 
 
-def same_everywhere(editor: Editor, *pages: Page) -> None:
+def same_everywhere(editor: Edited, *pages: Page) -> None:
     """See that all pages and the disk have the same text."""
     until(
         lambda: all(shown(page).strip() == editor.text.strip() for page in pages),
@@ -57,6 +59,7 @@ def test_two_editors_see_each_other_at_once(edit: Edit, visit: Visit) -> None:
     same_everywhere(editor, one, other)
 
 
+@pytest.mark.long
 def test_typing_at_one_place_by_two_ends_in_one_text(edit: Edit, visit: Visit) -> None:
     editor = edit(text=SOURCE)
     one, other = visit(editor), visit(editor)
@@ -71,15 +74,6 @@ def test_typing_at_one_place_by_two_ends_in_one_text(edit: Edit, visit: Visit) -
     typed = line.removeprefix("# Kept: blank  spaces, and all.")
     assert [letter for letter in typed if letter.islower()] == list("abcdefgh")
     assert [letter for letter in typed if letter.isupper()] == list("ABCDEFGH")
-
-
-def test_a_file_that_is_changed_elsewhere_is_merged(edit: Edit, visit: Visit) -> None:
-    editor = edit(text=SOURCE)
-    page = visit(editor)
-    editor.file.write_text(SOURCE.replace("launch = TripLauncher", "fly = TripLauncher"))
-    expect(block(page, "fly")).to_be_visible()
-    expect(page.get_by_text("changed elsewhere: both changes are in it now")).to_be_visible()
-    same_everywhere(editor, page)
 
 
 def test_where_it_contradicts_one_is_asked(edit: Edit, visit: Visit) -> None:
@@ -103,55 +97,42 @@ def test_where_it_contradicts_one_is_asked(edit: Edit, visit: Visit) -> None:
     assert editor.text == theirs
 
 
-def test_a_killed_server_loses_at_most_the_last_second(
-    edit: Edit, visit: Visit, watch: Watch
+@pytest.mark.long  # real processes
+def test_a_killed_server_loses_nothing_that_was_saved_and_its_pages_say_what_to_do(
+    tmp_path: Path, visit: Visit, watch: Watch
 ) -> None:
     watch.expected.append("net::ERR_CONNECTION_REFUSED")
-    editor = edit(text=SOURCE)
-    page = visit(editor)
-    type_below(page, "watch = TripMonitor", "retry = PriorityManager")
-    expect(page.get_by_text("Saved", exact=True)).to_be_visible()
-    until(lambda: "retry = PriorityManager" in editor.text, "it is on the disk")
-    editor.kill()
-    expect(page.get_by_role("alert").filter(has_text="does not answer")).to_be_visible()
-    assert "retry = PriorityManager" in editor.text
-
-
-def test_a_page_whose_server_was_started_again_says_so(
-    edit: Edit, visit: Visit, watch: Watch
-) -> None:
-    watch.expected.append("net::ERR_CONNECTION_REFUSED")
-    editor = edit(text=SOURCE)
-    page = visit(editor)
-    expect(text_of(page)).to_be_visible()  # all of the page is there
-    editor.kill()
-    editor.start(urlsplit(page.url).port or 0)
-    again = page.get_by_role("alert").filter(
-        has_text="The editor was started again: open the address that it printed."
-    )
-    expect(again).to_be_visible()
-    expect(page.get_by_text("No server", exact=True)).to_be_visible()
-    other = page.context.new_page()
-    other.goto(editor.url)  # which has the token from now on
-    expect(again).to_be_hidden()
-    type_below(page, "watch = TripMonitor", "retry = PriorityManager")
-    same_everywhere(editor, page, other)
-
-
-def test_a_page_that_never_had_the_token_says_so(edit: Edit, visit: Visit) -> None:
-    editor = edit(text=SOURCE)
-    page = visit(editor)
-    page.context.clear_cookies()
-    page.reload()
-    expect(page.get_by_text("open the address that the editor printed")).to_be_visible()
-
-
-def test_undo_ends_at_the_first_byte(edit: Edit, visit: Visit) -> None:
-    editor = edit(text=SOURCE)
-    editor.end()
-    first = SOURCE.replace("\n", "\r\n", 5).encode()
-    editor.file.write_bytes(first)
+    file = fresh("", tmp_path / "app")
+    file.write_text(SOURCE)
+    editor = EditorProcess(file=file)
     editor.start()
+    try:
+        page = visit(editor)
+        type_below(page, "watch = TripMonitor", "retry = PriorityManager")
+        until(lambda: "retry = PriorityManager" in editor.text, "it is on the disk")
+        editor.kill()
+        expect(page.get_by_role("alert").filter(has_text="does not answer")).to_be_visible()
+        assert "retry = PriorityManager" in editor.text
+        editor.start(urlsplit(page.url).port or 0)
+        said = "The editor was started again: open the address that it printed."
+        again = page.get_by_role("alert").filter(has_text=said)
+        expect(again).to_be_visible()
+        expect(page.get_by_text("No server", exact=True)).to_be_visible()
+        other = page.context.new_page()
+        other.goto(editor.url)  # which has the token from now on
+        expect(again).to_be_hidden()
+        type_below(page, "watch = TripMonitor", "more = PriorityManager")
+        same_everywhere(editor, page, other)
+        page.context.clear_cookies()
+        page.reload()
+        expect(page.get_by_text("open the address that the editor printed")).to_be_visible()
+    finally:
+        editor.end()
+
+
+def test_undo_ends_at_the_first_byte_and_redo_leads_on_from_there(edit: Edit, visit: Visit) -> None:
+    first = SOURCE.replace("\n", "\r\n", 5).encode()
+    editor = edit(text=first)
     page = visit(editor)
     hand = Hand(page)
     hand.add("Clock")
@@ -176,3 +157,8 @@ def test_undo_ends_at_the_first_byte(edit: Edit, visit: Visit) -> None:
     expect(undo).to_have_attribute("aria-disabled", "true")
     until(lambda: editor.file.read_bytes() == first, lambda: repr(editor.file.read_bytes()))
     until(lambda: not layout.exists() or not layout.read_text(), "no block is moved")
+    for _ in range(2):
+        page.keyboard.press("Control+Shift+z")
+    until(lambda: "# typed" in editor.text, lambda: f"two are done again: {editor.text}")
+    assert "clock = Clock" in editor.text
+    assert "watch_2" not in editor.text

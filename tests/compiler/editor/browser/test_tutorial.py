@@ -16,9 +16,10 @@ from playwright.sync_api import Locator, Page, expect
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.drawing import add_from_port, complete, lead, put_between, rename
 from tests.compiler.editor.browser.hand import Hand, block, edge, port
-from tests.compiler.editor.browser.pictures import picture
+from tests.compiler.editor.browser.scenes import COLOURS
 from tests.examples.typed import ROOT, Reader, Step, is_shown, steps
 from tests.kit.editor import Editor
+from tests.kit.pictures import kept, picture
 from tests.kit.station import until
 
 LESSON = ROOT / "docs" / "tutorial" / "editor.md"
@@ -72,12 +73,11 @@ class Pupil:
     def shows(self, name: str) -> None:
         """Take one of the page's pictures."""
         expect(self.page.get_by_text("Saved", exact=True)).to_be_visible()
-        taken = picture(self.page)
+        taken = picture(self.page, COLOURS)
         assert len(taken) < SMALL, (name, len(taken))
         self.taken.add(name)
         if self.update:
-            PICTURES.mkdir(exist_ok=True)
-            (PICTURES / f"{name}.png").write_bytes(taken)
+            kept(PICTURES, name).write_bytes(taken)
 
     def blocks(self, language: str) -> list[str]:
         """Return what the page shows in a language."""
@@ -107,6 +107,7 @@ def types(desk: Reader, session: Iterator[Step], last: str) -> None:
     raise AssertionError(f"the page does not say `{last}`")
 
 
+@pytest.mark.long  # half a minute
 def test_the_page_is_done_as_it_stands(
     edit: Edit, visit: Visit, desk: Reader, update: bool
 ) -> None:

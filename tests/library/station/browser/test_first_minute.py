@@ -64,16 +64,13 @@ def fields(page: Page) -> tuple[set[str], set[str]]:
     return mission, trip
 
 
-def test_an_app_without_clock_repeater_timer_or_priorities_shows_none_of_their_fields(
+def test_an_app_shows_the_fields_that_its_graph_needs_and_no_other(
     serve: Serve, visit: Visit
 ) -> None:
     mission, trip = fields(visit(serve("drugs_distribution")))
     assert mission == {"Name"}
     names = {"Mission", "Name of the mission"}
     assert trip == {*names, "Name", "x (m)", "y (m)", "Height (m)", "Quantity"}
-
-
-def test_an_app_with_all_of_them_shows_all_of_their_fields(serve: Serve, visit: Visit) -> None:
     mission, trip = fields(visit(serve("alfalfa")))
     assert mission >= {"Name", "Safe time", "Repeat", "Evaluator", "Start at", "Repeat every"}
     assert trip >= {"Delay", "Priority"}

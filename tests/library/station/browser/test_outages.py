@@ -24,7 +24,7 @@ from tests.library.station.browser.steps import (
 @pytest.fixture
 def station(serve: Serve) -> Station:
     """A station with the exercise's plan."""
-    return put_in(serve(own=True))
+    return put_in(serve())
 
 
 @pytest.fixture
@@ -70,9 +70,10 @@ def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_i
 
 
 def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
-    station: Station, visit: Visit, watch: Watch
+    serve: Serve, visit: Visit, watch: Watch
 ) -> None:
     watch.expected += BREAKS
+    station = put_in(serve(own=True))
     page = visit(station)
     flies_until_the_pills_are_picked(page, station)
     station.kill()

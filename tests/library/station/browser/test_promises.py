@@ -64,37 +64,3 @@ def test_promises_are_drawn_kept_exported_and_seen(serve: Serve, visit: Visit) -
     expect(row_of(page, SECOND)).to_contain_text(f"comes after {FIRST}")
     expect(row_of(page, FIRST).locator(".chip.bad")).to_have_text("Late", timeout=A_FLIGHT)
     sees_all(page, "Completed")
-
-
-def test_a_number_alone_is_seen_as_it_is_understood(serve: Serve, visit: Visit) -> None:
-    """One that is typed, and one that came with a list."""
-    station = put_in(serve("drugs_distribution"))
-    plan = station.get("/api/plan")
-    plan["missions"][0]["deadline"] = 240
-    station.put("/api/plan", {name: plan[name] for name in ("revision", "missions")})
-    page = visit(station)
-    promise(page, FIRST)
-    expect(page.get_by_label("Due")).to_have_value("4 min")
-    page.get_by_label("Due").fill("90")
-    page.get_by_label("Due").press("Tab")
-    expect(page.get_by_label("Due")).to_have_value("90 s")
-
-
-def test_what_is_wrong_with_a_promise_is_told_beside_it(serve: Serve, visit: Visit) -> None:
-    page = visit(put_in(serve("drugs_distribution")))
-    promise(page, FIRST)
-    page.get_by_label("Due").fill("soon")
-    field = page.locator('.field[data-field="deadline"]')
-    expect(field.locator(".problem")).to_contain_text('"soon" is not a time')
-    page.get_by_label("Due").fill("")
-    page.get_by_label("Begins at the soonest").fill("08:00")
-    field = page.locator('.field[data-field="opens"]')
-    expect(field.locator(".problem")).to_contain_text("needs an end as well")
-    page.get_by_label("Due").fill("08:30")
-    expect(field.locator(".problem")).to_be_hidden()
-    tick(page, SECOND)
-    promise(page, SECOND)
-    tick(page, FIRST)
-    promise(page, FIRST)
-    field = page.locator('.field[data-field="after"]')
-    expect(field.locator(".problem")).to_contain_text("none of them can begin")

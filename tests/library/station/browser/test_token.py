@@ -41,45 +41,31 @@ def test_the_printed_address_lets_one_fly_and_the_token_leaves_it(
 
 
 @pytest.mark.long
-def test_without_the_token_one_sees_where_to_find_it_and_can_paste_the_whole_address(
-    serve: Serve, visit: Visit, watch: Watch
-) -> None:
-    watch.expected += ["401"]
-    station = put_in(serve("drugs_distribution", "--name", "ward.example"))
-    page = visit(station, path="/")
-    expect(page.get_by_role("heading")).to_contain_text("token")
-    expect(page.get_by_text("Mission 1")).to_have_count(0)
-    field = page.get_by_label("Address or token")
-    field.fill("wrong")
-    page.get_by_role("button", name="Open the station").click()
-    expect(page.get_by_role("alert").filter(has_text="no such token")).to_be_visible()
-    field.fill(station.url)
-    page.get_by_role("button", name="Open the station").click()
-    expect(missions_listed(page)).to_have_count(3)
-    until(lambda: station.phase == "idle", "nothing has happened")
-
-
-@pytest.mark.long
 def test_one_browser_is_told_the_token_once_until_it_is_told_to_forget_it(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
-    """Another tab knows it, and so does one that was opened after all were closed; no cookie does."""
+    """The whole address may be pasted; then another tab knows it, too, and no cookie does."""
+    watch.expected += ["401"]
     station = put_in(serve("drugs_distribution", "--name", "ward.example"))
-    first = visit(station)
-    expect(missions_listed(first)).to_have_count(3)
-    context = first.context
+    page = visit(station, path="/")
+    expect(page.get_by_role("heading")).to_contain_text("asks for its token")
+    expect(page.get_by_text("Mission 1")).to_have_count(0)
+    for given in ("wrong", station.url):
+        page.get_by_label("Address or token").fill(given)
+        page.get_by_role("button", name="Open the station").click()
+        if given == "wrong":
+            refused = page.get_by_role("alert").filter(has_text="no such token")
+            expect(refused).to_be_visible()
+    expect(missions_listed(page)).to_have_count(3)
+    context = page.context
     another = context.new_page()
-    first.close()
+    page.close()
     another.goto(f"http://127.0.0.1:{station.port}/")
     expect(missions_listed(another)).to_have_count(3)
     assert context.cookies() == []
-    watch.expected += ["401"]
     open_page(another, "Help")
     another.get_by_role("button", name="Forget the token").click()
     expect(another.get_by_role("heading")).to_contain_text("asks for its token")
-    last = context.new_page()
-    last.goto(f"http://127.0.0.1:{station.port}/")
-    expect(last.get_by_role("heading")).to_contain_text("asks for its token")
 
 
 COMMANDS = re.compile(
