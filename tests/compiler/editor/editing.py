@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Awaitable, Callable
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any
 
@@ -72,6 +73,11 @@ class Page:
             if message.get("push") == push and facts.items() <= message.items():
                 return message
 
+    async def saved(self) -> None:
+        """Wait until nothing is left to be saved."""
+        while self.session.files.unsaved:
+            await self.told("disk", what="saved")
+
 
 def app_in(folder: Path, text: str = APP, hooks: str | None = None) -> Path:
     """Write an app there, its line ends untouched."""
@@ -82,14 +88,15 @@ def app_in(folder: Path, text: str = APP, hooks: str | None = None) -> Path:
     return path
 
 
-async def working(session: Session, work: Callable[[], Awaitable[None]]) -> None:
-    """Do this while the session saves and looks at the disk."""
+@asynccontextmanager
+async def working(session: Session) -> AsyncIterator[None]:
+    """Let the session save, and look at the disk."""
     tasks = [
         asyncio.create_task(session.keep_saving()),
         asyncio.create_task(session.keep_looking()),
     ]
     try:
-        await work()
+        yield
     finally:
         for task in tasks:
             task.cancel()

@@ -41,12 +41,11 @@ async def test_what_is_changed_is_saved_and_undone_to_the_same_bytes(tmp_path: P
     session = Session(path)
     page = Page(session)
 
-    async def work() -> None:
+    async with working(session):
         await page.type(0, "# hi\n")
         await page.ask("edit", operation={"do": "Rename", "name": "judge", "new": "decide"})
         await page.ask("place", positions={"launch": [80, 40]})
-        while session.files.unsaved:
-            await page.told("disk", what="saved")
+        await page.saved()
         assert files_of(tmp_path).keys() == before.keys()
         assert (
             tmp_path / "farm.pluto.layout"
@@ -55,10 +54,7 @@ async def test_what_is_changed_is_saved_and_undone_to_the_same_bytes(tmp_path: P
         assert b"def decide(" in (tmp_path / "hooks.py").read_bytes()
         for _ in range(3):
             await page.ask("undo")
-        while session.files.unsaved:
-            await page.told("disk", what="saved")
-
-    await working(session, work)
+        await page.saved()
     assert files_of(tmp_path) == before
     assert path.stat().st_mode & 0o777 == 0o640
 
@@ -73,16 +69,13 @@ async def test_only_what_is_edited_is_ever_written(tmp_path: Path) -> None:
     session = Session(path)
     page = Page(session)
 
-    async def work() -> None:
+    async with working(session):
         await page.ask("stub", name="judge")
         await page.ask("place", positions={"watch": [1, 2]})
         await page.ask("edit", operation={"do": "SetTitle", "title": "../../other"})
         await page.ask("run", missions="../missions.toml")
         await page.ask("compile", write=False)
-        while session.files.unsaved:
-            await page.told("disk", what="saved")
-
-    await working(session, work)
+        await page.saved()
     found = files_of(tmp_path)
     assert sorted(found) == sorted([*others, "farm.pluto", "farm.pluto.layout", "hooks.py"])
     assert all(found[name] == name.encode() for name in others)
@@ -92,7 +85,7 @@ async def test_to_look_at_an_app_writes_nothing(tmp_path: Path) -> None:
     session = Session(tmp_path / "new.pluto")
     page = Page(session)
 
-    async def work() -> None:
+    async with working(session):
         await page.ask("ports", source="start", when=[])
         await page.ask("format")
         session.look()
@@ -100,8 +93,6 @@ async def test_to_look_at_an_app_writes_nothing(tmp_path: Path) -> None:
         assert files_of(tmp_path) == {}
         await page.type(0, "# first\n")
         await page.told("disk", what="saved")
-
-    await working(session, work)
     assert files_of(tmp_path) == {"new.pluto": b"# first\npluto 1\n\napp new {\n}\n"}
 
 
@@ -110,7 +101,7 @@ async def test_what_others_write_is_taken_in_and_can_be_undone(tmp_path: Path) -
     session = Session(path)
     page = Page(session)
 
-    async def work() -> None:
+    async with working(session):
         written_by_others(path, APP.replace("A farm", "A field"))
         push = await page.told("change")
         assert push["by"] == 0
@@ -120,8 +111,6 @@ async def test_what_others_write_is_taken_in_and_can_be_undone(tmp_path: Path) -
         await page.told("disk", what="merged")
         await page.ask("undo")
         await page.told("disk", what="saved")
-
-    await working(session, work)
     assert path.read_text() == APP
 
 
@@ -132,12 +121,9 @@ async def test_changes_of_both_are_put_together_where_the_statements_differ(tmp_
     await page.type(APP.index("The farm"), "My farm", APP.index("The farm") + 8)
     written_by_others(path, APP.replace("launch = ", "go = ").replace("launch", "go"))
 
-    async def work() -> None:
+    async with working(session):
         await page.told("disk", what="merged")
-        while session.files.unsaved:
-            await page.told("disk", what="saved")
-
-    await working(session, work)
+        await page.saved()
     assert path.read_text() == APP.replace("launch", "go").replace("The farm", "My farm")
 
 
@@ -152,7 +138,7 @@ async def test_the_same_statement_is_for_a_person_to_decide(tmp_path: Path, keep
     ours, theirs = APP.replace("The farm", "My farm"), APP.replace("The farm", "Your farm")
     written_by_others(path, theirs)
 
-    async def work() -> None:
+    async with working(session):
         push = await page.told("disk", what="conflict", file="app")
         assert (push["ours"], push["theirs"]) == (ours, theirs)
         assert session.lost
@@ -164,13 +150,10 @@ async def test_the_same_statement_is_for_a_person_to_decide(tmp_path: Path, keep
         await again.told("disk", what="conflict")
         assert "error" not in await page.ask("resolve", keep=keep)
         await again.told("disk", what="resolved")
-        while session.files.unsaved:
-            await page.told("disk", what="saved")
+        await page.saved()
         assert path.read_text() == (f"# more\n{ours}" if keep == "ours" else theirs)
         await page.ask("undo")
         assert session.files.history.app == (ours if keep == "ours" else f"# more\n{ours}")
-
-    await working(session, work)
 
 
 async def test_a_file_that_is_removed_is_kept_in_memory_and_written_with_the_next_change(
@@ -180,7 +163,7 @@ async def test_a_file_that_is_removed_is_kept_in_memory_and_written_with_the_nex
     session = Session(path)
     page = Page(session)
 
-    async def work() -> None:
+    async with working(session):
         path.unlink()
         await page.told("disk", what="gone")
         session.save()
@@ -194,21 +177,17 @@ async def test_a_file_that_is_removed_is_kept_in_memory_and_written_with_the_nex
         await page.told("disk", what="merged")
         assert session.files.history.app == APP
 
-    await working(session, work)
-
 
 async def test_hooks_that_others_write_appear(tmp_path: Path) -> None:
     session = Session(app_in(tmp_path, HOOKED))
     page = Page(session)
 
-    async def work() -> None:
+    async with working(session):
         (tmp_path / "hooks.py").write_text(
             "def judge(trip, candidates):\n    return candidates[0]\n"
         )
         push = await page.told("change", file="hooks")
         assert push["view"]["hooks"][0]["defined"] is True
-
-    await working(session, work)
 
 
 async def test_what_is_no_text_any_more_is_not_overwritten_unasked(tmp_path: Path) -> None:
@@ -216,7 +195,7 @@ async def test_what_is_no_text_any_more_is_not_overwritten_unasked(tmp_path: Pat
     session = Session(path)
     page = Page(session)
 
-    async def work() -> None:
+    async with working(session):
         path.write_bytes(b"app \xff")
         push = await page.told("disk", what="conflict")
         assert push["theirs"] is None
@@ -229,8 +208,6 @@ async def test_what_is_no_text_any_more_is_not_overwritten_unasked(tmp_path: Pat
         await page.told("disk", what="saved")
         assert path.read_text() == f"# hi\n{APP}"
 
-    await working(session, work)
-
 
 @pytest.mark.parametrize("name", ["farm.pluto", "farm.pluto.layout", "hooks.py"])
 async def test_nothing_is_written_through_a_link(tmp_path: Path, name: str) -> None:
@@ -240,15 +217,13 @@ async def test_nothing_is_written_through_a_link(tmp_path: Path, name: str) -> N
     secret = tmp_path / "secret"
     secret.write_text("mine")
 
-    async def work() -> None:
+    async with working(session):
         (tmp_path / name).unlink(missing_ok=True)
         (tmp_path / name).symlink_to(secret)
         await page.type(0, "# hi\n")
         await page.type(0, "# hi\n", file="hooks")
         await page.ask("place", positions={"watch": [1, 2]})
         await page.told(*(("cannot_save",) if name.endswith("layout") else ("disk",)))
-
-    await working(session, work)
     assert secret.read_text() == "mine"
     assert (tmp_path / name).is_symlink()
 
@@ -278,7 +253,7 @@ async def test_a_full_disk_is_told_and_nothing_is_lost(
 
     monkeypatch.setattr(os, "fsync", refused)
 
-    async def work() -> None:
+    async with working(session):
         await page.type(0, "# hi\n")
         push = await page.told("cannot_save")
         assert "No space left" in push["why"]
@@ -289,8 +264,6 @@ async def test_a_full_disk_is_told_and_nothing_is_lost(
         await page.type(0, "# and more\n")
         full[0] = False
         await page.told("disk", what="saved")
-
-    await working(session, work)
     assert path.read_text() == f"# and more\n# hi\n{APP}"
     assert not session.lost
 
@@ -301,14 +274,12 @@ async def test_a_read_only_file_is_told_and_left(tmp_path: Path) -> None:
     session = Session(path)
     page = Page(session)
 
-    async def work() -> None:
+    async with working(session):
         await page.type(0, "# hi\n")
         assert "read-only" in (await page.told("cannot_save"))["why"]
         assert path.read_text() == APP
         path.chmod(0o644)
         await page.told("disk", what="saved")
-
-    await working(session, work)
 
 
 def test_what_others_write_while_it_is_saved_is_noticed(

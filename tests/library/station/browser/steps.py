@@ -73,14 +73,6 @@ def drag(page: Page, action: str, place: Place) -> None:
     page.mouse.up()
 
 
-def item_of(page: Page, trip: int, name: str, mass: str) -> None:
-    """Say what is picked."""
-    card = card_of(page, trip)
-    card.get_by_label("Item", exact=False).first.fill(name)
-    card.get_by_label("Mass").fill(mass)
-    card.get_by_label("Mass").press("Tab")
-
-
 def card_of(page: Page, trip: int) -> Locator:
     """Return the card of the trip with this number."""
     return page.get_by_role("list", name="Trips").get_by_role("listitem").nth(trip - 1)

@@ -65,27 +65,6 @@ def draw(station: Station, visit: Visit, *actions: tuple[str, Place]) -> Page:
 
 
 @pytest.mark.long
-def test_a_pin_goes_with_the_mouse_in_steps_of_ten_centimetres_and_of_one_with_shift(
-    ward: Station, visit: Visit
-) -> None:
-    station, page = drawn(ward, visit, ("take_photo", (3.0, 7.5)))
-    take(page, (3.0, 7.5))
-    page.mouse.move(*on_the_screen(page, (9.04, 2.16)), steps=5)
-    page.mouse.up()
-    until(lambda: targets(station) == [[9.0, 2.2]], "it snaps to 0.1 m")
-    take(page, (9.0, 2.2))
-    page.keyboard.down("Shift")
-    page.mouse.move(*on_the_screen(page, (4.0, 3.0)), steps=5)
-    page.mouse.move(*on_the_screen(page, (10.0, 1.5)), steps=5)
-    page.mouse.up()
-    page.keyboard.up("Shift")
-    until(lambda: targets(station) != [[9.0, 2.2]], "it is moved")
-    [[x, y]] = targets(station)
-    assert abs(x - 10.0) < 0.05
-    assert abs(y - 1.5) < 0.05
-
-
-@pytest.mark.long
 def test_the_arrow_keys_move_a_pin_and_delete_removes_it_and_undo_brings_it_back(
     ward: Station, visit: Visit
 ) -> None:
@@ -116,50 +95,6 @@ def test_a_pin_over_a_no_fly_area_says_so_while_it_is_still_held(
     expect(pin_of(page, 1)).not_to_have_accessible_name(re.compile("Problem"))
     page.mouse.up()
     assert targets(station) == [[3.0, 7.5]]
-
-
-@pytest.mark.long
-def test_what_is_released_is_what_was_picked_before_it(ward: Station, visit: Visit) -> None:
-    """In name and in mass, though others are written later, and however the trips are ordered."""
-    station, page = drawn(
-        ward,
-        visit,
-        ("pick_item", (2.5, 4.0)),
-        ("take_photo", (9.0, 5.0)),
-        ("release_item", (16.0, 2.5)),
-    )
-    card_of(page, 1).get_by_role("button", name="Pick item").click()
-    card = card_of(page, 1)
-    card.get_by_label("Item", exact=True).fill("pills")
-    card.get_by_label("Mass").fill("8")
-    card.get_by_label("Mass").press("Tab")
-    item = {"name": "pills", "mass": "8 g"}
-    until(lambda: [one["item"] for one in trips(station)] == [item, None, item], "both have it")
-    card_of(page, 3).get_by_role("button", name="Release item").click()
-    expect(card_of(page, 3)).to_contain_text("Puts down “pills” (8 g), which trip 1 picks.")
-    page.keyboard.press("Alt+ArrowUp")
-    until(lambda: [one["item"] for one in trips(station)] == [item, item, None], "it is second now")
-    assert station.get("/api/plan")["problems"] == []
-
-
-@pytest.mark.long
-def test_the_map_is_zoomed_about_the_pointer_and_goes_with_the_hand(
-    ward: Station, visit: Visit
-) -> None:
-    _, page = drawn(ward, visit)
-    x, y = on_the_screen(page, (9.0, 5.0))
-    page.mouse.move(x, y)
-    page.mouse.wheel(0, -600)
-    until(lambda: scale(page) > 90, "it is larger")
-    now = on_the_screen(page, (9.0, 5.0))
-    assert abs(now[0] - x) < 3
-    assert abs(now[1] - y) < 3
-    page.mouse.down()
-    page.mouse.move(x + 60, y + 40, steps=4)
-    page.mouse.up()
-    until(lambda: on_the_screen(page, (9.0, 5.0))[0] - now[0] > 55, "it went along")
-    page.get_by_role("button", name="Whole map").first.click()
-    until(lambda: scale(page) < 60, "all is seen again")
 
 
 @pytest.mark.long
@@ -247,8 +182,3 @@ def test_a_row_and_a_grid_are_drawn_over_the_map_and_added_at_once(
     assert targets(station)[4:8] == [[7, 4.5], [8, 4.5], [9, 4.5], [9, 5.5]]
     page.get_by_role("button", name=re.compile("^Undo ")).click()
     until(lambda: len(trips(station)) == 4, "it goes at once, too")
-
-
-def scale(page: Page) -> float:
-    """Return how many pixels a metre takes."""
-    return on_the_screen(page, (1.0, 0.0))[0] - on_the_screen(page, (0.0, 0.0))[0]

@@ -127,24 +127,6 @@ def test_what_keeps_a_plan_from_starting_leads_to_its_field_wherever_that_is(
 
 
 @pytest.mark.long
-def test_a_height_that_cannot_be_flown_is_marked_itself_and_not_the_place_below(
-    planned: Station, visit: Visit
-) -> None:
-    page = visit(planned)
-    card = opened(page, "Mission 2", 1)
-    height = card.get_by_label("Height (m)")
-    height.fill("99")
-    height.press("Tab")
-    said = "The place (9, 1.5) at a height of 99 m is above the ceiling of 10 m"
-    expect(height).to_have_accessible_description(said)
-    expect(height).to_have_attribute("aria-invalid", "true")
-    expect(card.get_by_label("x (m)")).not_to_have_attribute("aria-invalid", "true")
-    open_page(page, "Help")
-    told(page).get_by_role("button").click()
-    expect(card_of(page, 1).get_by_label("Height (m)")).to_be_focused()
-
-
-@pytest.mark.long
 def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
     planned: Station, two: Two
 ) -> None:
