@@ -41,11 +41,7 @@ def edit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Edit]:
     editors: list[Editor] = []
 
     def edit(
-        example: str = "",
-        *,
-        text: str | bytes = "",
-        without: str = "",
-        file: Path | None = None,
+        example: str = "", *, text: str | bytes = "", without: str = "", file: Path | None = None
     ) -> Editor:
         if file is None:
             file = fresh(example, tmp_path / f"app{len(editors)}")

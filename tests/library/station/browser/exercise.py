@@ -25,10 +25,7 @@ PLAN: dict[str, list[Trip]] = {
         Trip("take_photo", (9.0, 8.5)),
         Trip("take_photo", (15.0, 8.5)),
     ],
-    "Mission 2": [
-        Trip("measure", (9.0, 1.5)),
-        Trip("measure", (15.0, 1.5)),
-    ],
+    "Mission 2": [Trip("measure", (9.0, 1.5)), Trip("measure", (15.0, 1.5))],
     "Mission 3": [
         Trip("pick_item", (2.5, 3.0), "pills"),
         Trip("release_item", (16.0, 2.5), "pills"),

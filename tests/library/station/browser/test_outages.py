@@ -12,13 +12,7 @@ from tests.kit.station import Station, until
 from tests.library.station.browser.cable import Cable
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import COMPLETED, DONE, names, put_in
-from tests.library.station.browser.steps import (
-    add_mission,
-    drag,
-    open_page,
-    sees_all,
-    start,
-)
+from tests.library.station.browser.steps import add_mission, drag, open_page, sees_all, start
 
 
 @pytest.fixture

@@ -139,10 +139,7 @@ def test_what_was_filled_in_is_kept_handed_out_and_flown_with(serve: Serve, visi
         page.get_by_label("Patient").fill(patient)
     page.get_by_label("Most").fill("12,5")
     page.get_by_label("Margin").fill("3 min")
-    until(
-        lambda: station.missions[1].get("margin") == "3 min",
-        "what was typed last is kept",
-    )
+    until(lambda: station.missions[1].get("margin") == "3 min", "what was typed last is kept")
     page.reload()
     select_mission(page, OTHER)
     expect(page.get_by_label("Patient")).to_have_value("Bianchi")

@@ -44,10 +44,7 @@ def test_promises_are_drawn_kept_exported_and_seen(serve: Serve, visit: Visit) -
     page.get_by_label("Due").fill("5 s")
     promise(page, SECOND)
     tick(page, FIRST)
-    until(
-        lambda: [one.get("after") for one in station.missions][1] == [FIRST],
-        "the order is kept",
-    )
+    until(lambda: [one.get("after") for one in station.missions][1] == [FIRST], "the order is kept")
     expect(page.get_by_role("option").nth(0)).to_contain_text("due 5 s")
     expect(page.get_by_role("option").nth(1)).to_contain_text(f"after {FIRST}")
     page.reload()
