@@ -19,32 +19,32 @@ from plutoc.service.editing.operations import KINDS
 
 from .editing import HOOKED, Page, app_in
 
+NAMES = (
+    "",
+    "watch",
+    "judge",
+    "STANDBY",
+    "app",
+    "hooks",
+    "../x",
+    "\x00",
+    "é🚁",
+    "\ud800",
+    "a" * 200,
+)
+KEYS = ("from", "to", "insert", "source", "target", "when", "do", "", "watch")
+FACTS = (
+    *("id", "version", "changes", "file", "positions", "problem", "name", "keep", "offset"),
+    *("source", "when", "code"),
+)
 VALUES = st.recursive(
     st.none()
     | st.booleans()
     | st.integers(-5, 400)
     | st.floats(allow_nan=False)
-    | st.sampled_from(
-        [
-            "",
-            "watch",
-            "judge",
-            "STANDBY",
-            "app",
-            "hooks",
-            "../x",
-            "\x00",
-            "é🚁",
-            "\ud800",
-            "a" * 200,
-        ]
-    ),
+    | st.sampled_from(NAMES),
     lambda inner: st.lists(inner, max_size=3)
-    | st.dictionaries(
-        st.sampled_from(["from", "to", "insert", "source", "target", "when", "do", "", "watch"]),
-        inner,
-        max_size=3,
-    ),
+    | st.dictionaries(st.sampled_from(KEYS), inner, max_size=3),
     max_leaves=6,
 )
 OPS = (
@@ -61,30 +61,14 @@ OPERATIONS = st.fixed_dictionaries(
 MESSAGES = st.fixed_dictionaries(
     {"op": st.sampled_from(OPS)},
     optional={
-        "id": VALUES,
         "operation": OPERATIONS | VALUES,
         "operations": st.lists(OPERATIONS | VALUES, max_size=3) | VALUES,
-        **dict.fromkeys(
-            (
-                "version",
-                "changes",
-                "file",
-                "positions",
-                "problem",
-                "name",
-                "keep",
-                "offset",
-                "source",
-                "when",
-                "code",
-            ),
-            VALUES,
-        ),
+        **dict.fromkeys(FACTS, VALUES),
     },
 )
 
 
-@settings(max_examples=150)
+@settings(max_examples=40)
 @example([{"op": "edit", "operation": {"do": []}}])
 @given(st.lists(MESSAGES, min_size=1, max_size=5))
 def test_no_message_is_met_with_more_than_a_sentence(messages: list[dict[str, object]]) -> None:
@@ -106,23 +90,13 @@ def test_no_message_is_met_with_more_than_a_sentence(messages: list[dict[str, ob
         asyncio.run(sent(Path(folder)))
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        "null",
-        "[]",
-        '"x"',
-        "{",
-        '{"op": NaN}',
-        '{"op": 1e999}',
-        '{"id": 99999999999999999999999}',
-        "[" * 100_000,
-        '{"a":' * 100_000,
-        "\x00",
-        '{"op": "undo"',
-    ],
+NO_OBJECTS = (
+    *("", "null", "[]", '"x"', "{", '{"op": NaN}', '{"op": 1e999}', '{"op": "undo"', "\x00"),
+    *('{"id": 99999999999999999999999}', "[" * 100_000, '{"a":' * 100_000),
 )
+
+
+@pytest.mark.parametrize("text", NO_OBJECTS, ids=range(len(NO_OBJECTS)))
 async def test_what_is_no_object_of_plain_data_is_refused(tmp_path: Path, text: str) -> None:
     with pytest.raises(Refused):
         parsed(text)
@@ -138,23 +112,9 @@ async def test_any_text_however_broken_has_a_picture(tmp_path: Path) -> None:
     session = Session(app_in(tmp_path, HOOKED, "def judge(trip, candidates):\n    return 1\n"))
     page = Page(session)
     await page.next()
-    pieces = [
-        "{",
-        "}",
-        "->",
-        "when ",
-        "(",
-        '"',
-        "\n",
-        "🚁",
-        "= Clock",
-        "[",
-        "otherwise",
-        "",
-        "def ",
-        "app ",
-    ]
-    for _ in range(150):
+    broken = ("{", "}", "->", "when ", "(", '"', "\n", "🚁", "= Clock", "[", "otherwise", "")
+    pieces = (*broken, "def ", "app ")
+    for _ in range(60):
         file = chance.choice(["app", "app", "hooks"])
         text = session.files.history.app if file == "app" else session.files.history.hooks or ""
         length = Wire(text).length

@@ -20,7 +20,7 @@ def state(history: History) -> tuple[str, str | None, dict[str, tuple[int, int]]
     return history.app, history.hooks, dict(history.positions)
 
 
-@settings(max_examples=150)
+@settings(max_examples=60)
 @given(TEXTS, st.none() | TEXTS, st.data())
 def test_undo_leads_back_to_the_same_bytes_and_redo_forth_again(
     app: str, hooks: str | None, data: st.DataObject

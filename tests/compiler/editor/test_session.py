@@ -77,11 +77,9 @@ async def test_what_cannot_be_done_is_said_in_a_sentence_and_changes_nothing(
 ) -> None:
     session = Session(app_in(tmp_path))
     page = Page(session)
+    nowhere = {"do": "Connect", "arrow": {"source": "watch", "target": "nowhere"}}
     for op, given in (
-        (
-            "edit",
-            {"operation": {"do": "Connect", "arrow": {"source": "watch", "target": "nowhere"}}},
-        ),
+        ("edit", {"operation": nowhere}),
         ("edit", {"operations": [{"do": "AddBlock", "kind": "Clock"}, {"do": "Explode"}]}),
         ("edit", {}),
         ("fix", {"problem": 0}),
