@@ -1,13 +1,15 @@
-"""`python -m tests.pages`: look at every page in every phase, size, scheme and language.
+"""Looks at every page of the station in every phase, in all sizes, schemes and languages; needs Chromium.
+
+    python -m tests.pages --sizes 360x740
 
 Pictures of all of it are kept in a folder; what lies over something else, sticks out, is cut off, or is a
-violation of WCAG A or AA, is printed, and fails the campaign.
+violation of WCAG A or AA, is printed, and fails the campaign. All sizes take some twenty minutes.
 """
 
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
+from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -20,6 +22,7 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.apart import apart
 from tests.kit.browser import A_STEP, ARGUMENTS, Scheme, chromium
+from tests.kit.campaign import Campaign
 from tests.kit.station import Station, Stations
 from tests.pages.crowd import crowded_station
 from tests.pages.looking import in_language, looked_at
@@ -31,37 +34,33 @@ PHONE = 760
 """Pixels of width below which a screen is touched."""
 
 
-class Matrix:
-    """All looks of one run, and what was wrong."""
+def look(page: Page, name: str, language: str, folder: Path) -> list[str]:
+    """Look at what is on the screen in a language, by day and by night; return what is wrong."""
 
-    def __init__(self, browser: Browser, folder: Path, languages: list[str]) -> None:
-        self._browser, self._folder, self._languages = browser, folder, languages
-        self.looks = 0
-        self.wrong: list[str] = []
+    def keep(scheme: Scheme, taken: bytes) -> None:
+        (folder / f"{name}-{scheme}.png").write_bytes(taken)
 
-    def look(self, station: Station, play: Scenes, size: str) -> None:
-        """Lead a page of this size through scenes, and look at each in all languages."""
-        width, height = (int(pixels) for pixels in size.split("x"))
-        context = self._browser.new_context(
-            viewport={"width": width, "height": height}, has_touch=width < PHONE
-        )
-        context.set_default_timeout(A_STEP)
-        page = context.new_page()
-        page.on("pageerror", lambda error: self.wrong.append(f"{size}: {error}"))
-        page.goto(station.url)
-        for scene in play(page, station):
-            for language in self._languages:
-                self._look(page, f"{scene}-{size}-{language}", language)
-        context.close()
+    return [f"{name}: {one}" for one in in_language(page, language, lambda: looked_at(page, keep))]
 
-    def _look(self, page: Page, name: str, language: str) -> None:
-        def keep(scheme: Scheme, taken: bytes) -> None:
-            self.looks += 1
-            (self._folder / f"{name}-{scheme}.png").write_bytes(taken)
 
-        for one in in_language(page, language, lambda: looked_at(page, keep)):
-            self.wrong.append(f"{name}: {one}")
-            print(self.wrong[-1], flush=True)
+def look_through(
+    browser: Browser, station: Station, play: Scenes, size: str, given: Namespace
+) -> list[str]:
+    """Lead a page of this size through scenes, and look at each in all languages."""
+    wrong: list[str] = []
+    width, height = (int(pixels) for pixels in size.split("x"))
+    context = browser.new_context(
+        viewport={"width": width, "height": height}, has_touch=width < PHONE
+    )
+    context.set_default_timeout(A_STEP)
+    page = context.new_page()
+    page.on("pageerror", lambda error: wrong.append(f"{size}: {error}"))
+    page.goto(station.url)
+    for scene in play(page, station):
+        for language in given.languages:
+            wrong += look(page, f"{scene}-{size}-{language}", language, given.pictures)
+    context.close()
+    return wrong
 
 
 def served(stations: Stations) -> Iterator[tuple[Station, Scenes]]:
@@ -81,23 +80,29 @@ def served(stations: Stations) -> Iterator[tuple[Station, Scenes]]:
 
 def main() -> int:
     """Run the campaign."""
-    parser = ArgumentParser(prog="python -m tests.pages", description=__doc__)
-    parser.add_argument("--sizes", nargs="+", default=SIZES, help="of the screens")
-    parser.add_argument("--languages", nargs="+", choices=LANGUAGES, default=LANGUAGES)
-    parser.add_argument("--pictures", type=Path, default=Path("every-page"), help="their folder")
-    given = parser.parse_args()
+    campaign = Campaign("tests.pages", __doc__)
+    campaign.unit = "size"
+    campaign.option("--sizes", nargs="+", default=SIZES, help="of the screens")
+    campaign.option("--languages", nargs="+", choices=LANGUAGES, default=LANGUAGES)
+    campaign.option("--pictures", type=Path, default=Path("every-page"), help="their folder")
+    given = campaign.parse()
     given.pictures.mkdir(parents=True, exist_ok=True)
     expect.set_options(timeout=A_STEP)
     with TemporaryDirectory() as temporary, apart(), sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=chromium(), args=ARGUMENTS)
-        matrix = Matrix(browser, given.pictures, list(given.languages))
         stations = Stations(Path(temporary))
-        for size in given.sizes:
+
+        def one(size: str) -> list[str]:
+            wrong: list[str] = []
             for station, play in served(stations):
-                matrix.look(station, play, size)
+                wrong += look_through(browser, station, play, size, given)
+            return wrong
+
+        for size, wrong in campaign.each(one, given.sizes):
+            if wrong:
+                campaign.found(size, *wrong)
         browser.close()
-    print(f"{matrix.looks} looks, {len(matrix.wrong)} of them wrong; pictures in {given.pictures}")
-    return 1 if matrix.wrong else 0
+    return campaign.over(f"the pictures are in {given.pictures}")
 
 
 if __name__ == "__main__":
