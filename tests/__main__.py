@@ -29,6 +29,7 @@ CAMPAIGNS = (
     "python -m tests.compiler.format --mutants 2000",
     "python -m tests.compiler.lsp.holes",
     "python -m tests.compiler.service",
+    "python -m tests.generated",
     "python -m tests.fuzz --minutes 10",
     "python -m tests.soundness --random 2000",
     "python -m tests.soundness --loops 5000 --fly 50",

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import ast
 import tomllib
 
 import hypothesis.strategies as st
-from hypothesis import given
+from hypothesis import given, settings
 
 from plutoc.emit.markup import fence, header, markdown, one_line, toml_text
+from plutoc.emit.python import literal
+from plutoc.emit.render import formatted
 
 WHOLE = st.text(st.characters(exclude_categories=["Cs"]))
 
@@ -17,6 +20,17 @@ def test_toml_gives_every_text_back(text: str) -> None:
     """Any text is ASCII in the file and itself when read."""
     assert toml_text(text).isascii()
     assert tomllib.loads(f"a = {toml_text(text)}") == {"a": text}
+
+
+@settings(max_examples=30)
+@given(st.text())
+def test_a_text_is_written_in_ascii_and_read_back_in_python(text: str) -> None:
+    """Any that a user has written."""
+    module = formatted(f"x = {literal(text)}")
+    assert module.isascii()
+    (assignment,) = ast.parse(module).body
+    assert isinstance(assignment, ast.Assign)
+    assert ast.literal_eval(assignment.value) == text
 
 
 def test_half_a_character_is_replaced() -> None:

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import ast
-import os
 import re
-import subprocess
-import sys
 import tomllib
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from hashlib import sha256
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, packages_distributions, requires
 from pathlib import Path
 
 import hypothesis.strategies as st
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 
 from plutoc.emit.flow_file import flow_file
 from plutoc.emit.markup import one_line
@@ -28,6 +27,8 @@ from plutoc.graph.app_names import taken_app_name
 from plutoc.plan.model import Plan
 from tests.compiler.emit.apps import ODD_NAMES, PARCELS, PLAIN, TYPED
 from tests.compiler.emit.plans import plan_of
+from tests.kit.apps import imported
+from tests.kit.command import python, run
 from tests.paths import ROOT
 
 ALFALFA = (ROOT / "tests/cases/alfalfa/app.pluto").read_text(encoding="utf-8")
@@ -44,11 +45,6 @@ def package_of(text: str, source_name: str = "app.pluto") -> Package:
     return emit(plan_of(text), source_name=source_name, picture="flowchart TD\n")
 
 
-def titled(plan: Plan, title: str) -> Plan:
-    graph = replace(plan.checked.graph, title=title)
-    return replace(plan, checked=replace(plan.checked, graph=graph))
-
-
 def write(package: Package, folder: Path) -> Path:
     for path, text in {**package.owned, **package.once}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
@@ -56,96 +52,53 @@ def write(package: Package, folder: Path) -> Path:
     return folder
 
 
-def run(folder: Path, *command: str) -> str:
-    """Run Python in a folder where only the package can be found, and return what it printed."""
-    environment = {**os.environ, "PYTHONPATH": "src", "PYTHONDONTWRITEBYTECODE": "1"}
-    done = subprocess.run(
-        [sys.executable, *command],
-        cwd=folder,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
-
-
-@pytest.mark.parametrize("name", ["odd_", "parcels", "typed_"])
-def test_package_passes_its_own_tests(name: str, tmp_path: Path) -> None:
-    """It flies as it is: all its missions end, and its stubs stand in for what is to be written."""
-    folder = write(package_of(APPS[name]), tmp_path)
-    assert " passed" in run(folder, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests")
+def titled(plan: Plan, title: str) -> Plan:
+    graph = replace(plan.checked.graph, title=title)
+    return replace(plan, checked=replace(plan.checked, graph=graph))
 
 
 @pytest.mark.parametrize("name", sorted(APPS))
 def test_files_of_the_readme_can_be_flown(name: str, tmp_path: Path) -> None:
     """The missions and the fleet copied from there are a plan that nothing is wrong with."""
-    folder = write(package_of(APPS[name]), tmp_path)
-    text = (folder / "README.md").read_text(encoding="utf-8")
+    text = package_of(APPS[name]).owned["README.md"]
     missions, fleet = re.findall(r"^```toml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    (folder / "missions.toml").write_text(missions, encoding="utf-8")
-    (folder / "fleet.toml").write_text(fleet, encoding="utf-8")
-    run(folder, "-m", name, "check", "missions.toml", "--fleet", "fleet.toml")
+    (tmp_path / "missions.toml").write_text(missions, encoding="utf-8")
+    (tmp_path / "fleet.toml").write_text(fleet, encoding="utf-8")
+    renamed = re.sub("^app ", "app readme_", APPS[name], flags=re.MULTILINE)
+    package = f"readme_{name}"
+    imported(package, write(package_of(renamed), tmp_path))
+    app, command = (import_module(f"{package}.{each}") for each in ("flow", "_runtime.command"))
+    words = ("check", tmp_path / "missions.toml", "--fleet", tmp_path / "fleet.toml")
+    assert run(partial(command.main, app.APP), *words).code == 0
 
 
-def test_package_is_strictly_typed(tmp_path: Path) -> None:
-    """mypy has nothing to say, the runtime, odd names and the plain flow included."""
-    folder = write(package_of(ODD_NAMES), tmp_path)
-    plain = emit(plan_of(ODD_NAMES, optimise=False), source_name="app.pluto", picture="")
-    for path in plain.owned.keys() - package_of(ODD_NAMES).owned.keys():
-        (folder / path).write_text(plain.owned[path])
-    (folder / "src/odd_/plain_flow.py").write_text(plain.owned["src/odd_/flow.py"])
-    command = (
-        "import os, sys; from mypy import api; os.environ['MYPYPATH'] = 'src';"
-        "out, err, code = api.run(['--strict', '--cache-dir', os.devnull, 'src']);"
-        "print(out, err); sys.exit(code)"
-    )
-    assert "no issues found" in run(folder, "-c", command)
+LOADED = """
+import sys, plain
+assert not {"asyncio", "argparse", "dataclasses"} & set(sys.modules)
+assert not [name for name in sys.modules if name.startswith("plain.")]
+try:
+    plain.Tripp
+except AttributeError as error:
+    assert str(error) == "module 'plain' has no attribute 'Tripp'"
+from plain import *
+assert Trip.__name__ == "Trip" and not {"asyncio", "argparse"} & set(sys.modules)
+from plain.flow import APP
+from plain._runtime.command import main
+assert main(APP, ["simulate", "missions.toml"]) == 0
+assert "plain._runtime.flow.engine" in sys.modules
+for word in ("uvicorn", "pytest", "pluto_fleet.station", "plain.testing"):
+    assert word not in sys.modules, word
+"""
 
 
-@pytest.mark.parametrize("options", [["--isolated"], ["--config", str(ROOT / "pyproject.toml")]])
-def test_package_is_clean_for_ruff(options: list[str], tmp_path: Path) -> None:
-    """By ruff's own rules, and by ours."""
-    for name, text in APPS.items():
-        write(package_of(text), tmp_path / name)
-    sources = [f"{name}/src/{name}" for name in APPS]
-    found = run(tmp_path, "-m", "ruff", "check", "--no-cache", *options, *sources)
-    assert "All checks passed" in found
-
-
-def test_simulating_loads_nothing_of_the_station(tmp_path: Path) -> None:
-    """Nor of the web: what only `serve` needs costs the other commands nothing."""
-    folder = write(package_of(PLAIN), tmp_path)
+@pytest.mark.process
+def test_each_command_loads_what_it_needs_and_no_more(tmp_path: Path) -> None:
+    """Importing loads next to nothing: types come when they are asked for, and a station only when served."""
+    write(package_of(PLAIN), tmp_path)
     mission = 'name = "M"\ntrip = [{ action = "measure", target = [1.0, 2.0] }]'
-    (folder / "missions.toml").write_text(f"[[mission]]\n{mission}\n")
-    code = (
-        "import sys; from plain.flow import APP; from plain._runtime.command import main;"
-        "code = main(APP, ['simulate', 'missions.toml']); print(code, *sys.modules)"
-    )
-    code_and_modules = run(folder, "-c", code).splitlines()[-1].split()
-    assert code_and_modules[0] == "0"
-    assert "plain._runtime.flow.engine" in code_and_modules
-    assert not [one for one in code_and_modules if "pluto_fleet.station" in one or "uvicorn" in one]
-
-
-def test_importing_the_package_loads_next_to_nothing(tmp_path: Path) -> None:
-    """Its types come when they are asked for, and none of them brings asyncio or argparse."""
-    folder = write(package_of(ALFALFA), tmp_path)
-    loaded = run(folder, "-c", "import sys, alfalfa; print(*sys.modules)").split()
-    assert not {"asyncio", "argparse", "dataclasses"} & set(loaded)
-    assert not [name for name in loaded if name.startswith("alfalfa.")]
-    names = "import sys; from alfalfa import *; print(Trip.__name__, *sys.modules)"
-    loaded = run(folder, "-c", names).split()
-    assert loaded[0] == "Trip"
-    assert not {"asyncio", "argparse"} & set(loaded)
-
-
-def test_unknown_name_is_refused_as_usual(tmp_path: Path) -> None:
-    """Loading types late does not change what a mistake looks like."""
-    folder = write(package_of(PLAIN), tmp_path)
-    code = "import plain\ntry: plain.Tripp\nexcept AttributeError as error: print(error)"
-    assert run(folder, "-c", code) == "module 'plain' has no attribute 'Tripp'\n"
+    (tmp_path / "missions.toml").write_text(f"[[mission]]\n{mission}\n")
+    done = python("-c", LOADED, cwd=tmp_path, PYTHONPATH="src")
+    assert done.code == 0, done.err
 
 
 def test_header_is_the_first_line() -> None:
@@ -175,14 +128,6 @@ def test_lock_records_every_other_owned_file() -> None:
     assert lock["app"] == "plain"
     assert list(lock["versions"]) == ["plutoc"]
     assert lock["files"] == {path: it for path, it in digests.items() if path != "pluto.lock"}
-
-
-def test_app_without_hooks_has_no_tests_of_them() -> None:
-    """There is a hooks.py to write in, and nothing in it yet but what it is for."""
-    package = package_of(PLAIN)
-    assert list(package.once) == ["src/plain/hooks.py"]
-    assert len(ast.parse(package.once["src/plain/hooks.py"]).body) == 1
-    assert "hooks" not in package.owned["src/plain/flow.py"]
 
 
 def test_project_has_a_name_that_a_distribution_can_have() -> None:
@@ -241,32 +186,6 @@ def test_no_app_has_the_name_of_what_builds_its_package() -> None:
     assert needed and all(map(taken_app_name, needed))
 
 
-SCRIPT = """
-import sys
-from tests.compiler.emit.test_package import ALFALFA, ODD_NAMES, package_of
-for text in (ALFALFA, ODD_NAMES):
-    package = package_of(text)
-    print({**package.owned, **package.once})
-"""
-
-
-def test_output_depends_on_nothing_but_the_source(tmp_path: Path) -> None:
-    """Hash seeds and folders change no byte."""
-    paths = [str(ROOT), *(str(ROOT / name) for name in ("grammar", "runtime", "stdlib_blocks"))]
-    outputs = set()
-    for seed, folder in (("1", ROOT), ("2", tmp_path)):
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "PYTHONHASHSEED": seed}
-        done = subprocess.run(
-            [sys.executable, "-c", SCRIPT],
-            cwd=folder,
-            env=environment,
-            capture_output=True,
-            check=True,
-        )
-        outputs.add(done.stdout)
-    assert len(outputs) == 1
-
-
 PLAN = plan_of(ALFALFA)
 HOSTILE = (
     '"""\nimport os\n"""',
@@ -301,6 +220,7 @@ def test_hostile_title_changes_no_finished_module(title: str) -> None:
     assert shape(owned(flow_file(titled(PLAN, title)), "app.pluto"), title) == FLOW
 
 
+@settings(max_examples=30)
 @given(st.one_of(st.text(), MARKS, st.sampled_from(HOSTILE)))
 def test_no_title_changes_the_shape_of_a_file(title: str) -> None:
     """What a user writes in quotes stays a text in Python, TOML and Markdown."""
