@@ -89,6 +89,8 @@ def test_why_all_wait_is_said_in_total() -> None:
     )
     facts = {"missions": 109, "low": 27, "takes": 0.5, "ready_in": 240, "lost": 1, "flying": 1}
     assert facts.items() <= cause.said["facts"].items()
+    never = of_waiting(2, [drone("cf1", "LOW")], 1.2)
+    assert never is not None and never.said["text"] == "2 missions wait: 1 drone is too low"
     assert of_waiting(109, [drone("cf1", "BUSY"), drone("cf2", "FREE")], None) is None
 
 

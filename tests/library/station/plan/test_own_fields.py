@@ -7,8 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.shared.domain.errors import BadInput
@@ -126,30 +124,3 @@ def test_the_example_has_them() -> None:
     assert said(plan) == [] and not plan.is_empty
     missions, _ = plan.launchable()
     assert missions
-
-
-ANY = st.one_of(
-    st.text(max_size=9), st.integers(-5, 5), st.floats(0, 9), st.booleans(), st.sampled_from(("3 min", "21 C", "40 %"))
-)  # fmt: skip
-NAMES = ("patient", "margin", "share", "urgent")
-
-
-@given(st.dictionaries(st.sampled_from(NAMES), ANY), st.dictionaries(st.sampled_from(("fragile", "warmth", "note", "layers")), ANY))  # fmt: skip
-def test_whatever_is_typed_is_kept_and_judged(of_mission: dict[str, Any], of_trip: dict[str, Any]) -> None:  # fmt: skip
-    """A plan is flown, or it says what keeps it from that; handed out, it says the same of itself."""
-    plan = drawn(
-        mission("mission-one", trip("trip-one-1", action="measure", **of_trip), **of_mission)
-    )
-    problems = said(plan)
-    if problems:
-        with pytest.raises(BadInput):
-            plan.launchable()
-    else:
-        assert plan.launchable()
-    other = drawn()
-    try:
-        other.import_toml(plan.export_toml(), other.revision)
-    except BadInput:
-        assert problems
-    else:
-        assert not problems and said(other) == []

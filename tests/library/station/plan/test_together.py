@@ -5,14 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from hypothesis import settings
-from hypothesis import strategies as st
-from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import MissionPlan, Stale
 from pluto_fleet.station.plan.problems import PlanProblem
-from tests.library.station.plan.drawing import MISSIONS, Json, a_plan, drawn, keyed, mission, trip
+from tests.library.station.plan.drawing import a_plan, drawn, mission, trip
 
 KEYS = ["mission-one", "mission-two"]
 
@@ -138,113 +135,3 @@ def test_marks_are_changes_that_all_pages_see() -> None:
     plan.unlock()
     plan.unlock()
     assert plan.revision == before + 2
-
-
-class Drawing(RuleBasedStateMachine):
-    """Two pages draw one plan as pages do: what is refused as stale is drawn on the newest."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.plan = a_plan()
-        self.pages = [self.plan.data(), self.plan.data()]
-        self.revision = self.plan.revision
-        self.seen = self.plan.data()
-        self.fixed: dict[str, Json] = {}
-        self.count = 0
-
-    @rule(page=st.integers(0, 1), place=st.integers(0, 5), drawn=MISSIONS)
-    def add(self, page: int, place: int, drawn: Json) -> None:
-        [new] = keyed([drawn])
-        self.count += 1
-        new["key"] = f"mission-{self.count}"
-        new["trips"] = [{**one, "key": f"{new['key']}-{one['key']}"} for one in new["trips"]]
-        self.edit(page, lambda missions: missions.insert(place, new))
-        assert new["key"] in keys_of(self.plan)
-
-    @rule(page=st.integers(0, 1), place=st.integers(0, 5), name=st.text(max_size=3))
-    def rename(self, page: int, place: int, name: str) -> None:
-        self.change(page, place, {"name": name})
-
-    @rule(page=st.integers(0, 1), place=st.integers(0, 5))
-    def empty(self, page: int, place: int) -> None:
-        self.change(page, place, {"trips": []})
-
-    @rule(page=st.integers(0, 1), place=st.integers(0, 5))
-    def delete(self, page: int, place: int) -> None:
-        self.edit(page, lambda missions: missions.pop(place) if missions[place:] else None)
-
-    @rule(page=st.integers(0, 1))
-    def reverse(self, page: int) -> None:
-        self.edit(page, lambda missions: missions.reverse())
-
-    @rule(page=st.integers(0, 1))
-    def look(self, page: int) -> None:
-        self.pages[page] = self.plan.data()
-
-    @rule(page=st.integers(0, 1))
-    def example(self, page: int) -> None:
-        self.look(page)
-        if len(keys_of(self.plan)) < 20:
-            self.plan.example(self.pages[page]["revision"])
-
-    @rule(places=st.sets(st.integers(0, 5)))
-    def launch(self, places: set[int]) -> None:
-        self.plan.launched([key for i, key in enumerate(keys_of(self.plan)) if i in places])
-        missions: Any = self.plan.data()["missions"]
-        self.fixed |= {one["key"]: one for one in missions if one["launched"]}
-
-    @rule()
-    def land(self) -> None:
-        self.plan.unlock()
-        self.fixed.clear()
-
-    def change(self, page: int, place: int, given: Json) -> None:
-        def apply(missions: list[Json]) -> None:
-            if missions[place:]:
-                missions[place] = {**missions[place], **given}
-
-        self.edit(page, apply)
-
-    def edit(self, page: int, change: Any) -> None:
-        """Change what the page has; if that is not the newest, the newest."""
-        for _ in range(2):
-            mine: Any = self.pages[page]
-            missions = list(mine["missions"])
-            change(missions)
-            try:
-                self.plan.replace(mine["revision"], missions)
-            except Stale:
-                self.look(page)
-            else:
-                break
-        self.look(page)
-        assert self.pages[page]["revision"] == self.plan.revision
-
-    @invariant()
-    def every_look_shows_the_same(self) -> None:
-        assert self.plan.data() == self.plan.data()
-
-    @invariant()
-    def the_revision_grows_with_every_change_and_only_then(self) -> None:
-        now = self.plan.data()
-        assert self.plan.revision >= self.revision
-        assert (now != self.seen) == (self.plan.revision > self.revision)
-        self.seen, self.revision = now, self.plan.revision
-
-    @invariant()
-    def what_flies_never_changes_nor_vanishes(self) -> None:
-        missions: Any = self.plan.data()["missions"]
-        by_key = {one["key"]: one for one in missions}
-        assert {key: by_key.get(key) for key in self.fixed} == self.fixed
-
-    @invariant()
-    def every_key_is_there_once(self) -> None:
-        missions: Any = self.plan.data()["missions"]
-        keys = [one["key"] for m in missions for one in (m, *m["trips"])]
-        assert len(keys) == len(set(keys))
-
-
-TestDrawing = Drawing.TestCase
-TestDrawing.settings = settings(
-    max_examples=25, stateful_step_count=25, derandomize=True, deadline=None
-)

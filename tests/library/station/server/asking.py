@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Awaitable, Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
@@ -14,8 +14,7 @@ from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.map.drawn import DrawnMap
 from pluto_fleet.station.map.ways import DrawnWays
 from pluto_fleet.station.plan.library import PlanLibrary
-from pluto_fleet.station.plan.plan import Stale
-from pluto_fleet.station.plan.shape import Shape
+from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.preflight.forecast import without_runs
 from pluto_fleet.station.preflight.start import PlannedStart
 from pluto_fleet.station.sign import Logo
@@ -26,6 +25,7 @@ from pluto_fleet.station.web.http import Reply, Request
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.station.wire_app import AppData
 from tests.library.station.jumping import run
+from tests.library.station.plan.drawing import a_plan
 
 HOST = "127.0.0.1:8765"
 OURS = {
@@ -37,47 +37,6 @@ OURS = {
 }
 """What a page of the station's own sends."""
 SEEN = {"flight": "", "seen": 0, "log": 0, "results": 0}
-
-
-@dataclass
-class APlan:
-    """A plan that anything may be put into."""
-
-    missions: object = ()
-    revision: int = 1
-
-    def data(self) -> Mapping[str, object]:
-        return {"revision": self.revision, "missions": self.missions, "problems": []}
-
-    def replace(self, revision: int, missions: object, by: str = "") -> None:
-        if revision != self.revision:
-            raise Stale("it has been changed meanwhile")
-        if not isinstance(missions, list):
-            raise BadInput("missions is no list")
-        self.missions, self.revision = missions, revision + 1
-
-    async def import_file(self, text: str, revision: int, file: str, by: str = "") -> None:
-        if "=" not in text:
-            raise BadInput(f"{file}:1: expected =")
-        self.replace(revision, [text])
-
-    def example(self, revision: int, by: str = "") -> None:
-        self.replace(revision, ["an example"])
-
-    async def examined(self) -> None:
-        """There is nothing to find."""
-
-    def saved(self, text: str, file: str) -> tuple[list[Shape], str]:
-        return [], ""
-
-    def add(self, read: Sequence[Shape], revision: object) -> None:
-        self.replace(cast(int, revision), [*read])
-
-    def take_instead(self, read: Sequence[Shape], revision: object) -> None:
-        self.replace(cast(int, revision), [*read])
-
-    def export_toml(self) -> str:
-        return "[[mission]]\n"
 
 
 class SomeResults:
@@ -145,7 +104,7 @@ class ThePast:
 class AStation:
     """A station at which everything can be done, or goes wrong."""
 
-    plan: APlan = field(default_factory=APlan)
+    plan: MissionPlan = field(default_factory=a_plan)
     past: ThePast = field(default_factory=ThePast)
     map: DrawnMap = field(default_factory=lambda: DrawnMap(SPACE, NOWHERE / "map.toml"))
     ways: DrawnWays = field(default_factory=lambda: DrawnWays(SPACE))
@@ -196,7 +155,7 @@ class AStation:
     @property
     def untouched(self) -> bool:
         """Whether nothing has been changed."""
-        return not self.done and self.plan == APlan()
+        return not self.done and self.plan.revision == 1
 
 
 @dataclass

@@ -19,7 +19,7 @@ def test_what_was_done_and_what_was_refused_stands_there(tmp_path: Path) -> None
     ask = asked(file=file)
     ask("POST", "/api/decide", {"id": "one", "mission": "<b>\u2028North", "answer": "done"})
     ask("POST", "/api/start", {"id": "two"}, without(origin="http://evil.example"))
-    ask("PUT", "/api/plan", {"revision": 9, "missions": []})
+    ask("POST", "/api/plan/example", {"revision": 9})
     ask("GET", "/pages/../secret")
     ask("GET", "/api/plan")
     done, refused, stale, nowhere = lines(file)
@@ -33,7 +33,7 @@ def test_what_was_done_and_what_was_refused_stands_there(tmp_path: Path) -> None
     }
     assert refused["refused"] == "POST /api/start"
     assert (refused["origin"], refused["status"]) == ("http://evil.example", 403)
-    assert (stale["do"], stale["status"]) == ("/api/plan", 409)
+    assert (stale["do"], stale["status"]) == ("/api/plan/example", 409)
     assert (nowhere["refused"], nowhere["status"]) == ("GET /pages/../secret", 404)
 
 

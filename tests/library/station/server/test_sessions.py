@@ -14,23 +14,19 @@ from urllib.parse import parse_qsl, urlsplit
 
 import pytest
 
-from pluto_fleet.station.map.ways import DrawnWays
 from pluto_fleet.station.web.http import Reply
 from tests.library.station.map.test_drawn import ward
-from tests.library.station.plan.drawing import a_plan
 from tests.library.station.plan.test_library import library
 
-from .asking import OURS, SPACE, Asked, AStation, asked
+from .asking import OURS, Asked, AStation, asked
 
 SESSIONS = sorted(Path(__file__).parent.glob("sessions/*.txt"))
 
 
 def whole(folder: Path) -> Asked:
     """Return a station with a map, a plan and a library of plans, at which every command can be done."""
-    plan = a_plan()
-    station: Any = AStation()
-    station.plan, station.library = plan, library(folder, plan)
-    station.map, station.ways = ward(folder), DrawnWays(SPACE)
+    station = AStation(map=ward(folder))
+    station.library = library(folder, station.plan)
     return asked(station)
 
 
@@ -63,8 +59,7 @@ def talked(ask: Asked, session: str) -> str:
         if not request.startswith("> "):
             continue
         first, *others = request.splitlines()
-        plan: Any = ask.station.plan
-        first = first.replace("$now", str(plan.revision))
+        first = first.replace("$now", str(ask.station.plan.revision))
         _, method, address, *body = first.split(" ", 3)
         headers = dict(OURS)
         for line in others:
