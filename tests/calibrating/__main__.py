@@ -9,23 +9,23 @@ Fewer than 95 of 100 are a failure.
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
-from pathlib import Path
-from tempfile import TemporaryDirectory
+from collections.abc import Sequence
 
-from tests.calibrating.campaign import campaign
+from tests.calibrating.cases import SHARE, Tally, fitted
+from tests.kit.campaign import Campaign
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the campaign; 1 if too few cases were told right."""
-    parser = ArgumentParser(prog="python -m tests.calibrating", description=__doc__)
-    parser.add_argument("--cases", type=int, default=100, help="how many (default: 100)")
-    parser.add_argument("--first", type=int, default=0, help="the first one (default: 0)")
-    options = parser.parse_args()
-    with TemporaryDirectory() as folder:
-        tally = campaign(range(options.first, options.first + options.cases), Path(folder))
-    print("\n".join(tally.lines()))
-    return 1 if tally.whole < 0.95 * tally.cases else 0
+    campaign = Campaign("tests.calibrating", __doc__)
+    campaign.draws("cases", 100)
+    campaign.parse(arguments)
+    tally = Tally()
+    for number, case in campaign.each(fitted, campaign.numbers):
+        tally.add(number, *case)
+    if tally.whole < SHARE * tally.cases:
+        campaign.found("too few cases were told right")
+    return campaign.over(*tally.lines())
 
 
 if __name__ == "__main__":

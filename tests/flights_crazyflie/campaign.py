@@ -12,10 +12,7 @@ from __future__ import annotations
 import re
 import sys
 import time
-from argparse import ArgumentParser
-from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
-from itertools import repeat
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import mkdtemp
 
@@ -36,6 +33,7 @@ from tests.flights_crazyflie.plans import (
 from tests.flights_crazyflie.scenarios import ALL, SCENARIOS, Scenario
 from tests.kill.lives import eventually
 from tests.kill.trial import gateway_of
+from tests.kit.campaign import Campaign
 
 _LEAVES = 180.0
 """Seconds within which the gateway ends, once the app has."""
@@ -103,39 +101,28 @@ def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
         yield "a traceback was printed"
 
 
-def _flown(scenario: Scenario, source: Path, folder: Path) -> list[str]:
-    """Fly a scenario; return a line on it, and one for each thing that was wrong."""
-    began = time.monotonic()
-    flight, wrong = fly(scenario, source, folder)
-    took, said = time.monotonic() - began, "; ".join(flight.notes)
-    how = "WRONG" if wrong else "as meant"
-    return [f"{scenario.name:29} {how:9} {took:4.0f} s  {said}", *wrong]
-
-
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Fly the scenarios that are named, or all; 1 if anything was wrong."""
-    parser = ArgumentParser(prog="python -m tests.flights_crazyflie.campaign", description=__doc__)
-    parser.add_argument("names", nargs="*", metavar="SCENARIO", help="default: all")
-    parser.add_argument(
-        "--at-once", type=int, default=1, metavar="N", help="fly N side by side (default: 1)"
-    )
-    options = parser.parse_args()
-    names = options.names
-    known = [scenario.name for scenario in SCENARIOS]
-    if any(name not in known for name in names):
-        parser.error(f"there are {', '.join(known)}")
+    campaign = Campaign("tests.flights_crazyflie.campaign", __doc__)
+    campaign.unit = "flight"
+    by_name = {scenario.name: scenario for scenario in SCENARIOS}
+    campaign.option("names", nargs="*", metavar="SCENARIO", help="default: all")
+    campaign.side_by_side()
+    names = campaign.parse(arguments).names or list(by_name)
+    if unknown := [name for name in names if name not in by_name]:
+        campaign.parser.error(f"there is no {unknown[0]}; there are {', '.join(by_name)}")
     folder = Path(mkdtemp(prefix="crazyflies-"))
     source = quick_package(folder / "package")
     print(f"flights in {folder}", flush=True)
-    chosen = [one for one in SCENARIOS if not names or one.name in names]
-    folders = [folder / str(number) for number, _ in enumerate(chosen)]
-    bad = 0
-    with ThreadPoolExecutor(options.at_once) as pool:
-        for lines in pool.map(_flown, chosen, repeat(source), folders):
-            bad += len(lines) > 1
-            print(*lines, sep="\n    ", flush=True)
-    print(f"{bad} of {len(chosen)} are wrong")
-    return 1 if bad else 0
+
+    def flown(name: str) -> tuple[Flight, list[str]]:
+        return fly(by_name[name], source, folder / name.replace(" ", "-"))
+
+    for name, (flight, wrong) in campaign.each(flown, names, threads=True):
+        print(f"{name:31} {'; '.join(flight.notes)}", flush=True)
+        if wrong:
+            campaign.found(name, *wrong)
+    return campaign.over()
 
 
 if __name__ == "__main__":

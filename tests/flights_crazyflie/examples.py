@@ -13,10 +13,8 @@ from __future__ import annotations
 import sys
 import time
 import tomllib
-from argparse import ArgumentParser
 from collections import Counter
-from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
@@ -29,6 +27,7 @@ from tests.flights_crazyflie.flight import Event, Flight
 from tests.flights_crazyflie.judge import beside_its_target, nearest, unmeant
 from tests.flights_crazyflie.plans import quick_package, write
 from tests.kit.apps import EXAMPLES, NAMES
+from tests.kit.campaign import Campaign
 
 SPEED = 1.0
 """Metres per second that fast drones fly at most: their position controllers allow no more."""
@@ -147,51 +146,39 @@ def _not_really_done(flight: Flight, done: list[Event]) -> Iterator[str]:
                 yield f"there is no photo {file}"
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Fly the examples that are named, or all; 1 if anything was wrong."""
-    parser = ArgumentParser(prog="python -m tests.flights_crazyflie.examples", description=__doc__)
-    parser.add_argument("names", nargs="*", metavar="EXAMPLE", help="default: all")
-    parser.add_argument(
-        "--times", type=int, default=1, metavar="N", help="how often each is flown (default: 1)"
-    )
-    parser.add_argument(
-        "--at-once",
-        type=int,
-        default=AT_ONCE,
-        metavar="N",
-        help=f"how many are flown side by side (default: {AT_ONCE})",
-    )
-    parser.add_argument(
-        "--as-written", action="store_true", help="at their own speed: alfalfa takes half an hour"
-    )
-    options = parser.parse_args()
+    campaign = Campaign("tests.flights_crazyflie.examples", __doc__)
+    campaign.unit = "flight"
+    campaign.option("names", nargs="*", metavar="EXAMPLE", help="default: all")
+    campaign.option("--times", type=int, default=1, help="how often each is flown (default: 1)")
+    campaign.side_by_side(AT_ONCE)
+    what = "at their own speed: alfalfa takes half an hour"
+    campaign.option("--as-written", action="store_true", help=what)
+    options = campaign.parse(arguments)
     names = options.names or NAMES
-    if any(name not in NAMES for name in names):
-        parser.error(f"there are {', '.join(NAMES)}")
-    if options.times < 1 or options.at_once < 1:
-        parser.error("--times and --at-once are 1 at least")
+    if unknown := [name for name in names if name not in NAMES]:
+        campaign.parser.error(f"there is no {unknown[0]}; there are {', '.join(NAMES)}")
     folder = Path(mkdtemp(prefix="examples-"))
     print(f"flights in {folder}", flush=True)
-    flights: list[Flight] = []
-    for name in names:
-        speed = None if options.as_written else SPEED
-        source = quick_package(folder / name / "package", speed, name)
-        for number in range(1, options.times + 1):
-            flights.append(
-                prepared(name, source, folder / name / str(number), as_written=options.as_written)
-            )
-    bad = 0
-    with ThreadPoolExecutor(options.at_once) as pool:
-        for flight, wrong in zip(flights, pool.map(wrong_with, flights), strict=True):
-            bad += bool(wrong)
-            said = "; ".join(flight.notes)
-            print(f"{flight.app:26} {'WRONG' if wrong else 'as meant':9} {said}")
-            reasons = _failures(flight.events) if flight.journal.exists() else ()
-            for one in [*wrong, *dict.fromkeys(f"- {why}" for why in reasons)]:
-                print(f"    {one}")
-            sys.stdout.flush()
-    print(f"{bad} of {len(flights)} are wrong")
-    return 1 if bad else 0
+    speed = None if options.as_written else SPEED
+    sources = {name: quick_package(folder / name / "package", speed, name) for name in names}
+
+    def flown(case: tuple[str, int]) -> tuple[Flight, list[str]]:
+        name, number = case
+        place = folder / name / str(number)
+        flight = prepared(name, sources[name], place, as_written=options.as_written)
+        return flight, wrong_with(flight)
+
+    cases = [(name, number) for name in names for number in range(1, options.times + 1)]
+    for (name, number), (flight, wrong) in campaign.each(flown, cases, threads=True):
+        print(f"{name} {number}: {'; '.join(flight.notes)}", flush=True)
+        reasons = _failures(flight.events) if flight.journal.exists() else ()
+        for why in dict.fromkeys(reasons):
+            print(f"    - {why}")
+        if wrong:
+            campaign.found(f"{name} {number}", *wrong)
+    return campaign.over()
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from contextlib import closing, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from subprocess import TimeoutExpired
 from typing import Any
 
 from pluto_fleet.crtp import process
@@ -83,6 +84,12 @@ class Flight(Lives):
         """Wait until something holds."""
         if not eventually(holds, seconds):
             raise AssertionError(f"it does not come to that:\n{self.told}")
+
+    def goes_on(self, seconds: float) -> None:
+        """Let it go on for a while, or to its end."""
+        assert self.life is not None
+        with suppress(TimeoutExpired):
+            self.life.wait(seconds)
 
     def until_up(self, drone: str, height: float = 0.3) -> None:
         """Wait until a drone is so high."""

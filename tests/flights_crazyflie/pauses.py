@@ -14,8 +14,6 @@ from __future__ import annotations
 
 import asyncio
 import sys
-import time
-from argparse import ArgumentParser
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,11 +24,11 @@ from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones.errors import NavigationError
-from pluto_fleet.drones.protocol import DroneSetup
 from tests.flights_crazyflie.judge import dropped
-from tests.kit.unthreaded import in_virtual_time
+from tests.kit.campaign import Campaign
+from tests.kit.unthreaded import in_virtual_time, passes
+from tests.library.crazyflie.hangar import navigation
 
-FIRST, LAST, STEP, DRONES = 0.0, 6.0, 0.02, 24
 HEIGHT, SPEED = 0.3, 1.0
 _NEAR = 0.15
 """Metres from that height within which a drone hovers after its take-off."""
@@ -48,7 +46,7 @@ class Outcome:
     """Empty: it flew."""
 
 
-def pauses(first: float = FIRST, last: float = LAST, step: float = STEP) -> list[float]:
+def pauses(first: float, last: float, step: float) -> list[float]:
     """Return the pauses to be flown."""
     return [first + step * number for number in range(round((last - first) / step) + 1)]
 
@@ -80,22 +78,13 @@ async def _chain(
     server: Server, record: MemoryLog, build: Build, wanted: Sequence[float], folder: Path
 ) -> list[Outcome]:
     """Fly some pauses with one drone, one after the other."""
-    flies = Crazyflie(
-        DroneSetup(
-            id=build.id,
-            uri=server.uris[build.id],
-            home=build.home,
-            speed=SPEED,
-            options={"least_voltage": 0.0},
-            folder=folder,
-        )
-    )
+    flies = navigation(build, server.uris[build.id], folder, {"least_voltage": 0.0}, SPEED)
     outcomes: list[Outcome] = []
     try:
         await flies.connect()
         await _up_and_down(server, flies, build.id)
         for pause in wanted:
-            await asyncio.sleep(pause)
+            await passes(pause)
             before = len(record.commands)
             try:
                 async with asyncio.timeout(_PATIENCE):
@@ -121,35 +110,24 @@ async def _up_and_down(server: Server, flies: Crazyflie, id: str) -> str:
     return "it has not landed" if server.drones[id].body.airborne else ""
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Fly them all; 1 if anything was wrong."""
-    parser = ArgumentParser(prog="python -m tests.flights_crazyflie.pauses", description=__doc__)
-    for name, default, what in (
-        ("--first", FIRST, "the shortest pause, in seconds"),
-        ("--last", LAST, "the longest"),
-        ("--step", STEP, "between two pauses"),
-    ):
-        parser.add_argument(name, type=float, default=default, metavar="S", help=what)
-    parser.add_argument(
-        "--drones", type=int, default=DRONES, metavar="N", help="how many fly at once"
-    )
-    parser.add_argument(
-        "--auto-arm", action="store_true", help="drones that arm by themselves, and not on request"
-    )
-    options = parser.parse_args()
+    campaign = Campaign("tests.flights_crazyflie.pauses", __doc__)
+    campaign.option("--first", type=float, default=0.0, help="the shortest pause, in seconds")
+    campaign.option("--last", type=float, default=6.0, help="the longest")
+    campaign.option("--step", type=float, default=0.02, help="between two pauses")
+    campaign.option("--drones", type=int, default=24, help="how many fly at once")
+    what = "drones that arm by themselves, and not on request"
+    campaign.option("--auto-arm", action="store_true", help=what)
+    options = campaign.parse(arguments)
     wanted = pauses(options.first, options.last, options.step)
-    if not wanted or options.drones < 1:
-        parser.error("there is nothing to fly")
-    began = time.monotonic()
     with TemporaryDirectory(prefix="pauses-") as folder:
         flights = sweep(wanted, options.drones, Path(folder), auto_arm=options.auto_arm)
         outcomes = in_virtual_time(flights)
-    bad = [one for one in outcomes if one.wrong]
-    for one in bad:
-        print(f"{one.pause:.2f} s: {one.wrong}")
-    took = time.monotonic() - began
-    print(f"{len(outcomes) - len(bad)} of {len(outcomes)} pauses were flown in {took:.0f} s")
-    return 1 if bad else 0
+    for one in outcomes:
+        if one.wrong:
+            campaign.found(f"a pause of {one.pause:.2f} s", one.wrong)
+    return campaign.over(f"{len(outcomes)} pauses were flown")
 
 
 if __name__ == "__main__":

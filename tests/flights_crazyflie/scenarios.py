@@ -71,7 +71,7 @@ def silent_for(seconds: float) -> Doing:
     def let(flight: Flight) -> None:
         flight.until_up("cf1")
         flight.let("cf1", "silent", True)
-        time.sleep(seconds)
+        flight.goes_on(seconds)
         flight.let("cf1", "silent", False)
 
     return let
@@ -108,7 +108,7 @@ def busy_for_a_while(flight: Flight) -> None:
     """Let a drone refuse each command in its flight, for some seconds."""
     flight.until_up("cf1")
     flight.let("cf1", "busy", True)
-    time.sleep(6.0)
+    flight.goes_on(6.0)
     flight.let("cf1", "busy", False)
 
 
@@ -118,7 +118,7 @@ def fetched(doing: Doing) -> Doing:
     def let(flight: Flight) -> None:
         doing(flight)
         eventually(lambda: "cf1" not in flight.airborne(), 60.0)
-        time.sleep(2.0)
+        flight.goes_on(2.0)
         flight.let("cf1", "fetch", True)
 
     return let

@@ -12,8 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-from pluto_fleet.crazyflie.navigation import Crazyflie
-from pluto_fleet.drones.protocol import DroneSetup
+from pluto_fleet.crtp.drone import Build
 from pluto_fleet.drones.team import Team
 from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.gateway.gateway import Gateway, Link
@@ -24,6 +23,7 @@ from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
+from tests.library.crazyflie.hangar import navigation
 
 T = TypeVar("T")
 
@@ -117,10 +117,8 @@ async def commanded(
         log.append(f"{loop.time() - began:6.2f} {line}")
 
     def craft(id: str, home: Point) -> TeamDrone:
-        setup = DroneSetup(
-            id=id, uri=uris[id], home=home, speed=QUICK.speed, options=options, folder=folder
-        )
-        return TeamDrone(id=id, category=QUICK, home=home, navigation=Crazyflie(setup))
+        flies = navigation(Build(id=id, home=home), uris[id], folder, options, QUICK.speed)
+        return TeamDrone(id=id, category=QUICK, home=home, navigation=flies)
 
     drones = [craft(id, home) for id, home in homes.items()]
     team = Team(kernel, drones, HALL, folder=folder, say=say, clock=loop.time)

@@ -10,43 +10,98 @@ world. The moments are drawn by the seed, but real processes meet them different
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from random import Random
 from tempfile import mkdtemp
-from time import monotonic
 
-from tests.kill.campaign import campaign
+from tests.kill.lives import Flight
+from tests.kill.painter import HOUSE, painter_in
+from tests.kill.plans import PLANS
 from tests.kill.tally import Tally
+from tests.kill.trial import Trial
+from tests.kit.apps import compiled
+from tests.kit.campaign import Campaign
+
+SPEEDS = (10.0, 20.0, 40.0)
+"""How much faster than the clock time passes."""
+MISHAPS = ("crash=0%", "crash=0%", "crash=5%,action=5%", "link=10%,action=10%")
+"""What goes wrong besides."""
+KILLS = (2, 7)
+"""How many a flight gets at most."""
+HOPELESS = 10
+"""Flights in a row with nothing killed: then something else is wrong."""
 
 
-def main() -> int:
+class Flights:
+    """Flights, until so many brains and gateways were killed."""
+
+    def __init__(self, folder: Path, *, brains: int, gateways: int, seed: int) -> None:
+        self.tally = Tally()
+        self._folder, self._brains, self._gateways, self._seed = folder, brains, gateways, seed
+        self._plans = (*PLANS, HOUSE)
+        self._sources = {plan.app: compiled(plan.app) / "src" for plan in PLANS}
+        self._sources[HOUSE.app] = painter_in(folder / "painter") / "src"
+
+    def _left(self) -> tuple[int, int]:
+        """Return how many brains and gateways are still to be killed."""
+        tally = self.tally
+        return self._brains - tally.brains.total(), self._gateways - tally.gateways.total()
+
+    def numbers(self) -> Iterator[int]:
+        """Yield the numbers of the flights."""
+        number = idle = 0
+        while max(left := self._left()) > 0:
+            yield number
+            number, idle = number + 1, idle + 1 if left == self._left() else 0
+            if idle == HOPELESS:
+                raise AssertionError(f"{idle} flights in a row in which nothing could be killed")
+
+    def fly(self, number: int) -> list[str]:
+        """Fly, kill and resume; return what is wrong."""
+        random = Random(f"{self._seed}/{number}")
+        plan = self._plans[number % len(self._plans)]
+        place = self._folder / f"flight{number}"
+        place.mkdir(parents=True)
+        (place / "go").touch()  # for the painter
+        flight = Flight(
+            app=plan.app,
+            source=self._sources[plan.app],
+            folder=place,
+            speed=random.choice(SPEEDS),
+            chance=["--seed", str(number), "--fail", random.choice(MISHAPS)],
+        )
+        victims = _victims(random, *self._left())
+        return Trial(
+            plan=plan, flight=flight, random=random, victims=victims, tally=self.tally
+        ).run()
+
+
+def _victims(random: Random, brains: int, gateways: int) -> list[str]:
+    """Choose what one flight shall lose, no more than is still to be killed."""
+    most = random.randint(*KILLS)
+    all_of_them = ["brain"] * min(brains, most) + ["gateway"] * min(gateways, most)
+    random.shuffle(all_of_them)
+    return all_of_them[:most]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the campaign; 1 if anything was wrong."""
-    parser = ArgumentParser(prog="python -m tests.kill", description=__doc__)
-    parser.add_argument("--brain", type=int, default=500, help="kills of the brain (default: 500)")
-    parser.add_argument("--gateway", type=int, default=100, help="of the gateway (default: 100)")
-    parser.add_argument("--seed", type=int, default=1, help="which moments (default: 1)")
-    parser.add_argument("--folder", type=Path, help="where to fly; default: a new one, named")
-    options = parser.parse_args()
+    campaign = Campaign("tests.kill", __doc__)
+    campaign.unit = "flight"
+    campaign.option("--brain", type=int, default=500, help="kills of the brain (default: 500)")
+    campaign.option("--gateway", type=int, default=100, help="of the gateway (default: 100)")
+    campaign.option("--seed", type=int, default=1, help="which moments (default: 1)")
+    campaign.option("--folder", type=Path, help="where to fly; default: a new one, named")
+    campaign.in_time()
+    options = campaign.parse(arguments)
     folder = options.folder or Path(mkdtemp(prefix="kill-"))
-    folder.mkdir(parents=True, exist_ok=True)
     print(f"flights in {folder}", flush=True)
-    began = monotonic()
-
-    def tell(tally: Tally) -> None:
-        if tally.flights % 10 == 0 or tally.problems:
-            brains, gateways = tally.brains.total(), tally.gateways.total()
-            print(
-                f"{monotonic() - began:.0f} s: {tally.flights} flights, {brains} brains and"
-                f" {gateways} gateways killed, {len(tally.problems)} problems",
-                flush=True,
-            )
-
-    tally = campaign(
-        folder, brains=options.brain, gateways=options.gateway, seed=options.seed, tell=tell
-    )
-    print("\n".join(tally.lines()))
-    print(f"{monotonic() - began:.0f} s")
-    return 1 if tally.problems else 0
+    flights = Flights(folder, brains=options.brain, gateways=options.gateway, seed=options.seed)
+    for number, wrong in campaign.each(flights.fly, flights.numbers()):
+        if wrong:
+            campaign.found(f"flight {number}", *wrong)
+    return campaign.over(*flights.tally.lines())
 
 
 if __name__ == "__main__":

@@ -30,7 +30,8 @@ class Lives:
     """Where its journal and its two files are."""
     lives: list[str] = field(default_factory=list)
     """What each life has printed."""
-    _life: subprocess.Popen[bytes] | None = None
+    life: subprocess.Popen[bytes] | None = None
+    """The one that is being lived."""
 
     @property
     def journal(self) -> Path:
@@ -55,30 +56,30 @@ class Lives:
     @property
     def pid(self) -> int:
         """The process of the life that is being lived."""
-        assert self._life is not None
-        return self._life.pid
+        assert self.life is not None
+        return self.life.pid
 
     def begin(self, *words: str) -> None:
         """Let a life begin with a command of the app."""
         with self._file.open("wb") as out:
-            self._life = subprocess.Popen(
+            self.life = subprocess.Popen(
                 self.command(*words), env=self._environment, stdout=out, stderr=subprocess.STDOUT
             )
 
     def kill(self) -> bool:
         """Kill the life as nothing can be kept from; False: it had ended by itself."""
-        assert self._life is not None
-        if self._life.poll() is None:
-            os.kill(self._life.pid, signal.SIGKILL)
-        killed = self._life.wait() == -signal.SIGKILL
+        assert self.life is not None
+        if self.life.poll() is None:
+            os.kill(self.life.pid, signal.SIGKILL)
+        killed = self.life.wait() == -signal.SIGKILL
         self._over()
         return killed
 
     def wait(self, seconds: float) -> int | None:
         """Return the exit code if the life ends within so many seconds."""
-        assert self._life is not None
+        assert self.life is not None
         try:
-            code = self._life.wait(seconds)
+            code = self.life.wait(seconds)
         except subprocess.TimeoutExpired:
             return None
         self._over()
@@ -109,7 +110,7 @@ class Lives:
 
     def end(self) -> None:
         """Leave no life behind."""
-        if self._life is not None:
+        if self.life is not None:
             self.kill()
 
     @property
@@ -126,7 +127,7 @@ class Lives:
         return self.folder / f"life{len(self.lives)}.txt"
 
     def _over(self) -> None:
-        self._life = None
+        self.life = None
         self.lives.append(self.printed)
 
 
@@ -154,7 +155,7 @@ class Flight(Lives):
 
     def until_it_flies(self) -> None:
         """Wait until the life commands drones, or has ended."""
-        life = self._life
+        life = self.life
         assert life is not None
         eventually(lambda: self._hears() != self._heard or life.poll() is not None)
 

@@ -10,19 +10,18 @@ code must be that of how they ended, and no process may be left running.
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import mkdtemp
-from time import monotonic
 
 from pluto_fleet.journal.reader import Reader
 from tests.kill.judge import folded
 from tests.kill.lives import Flight, alive, eventually
-from tests.kill.misfits import RAISED, VALUES, misfits_in, plan_of
+from tests.kill.misfits import RAISED, misfits_in, plan_of
 from tests.kill.trial import end_gateway, gateway_of
+from tests.kit.campaign import Campaign
 
 LONGEST_OUTPUT = 400_000
 """Bytes that a flight may print, no matter what its hooks say."""
@@ -43,10 +42,6 @@ class Trial:
     missions: Sequence[tuple[str, Trips]]
     fails: frozenset[str] = frozenset()
     """The missions that must fail, with a reason; all others must be completed."""
-    world: str = ""
-    """What its fleet file says besides."""
-    refused: bool = False
-    """It must not be flown at all."""
     lives: int = 1
     look: Look = _nothing_more
     """Yields what else is wrong."""
@@ -54,9 +49,7 @@ class Trial:
     def fly(self, source: Path, folder: Path) -> list[str]:
         """Fly it, and return what is wrong."""
         folder.mkdir(parents=True)
-        files = plan_of(*self.missions).write(folder)
-        with files["fleet"].open("a") as fleet:
-            fleet.write(self.world)
+        plan_of(*self.missions).write(folder)
         flight = Flight(app="misfits", source=source, folder=folder, speed=20.0)
         try:
             flight.start("--supervise")
@@ -68,10 +61,6 @@ class Trial:
 
     def _wrong(self, flight: Flight, code: int) -> Iterator[str]:
         said = flight.lives[-1]
-        if self.refused:
-            if code != 2 or flight.journal.exists() or "internal error" in said:
-                yield f"it was not refused, and ended with {code}: {said}"
-            return
         with closing(Reader(flight.journal)) as reader:
             missions = folded([row.text for row in reader.rows()]).missions
         for name, record in missions.items():
@@ -113,23 +102,6 @@ def _alone(action: str, names: Sequence[str]) -> tuple[tuple[str, Trips], ...]:
     return tuple((f"{action} {name}", ((name, action),)) for name in names)
 
 
-_JUDGED = tuple((f"judge {name}", (("fine", "act"),)) for name in (*RAISED, "huge", "long"))
-_PREPARED = tuple((f"prepare {name}", (("fine", "act"),)) for name in RAISED)
-
-_SOURCE = """
-[[world.source]]
-quantity = "temperature"
-at = [0.5, 1.5]
-peak = {peak}
-radius = {radius}
-"""
-
-_EDGE = "".join(
-    _SOURCE.format(peak=peak, radius=radius)
-    for peak in ("1e9", "-1e9", "5e-324")
-    for radius in ("0.01", "100000.0")
-)
-
 TRIALS = (
     Trial(
         name="children that are ended",
@@ -140,23 +112,9 @@ TRIALS = (
         look=_children,
     ),
     Trial(
-        name="values that are returned",
-        missions=(*_alone("act", VALUES), *_alone("dig", VALUES)),
-    ),
-    Trial(
         name="errors that are raised",
-        missions=(*_alone("act", RAISED), *_alone("dig", RAISED), *_JUDGED, *_PREPARED),
-        fails=frozenset(
-            [
-                *(
-                    f"{hook} {name}"
-                    for hook in ("act", "dig", "judge", "prepare")
-                    for name in RAISED
-                ),
-                "judge huge",
-                "judge long",
-            ]
-        ),
+        missions=(*_alone("act", RAISED), *_alone("dig", RAISED)),
+        fails=frozenset(f"{hook} {name}" for hook in ("act", "dig") for name in RAISED),
     ),
     *(
         Trial(name=f"{name} that is left behind", missions=_alone(hook, [name]))
@@ -183,38 +141,32 @@ TRIALS = (
         ),
         lives=9,
     ),
-    Trial(
-        name="plans at the edge of what is taken",
-        missions=(("measures", (("here", "measure"), ("there", "measure"))),),
-        world=_EDGE,
-    ),
-    Trial(
-        name="plans beyond that",
-        missions=(("measures", (("here", "measure"),)),),
-        world=_SOURCE.format(peak="1.0", radius="1e-300"),
-        refused=True,
-    ),
 )
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Fly all trials; 1 if anything was wrong."""
-    parser = ArgumentParser(prog="python -m tests.kill.misbehaving", description=__doc__)
-    parser.add_argument("--times", type=int, default=3, help="flights of each trial (default: 3)")
-    parser.add_argument("--folder", type=Path, help="where to fly; default: a new one, named")
-    parser.add_argument("--only", help="the trial of this name alone")
-    options = parser.parse_args()
+    campaign = Campaign("tests.kill.misbehaving", __doc__)
+    campaign.unit = "flight"
+    campaign.option("--times", type=int, default=3, help="flights of each trial (default: 3)")
+    campaign.option("--folder", type=Path, help="where to fly; default: a new one, named")
+    campaign.option("--only", metavar="NAME", help="the trial of this name alone")
+    options = campaign.parse(arguments)
     folder = options.folder or Path(mkdtemp(prefix="misbehaving-"))
     print(f"flights in {folder}", flush=True)
-    source, problems, began = misfits_in(folder / "app") / "src", 0, monotonic()
-    for trial in TRIALS:
-        for number in range(options.times if options.only in (None, trial.name) else 0):
-            wrong = trial.fly(source, folder / trial.name.replace(" ", "-") / str(number))
-            problems += len(wrong)
-            print(f"{monotonic() - began:.0f} s: {trial.name}, {number + 1}: {wrong or 'well'}")
-            sys.stdout.flush()
-    print(f"{problems} problems")
-    return 1 if problems else 0
+    source = misfits_in(folder / "app") / "src"
+    by_name = {trial.name: trial for trial in TRIALS}
+    names = by_name if options.only is None else [options.only]
+    flights = [(name, number) for name in names for number in range(options.times)]
+
+    def fly(flight: tuple[str, int]) -> list[str]:
+        name, number = flight
+        return by_name[name].fly(source, folder / name.replace(" ", "-") / str(number))
+
+    for (name, number), wrong in campaign.each(fly, flights):
+        if wrong:
+            campaign.found(f"{name}, {number}", *wrong)
+    return campaign.over()
 
 
 if __name__ == "__main__":

@@ -15,8 +15,10 @@ from tests.kill.misbehaving import TRIALS, Trial
 from tests.kill.misfits import misfits_in, plan_of
 from tests.kill.trial import end_gateway
 
-CHOSEN = ("errors that are raised", "children that are ended")
-"""What is flown always: a hook's error, and a hook that ends other processes."""
+pytestmark = pytest.mark.long  # ten seconds each, of real processes
+
+CHOSEN = ("errors that are raised", "children that are ended", "exits that look like an end")
+"""A hook's error, one that ends other processes, and one that ends its own."""
 
 
 @pytest.fixture(scope="session")
@@ -30,17 +32,10 @@ def share(trial: Trial) -> Trial:
     return replace(trial, missions=trial.missions[:1], lives=2) if trial.lives > 2 else trial
 
 
-@pytest.mark.parametrize(
-    "trial",
-    [
-        # ten seconds each, of real processes
-        pytest.param(share(trial), marks=[] if trial.name in CHOSEN else [pytest.mark.long])
-        for trial in TRIALS
-    ],
-    ids=lambda trial: trial.name,
-)
-def test_all_other_missions_fly_on(trial: Trial, misfits: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", CHOSEN)
+def test_all_other_missions_fly_on(name: str, misfits: Path, tmp_path: Path) -> None:
     """The exit code is right, reasons are given, and no process is left running."""
+    (trial,) = (share(one) for one in TRIALS if one.name == name)
     assert trial.fly(misfits, tmp_path / "flight") == []
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterable
 from contextlib import closing, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,9 +15,6 @@ from tests.kill.judge import done_by_the_world, folded, lost, phase, unkept, wro
 from tests.kill.lives import Flight, alive, eventually
 from tests.kill.plans import Plan
 from tests.kill.tally import Tally
-
-EARLY = 0.2
-"""How often a life is killed before it need have come to its drones."""
 
 LONGEST = 0.7
 """Seconds until something is killed."""
@@ -34,22 +30,26 @@ class Trial:
     victims: list[str]
     """What shall be killed, one after the other: brain, gateway."""
     tally: Tally
+    early: float = 0.2
+    """How often a life is killed before it need have come to its drones."""
     _seen: list[str] = field(default_factory=list)
     """What has been read of its journal."""
+    _wrong: list[str] = field(default_factory=list)
 
-    def run(self) -> None:
-        """Kill, resume, and judge."""
+    def run(self) -> list[str]:
+        """Kill, resume, and judge; return what is wrong."""
         self.plan.write(self.flight.folder)
         self.flight.start()
         code: int | None = None
         for victim in self.victims:
-            if self.random.random() > EARLY:
+            if self.random.random() >= self.early:
                 self.flight.until_it_flies()
             code = self.flight.wait(self.random.uniform(0.0, LONGEST))
             if code is not None:
                 break
             self._kill(victim)
         self._end(self.flight.see_through() if code is None else code)
+        return self._wrong
 
     def _kill(self, victim: str) -> None:
         if victim == "brain":
@@ -66,7 +66,7 @@ class Trial:
     def _now(self) -> str:
         """Return what went on; nothing that was on record may have gone."""
         before, self._seen = self._seen, self._rows()
-        self._problems(lost(before, self._seen))
+        self._wrong += lost(before, self._seen)
         return phase(self.flight.journal, self._seen)
 
     def _end(self, code: int) -> None:
@@ -74,14 +74,13 @@ class Trial:
         code = self._decide(code)
         self._now()
         records = folded(self._seen)
-        self._problems(unkept(self.flight.lives, self._seen))
-        self._problems(wrong(journal, self._seen))
+        self._wrong += unkept(self.flight.lives, self._seen)
+        self._wrong += wrong(journal, self._seen)
         if code not in (0, 1):
-            self._problems([f"exit code {code}: {self.flight.lives[-1][-400:]}"])
+            self._wrong.append(f"exit code {code}: {self.flight.lives[-1][-400:]}")
         pid = gateway_of(journal)
         if pid is not None and not eventually(lambda: not alive(pid)):
-            self._problems([f"the gateway, process {pid}, has not ended"])
-        tally.flights += 1
+            self._wrong.append(f"the gateway, process {pid}, has not ended")
         tally.actions += done_by_the_world(journal).total()
         for record in records.missions.values():
             tally.ends[record["status"]] += 1
@@ -101,7 +100,7 @@ class Trial:
                 said = self.flight.run("decide", str(self.flight.journal), name, answer)
                 self.tally.decided += 1
                 if said.returncode != 0:
-                    self._problems([f"decide: {said.stderr}"])
+                    self._wrong.append(f"decide: {said.stderr}")
                     return code
             self.flight.start()
             code = self.flight.see_through()
@@ -113,11 +112,8 @@ class Trial:
             return []
         with closing(Reader(self.flight.journal)) as reader:
             rows = [row.text for row in reader.rows()]
-            self._problems([one for one in (reader.damaged, reader.torn) if one is not None])
+            self._wrong += [one for one in (reader.damaged, reader.torn) if one is not None]
         return rows
-
-    def _problems(self, found: Iterable[str]) -> None:
-        self.tally.problems += [f"{self.flight.folder}: {problem}" for problem in found]
 
 
 def end_gateway(journal: Path) -> None:

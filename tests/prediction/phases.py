@@ -3,34 +3,32 @@
     python -m tests.prediction.phases
     python -m tests.prediction.phases --drones 8 --times 2
 
-Simulated Crazyflies fly side by side in this process, through cflib and by the team's own commands;
-their record says how long each trajectory was planned to take.
+Simulated Crazyflies fly side by side in virtual time, through cflib and by the team's own commands; their
+record says how long each trajectory was planned to take.
 """
 
 from __future__ import annotations
 
 import asyncio
 import sys
-import time
-from argparse import ArgumentParser
-from collections.abc import Callable, Coroutine, Iterator
+from collections.abc import Callable, Coroutine, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import mean, stdev
 from tempfile import mkdtemp
 from typing import Any
 
-from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.equipment import camera, fitted, port_of
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones import commands
-from pluto_fleet.drones.protocol import DroneSetup
 from pluto_fleet.drones.vehicle import Cargo, TeamDrone, Vehicle
 from pluto_fleet.shared.domain.actions import BUILT_IN, PICK, RELEASE
 from pluto_fleet.shared.domain.model import Category, Item
-from tests.apart import apart
+from tests.kit.campaign import Campaign
+from tests.kit.unthreaded import in_virtual_time, passes, the_air
+from tests.library.crazyflie.hangar import navigation
 
 SPEEDS = (0.3, 0.5, 1.0)
 HEIGHTS = (0.5, 1.0, 1.6)
@@ -55,9 +53,9 @@ class Craft:
         self, phase: str, command: Coroutine[Any, Any, object], what: str, planned: float = 0.0
     ) -> None:
         """Await a command; note how much longer it took than it was planned to."""
-        recorded, began = len(self.log.commands), time.monotonic()
+        recorded, began = len(self.log.commands), the_air().time()
         await command
-        seconds = time.monotonic() - began
+        seconds = the_air().time() - began
         for record in self.log.commands[recorded:]:
             if record.drone == self.vehicle.id and record.what == what:
                 planned = record.values["duration"]
@@ -75,7 +73,7 @@ class Craft:
         for speed in SPEEDS:
             self.vehicle.speed, self.vehicle.climb = speed, min(0.6, speed)
             for height, pause in zip(HEIGHTS, PAUSES, strict=True):
-                await asyncio.sleep(pause)
+                await passes(pause)
                 up = commands.takeoff(self.vehicle, height)
                 await self.took(f"take-off, {pause:g} s after a landing", up, "takeoff")
                 for length in LENGTHS:
@@ -124,16 +122,13 @@ async def measured(drones: int, times: int) -> dict[str, list[float]]:
 
 def _vehicle(build: Build, uri: str, options: dict[str, object], folder: Path) -> Vehicle:
     folder.mkdir(parents=True)
-    setup = DroneSetup(
-        id=build.id, uri=uri, home=build.home, speed=1.0, options=options, folder=folder
-    )
     drone = TeamDrone(
         id=build.id,
         category=Category(name="measured", flight_time=ENDURING),
         home=build.home,
-        navigation=Crazyflie(setup),
+        navigation=navigation(build, uri, folder, options),
     )
-    return Vehicle(drone, Cargo(folder, print), print, time.monotonic)
+    return Vehicle(drone, Cargo(folder, print), print, the_air().time)
 
 
 async def _times(times: int, fly: Callable[[], Coroutine[Any, Any, None]]) -> None:
@@ -150,17 +145,15 @@ def table(phases: dict[str, list[float]]) -> Iterator[str]:
         yield f"| {phase} | {len(seconds)} | {' | '.join(f'{one:.3f}' for one in figures)} |"
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, and print."""
-    parser = ArgumentParser(prog="python -m tests.prediction.phases", description=__doc__)
-    parser.add_argument("--drones", type=int, default=8, metavar="N", help="side by side (8)")
-    parser.add_argument("--times", type=int, default=1, metavar="N", help="all phases N times (1)")
-    options = parser.parse_args()
-    for line in table(asyncio.run(measured(options.drones, options.times))):
-        print(line)
+    campaign = Campaign("tests.prediction.phases", __doc__)
+    campaign.option("--drones", type=int, default=8, metavar="N", help="side by side (8)")
+    campaign.option("--times", type=int, default=1, metavar="N", help="all phases N times (1)")
+    options = campaign.parse(arguments)
+    print("\n".join(table(in_virtual_time(measured(options.drones, options.times)))))
     return 0
 
 
 if __name__ == "__main__":
-    with apart():
-        sys.exit(main())
+    sys.exit(main())

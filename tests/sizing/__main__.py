@@ -11,11 +11,12 @@ does, or a planted answer is not found.
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser
-from collections.abc import Sequence
-from time import perf_counter
+from collections.abc import Iterator, Sequence
+from functools import partial
+from itertools import count
 
 from pluto_fleet.process.workers import cores
+from tests.kit.campaign import Campaign
 from tests.sizing.plans import (
     CONFIDENCE,
     FRESH,
@@ -29,82 +30,66 @@ from tests.sizing.plans import (
 
 HOLD = 0.97
 """The least share of promises that must hold."""
-
 ELSEWHERE = 1_000_000
 """The first of the fresh seeds."""
 
 
-def main(argv: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the campaign."""
-    parser = ArgumentParser(prog="python -m tests.sizing", description=__doc__)
-    parser.add_argument("--plans", type=int, default=100, help="how many promises (default 100)")
-    parser.add_argument(
-        "--exact", type=int, default=30, help="how many without chance (default 30)"
-    )
-    parser.add_argument("--from", dest="first", type=int, default=0, help="the first plan's number")
-    parser.add_argument("--jobs", type=int, default=cores())
-    options = parser.parse_args(argv)
-    held = promises(options.first, options.plans, options.jobs)
-    right = exact(options.first, options.exact, options.jobs)
-    found = sum(_planted(options.jobs))
-    print(f"{held} of {options.plans} promises hold in {FRESH} fresh runs each")
-    print(f"{right} of {options.exact} plans without chance are sized as flying every fleet says")
-    print(f"{found} of {len(known())} planted answers are found")
-    return int(held < HOLD * options.plans or right < options.exact or found < len(known()))
+    campaign = Campaign("tests.sizing", __doc__)
+    campaign.unit = "plan"
+    campaign.option("--plans", type=int, default=100, help="how many promises (default: 100)")
+    campaign.option("--exact", type=int, default=30, help="how many without chance (default: 30)")
+    campaign.option("--from", dest="first", type=int, default=0, help="the first plan's number")
+    campaign.option("--jobs", type=int, default=cores())
+    options = campaign.parse(arguments)
+    shares: list[float] = []
+
+    def drawn() -> Iterator[int]:
+        for number in count(options.first):
+            if len(shares) == options.plans:
+                return
+            yield number
+
+    for number, share in campaign.each(partial(promise, jobs=options.jobs), drawn()):
+        if share is not None:
+            shares.append(share)
+            print(f"plan {number}: {100 * share:.1f} % of fresh runs succeed", flush=True)
+    exact = range(options.first, options.first + options.exact)
+    for number, wrong in campaign.each(partial(smallest, jobs=options.jobs), exact):
+        if wrong:
+            campaign.found(f"plan {number} without chance", wrong)
+    for name, wrong in campaign.each(
+        partial(planted, jobs=options.jobs), [c.name for c in known()]
+    ):
+        if wrong:
+            campaign.found(name, wrong)
+    held = sum(share >= CONFIDENCE for share in shares)
+    if held < HOLD * options.plans:
+        campaign.found("too few promises hold")
+    return campaign.over(f"{held} of {options.plans} promises hold in {FRESH} fresh runs each")
 
 
-def promises(number: int, plans: int, jobs: int) -> int:
-    """Return how many promises hold."""
-    held = made = drawn = 0
-    while made < plans:
-        began = perf_counter()
-        answer = sized_plan(by_chance(number), confidence=CONFIDENCE, jobs=jobs)
-        number, drawn = number + 1, drawn + 1
-        runs = sum(len(tally.runs) for tally in answer.tallies)
-        took = perf_counter() - began
-        if answer.found is None:
-            why = answer.causes[0].what if answer.causes else "?"
-            print(f"plan {number - 1}: none ({why}), {runs} runs, {took:.0f} s", flush=True)
-            continue
-        share = fresh_share(answer, runs=FRESH, seed=ELSEWHERE, jobs=jobs)
-        made, held = made + 1, held + (share >= CONFIDENCE)
-        found = answer.found
-        print(
-            f"plan {number - 1}: {found.counts} promised by {found.succeeded} of {len(found.runs)},"
-            f" {100 * share:.1f} % of fresh runs; {runs} runs, {took:.0f} s; {held} of {made} hold",
-            flush=True,
-        )
-    return held
+def promise(number: int, jobs: int) -> float | None:
+    """Return the share of fresh runs that succeed with the promised fleet; None: there is none."""
+    answer = sized_plan(by_chance(number), confidence=CONFIDENCE, jobs=jobs)
+    if answer.found is None:
+        return None
+    return fresh_share(answer, runs=FRESH, seed=ELSEWHERE, jobs=jobs)
 
 
-def exact(number: int, plans: int, jobs: int) -> int:
-    """Return for how many plans without chance the smallest fleet is found."""
-    right = 0
-    for place in range(number, number + plans):
-        plan = without_chance(place)
-        answer = sized_plan(plan, confidence=0.8, jobs=jobs)
-        said = answer.found and answer.found.drones
-        least = smallest_by_trying_all(plan)
-        right += said == least
-        if said != least:
-            print(f"plan {place} without chance: {said} said, {least} would do", flush=True)
-    return right
+def smallest(number: int, jobs: int) -> str:
+    """Say whether another fleet than the one found is the smallest of a plan without chance."""
+    plan = without_chance(number)
+    answer = sized_plan(plan, confidence=0.8, jobs=jobs)
+    said, least = answer.found and answer.found.drones, smallest_by_trying_all(plan)
+    return "" if said == least else f"{said} said, {least} would do"
 
 
-def _planted(jobs: int) -> list[bool]:
-    found = []
-    for case in known():
-        answer = sized_plan(case.plan, confidence=CONFIDENCE, jobs=jobs)
-        said = answer.found and answer.found.drones
-        why = answer.causes[0] if answer.causes else None
-        well = said == case.drones and (
-            case.drones is not None
-            or (why is not None and (why.what, case.said in why.text) == (case.cause, True))
-        )
-        found.append(well)
-        if not well:
-            print(f"{case.name}: {said} said, {why}", flush=True)
-    return found
+def planted(name: str, jobs: int) -> str:
+    """Say how the answer to a known plan differs from what is known of it."""
+    (case,) = (one for one in known() if one.name == name)
+    return case.wrong(sized_plan(case.plan, confidence=CONFIDENCE, jobs=jobs))
 
 
 if __name__ == "__main__":

@@ -166,6 +166,17 @@ class Known:
     said: str = ""
     """What it says, among others."""
 
+    def wrong(self, answer: Answer) -> str:
+        """Say how an answer differs from this one."""
+        drones = answer.found and answer.found.drones
+        if drones != self.drones:
+            return f"it says {drones} drones and not {self.drones}"
+        if drones is None and (not answer.causes or answer.causes[0].what != self.cause):
+            return f"it says that the cause is {answer.causes[:1]} and not {self.cause}"
+        if drones is None and self.said not in answer.causes[0].text:
+            return f"it says {answer.causes[0].text!r} and not {self.said!r}"
+        return ""
+
 
 def _straight(
     *missions: Mission, by: float | None, most: int = 12, tested: App | None = None, **more: Any

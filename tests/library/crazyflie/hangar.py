@@ -83,19 +83,25 @@ class Hangar:
                 self.heard.clear()
                 await self.heard.wait()
 
-    async def drone_tells(self) -> None:
-        """Wait until the drone has told how it is twice: what comes first may be from before."""
-        async with asyncio.timeout(PATIENCE):
-            for _ in range(2):
-                before = self.navigation.telemetry.time
-                while self.navigation.telemetry.time == before:
-                    await asyncio.sleep(0.02)
-
     async def listen(self) -> None:
         """Hear all events, until there are no more."""
         async for event in self.navigation.events():
             self.events.append(event)
             self.heard.set()
+
+
+def navigation(
+    build: Build,
+    uri: str | None,
+    folder: Path,
+    options: Mapping[str, object] | None = None,
+    speed: float = FAST,
+) -> Crazyflie:
+    """Return what flies a drone."""
+    told, home = options or {}, build.home
+    return Crazyflie(
+        DroneSetup(id=build.id, uri=uri, home=home, speed=speed, options=told, folder=folder)
+    )
 
 
 @asynccontextmanager
@@ -111,15 +117,8 @@ async def hangar(
     record = MemoryLog()
     server = Server([build], record)
     await server.start()
-    setup = DroneSetup(
-        id=build.id,
-        uri=uri or server.uris[build.id],
-        home=build.home,
-        speed=speed,
-        options=options or {},
-        folder=folder,
-    )
-    one = Hangar(Crazyflie(setup), server, record, build.id)
+    flies = navigation(build, uri or server.uris[build.id], folder, options, speed)
+    one = Hangar(flies, server, record, build.id)
     listening = asyncio.create_task(one.listen())
     try:
         yield one

@@ -10,9 +10,9 @@ import pytest
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.drones.errors import LinkLost, NotReady
-from pluto_fleet.drones.protocol import LINK_LOST, DroneSetup
+from pluto_fleet.drones.protocol import LINK_LOST
 from tests.kit.unthreaded import passes, the_air
-from tests.library.crazyflie.hangar import FAST, Hangar, drone, hangar
+from tests.library.crazyflie.hangar import FAST, Hangar, drone, hangar, navigation
 
 
 async def test_closing_what_another_program_has_sent_up_lets_it_hover(
@@ -132,8 +132,5 @@ async def test_one_that_has_flown_already_keeps_its_place(one: Hangar, cf: Crazy
 
 
 async def test_without_a_uri_it_says_what_is_missing(folder: Path) -> None:
-    setup = DroneSetup(
-        id="cf1", uri=None, home=(0.0, 0.0, 0.0), speed=1.0, options={}, folder=folder
-    )
     with pytest.raises(NotReady, match="cf1 has no uri in the fleet file"):
-        await Crazyflie(setup).connect()
+        await navigation(Build(id="cf1", home=(0.0, 0.0, 0.0)), None, folder).connect()

@@ -9,8 +9,11 @@ from pluto_fleet.crtp.drone import Build
 from pluto_fleet.drones.errors import Locked, NotReady
 from pluto_fleet.drones.protocol import BATTERY_LOW, LOCKED
 from pluto_fleet.lithium import volts_at
+from tests.kit.unthreaded import passes
 from tests.library.crazyflie.hangar import FAST, Hangar, drone
 
+TELLS = 0.3
+"""Seconds in which a drone tells how it is more than once."""
 FULL = volts_at(1.0)
 TWO_CELLS = Build(id="cf1", home=(1.0, 2.0, 0.0), cells=2)
 CRASHED = (
@@ -23,12 +26,11 @@ async def test_one_that_crashed_and_stands_flies_again_once_a_person_says_so(
 ) -> None:
     await cf.takeoff(0.3, FAST)
     await one.let("tumble")
-    while one.flies or not cf.telemetry.position[2] < 0.1:
-        await one.drone_tells()
+    await passes(2.0)  # until it has fallen, and told so
     with pytest.raises(NotReady, match="does not forget that it has crashed: set it upright"):
         await cf.looked_after()
     await one.let("upright")
-    await one.drone_tells()
+    await passes(TELLS)
     assert await cf.preflight() == [CRASHED] and not one.did("recover")[1:]
     await cf.looked_after()
     assert await cf.preflight() == []
@@ -43,7 +45,7 @@ async def test_one_that_has_not_crashed_is_told_nothing(one: Hangar, cf: Crazyfl
 
 async def test_a_deck_that_fails_is_said_by_name(one: Hangar, cf: Crazyflie) -> None:
     await one.let("deck")
-    await one.drone_tells()
+    await passes(TELLS)
     reason = "one of its decks reports a fault: see that all sit well, and switch it off and on"
     assert await cf.preflight() == [reason]
     with pytest.raises(NotReady, match="one of its decks reports a fault"):
@@ -83,7 +85,7 @@ async def test_how_many_cells_it_may_have_is_said_from_its_volts(cf: Crazyflie) 
 async def test_one_with_two_cells_is_as_full_as_each_of_them(one: Hangar, cf: Crazyflie) -> None:
     assert cf.telemetry.voltage == pytest.approx(2 * FULL, abs=0.01)
     await one.let("volts", 7.6)
-    await one.drone_tells()
+    await passes(TELLS)
     assert 0.35 < cf.telemetry.battery_level < 0.45
     await cf.takeoff(0.5, FAST)
     await one.let("volts", 6.3)

@@ -12,9 +12,9 @@ from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.drones.errors import LinkLost
-from pluto_fleet.drones.protocol import LINK_LOST, DroneSetup
+from pluto_fleet.drones.protocol import LINK_LOST
 from tests.kill.lives import eventually
-from tests.library.crazyflie.hangar import FAST, PATIENCE, hangar
+from tests.library.crazyflie.hangar import FAST, PATIENCE, hangar, navigation
 from tests.library.crtp.radio import Ether, plugged_in
 
 pytest.importorskip("cflib")
@@ -31,12 +31,6 @@ def left() -> list[str]:
     """Return the threads that should have ended; the one that has the dongle waits for ever."""
     names = [thread.name for thread in threading.enumerate()]
     return [one for one in names if one.startswith(THREADS) and not one.startswith("Shared")]
-
-
-def navigation(ether: Ether, drone: str, folder: Path) -> Crazyflie:
-    home = ether.drones[drone].build.home
-    uri = ether.uris[drone]
-    return Crazyflie(DroneSetup(id=drone, uri=uri, home=home, speed=1.0, options={}, folder=folder))
 
 
 @pytest.fixture
@@ -64,7 +58,7 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
     air: Ether, tmp_path: Path
 ) -> None:
     async def fly() -> None:
-        flown = [navigation(air, drone, tmp_path) for drone in IDS]
+        flown = [navigation(air.drones[id].build, air.uris[id], tmp_path) for id in IDS]
         await asyncio.gather(*(one.connect() for one in flown))
         await asyncio.gather(*(one.takeoff(0.5, 2.0) for one in flown))
         air.unplugged = True
@@ -91,7 +85,7 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
 @pytest.mark.long  # ten seconds in real time
 def test_a_dongle_that_hangs_holds_no_one_up(air: Ether, tmp_path: Path) -> None:
     async def fly() -> None:
-        one = navigation(air, "cf1", tmp_path)
+        one = navigation(air.drones["cf1"].build, air.uris["cf1"], tmp_path)
         await one.connect()
         air.stalled = True
         async with asyncio.timeout(PATIENCE):

@@ -9,7 +9,8 @@ import pytest
 
 from pluto_fleet.sizing import tries
 
-T, R = TypeVar("T"), TypeVar("R")
+T = TypeVar("T")
+R = TypeVar("R")
 
 
 def here(work: Callable[[T], R], tasks: Sequence[T], jobs: int, *, quiet: bool) -> Iterator[R]:

@@ -18,14 +18,7 @@ from tests.sizing.plans import (
 @pytest.mark.parametrize("case", known(), ids=lambda case: case.name.replace(" ", "-"))
 def test_the_known_answer_is_found(case: Known) -> None:
     """The size, or the cause."""
-    answer = sized_plan(case.plan, confidence=0.8)
-    if case.drones is not None:
-        assert answer.found is not None
-        assert answer.found.drones == case.drones
-        return
-    assert answer.found is None
-    assert [cause.what for cause in answer.causes][:1] == [case.cause]
-    assert case.said in answer.causes[0].text
+    assert case.wrong(sized_plan(case.plan, confidence=0.8)) == ""
 
 
 @pytest.mark.parametrize("number", [2, 5, 24])

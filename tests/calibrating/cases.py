@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from random import Random
+from tempfile import TemporaryDirectory
 
 from pluto_fleet.calibration.commands import read_flights
 from pluto_fleet.calibration.fit import calibrated
@@ -13,6 +14,9 @@ from pluto_fleet.calibration.found import Calibration
 from pluto_fleet.calibration.report import NAMES
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT, Motion
 from tests.calibrating.flights import surveyed
+
+SHARE = 0.95
+"""Of the cases, at least, every value must be in its interval."""
 
 
 @dataclass(slots=True)
@@ -65,25 +69,18 @@ def truth_of(case: int) -> Motion:
     )
 
 
-def fitted_case(case: int, folder: Path) -> tuple[Motion, Calibration]:
+def fitted(case: int) -> tuple[Motion, Calibration]:
     """Fly a case, and fit its journal; its fleet file knows nothing of how the drones really move."""
     chance, truth = Random(f"{case}/plan"), truth_of(case)
     said = STRAIGHT if truth.legs == "straight" else CRAZYFLIE
-    path = surveyed(
-        folder / f"{case}.journal",
-        truth,
-        said=said,
-        trips=chance.randint(15, 90),
-        drones=chance.randint(1, 4),
-        speed=chance.uniform(0.3, 1.0),
-        seed=case,
-    )
-    return truth, calibrated([read_flights(path)], said)
-
-
-def campaign(cases: range, folder: Path) -> Tally:
-    """Fit all cases."""
-    tally = Tally()
-    for case in cases:
-        tally.add(case, *fitted_case(case, folder))
-    return tally
+    with TemporaryDirectory() as folder:
+        path = surveyed(
+            Path(folder, "journal"),
+            truth,
+            said=said,
+            trips=chance.randint(15, 90),
+            drones=chance.randint(1, 4),
+            speed=chance.uniform(0.3, 1.0),
+            seed=case,
+        )
+        return truth, calibrated([read_flights(path)], said)
