@@ -169,9 +169,11 @@ class AirLoop(JumpingLoop):
         self._next = 1
         self._coming = False
 
-    async def create_datagram_endpoint(self, protocol_factory: Any, **more: Any) -> Any:
+    async def create_datagram_endpoint(  # type: ignore[override]
+        self, protocol_factory: Any, local_addr: tuple[str, int]
+    ) -> Any:
         """Open a port, the one that is asked for or a free one."""
-        number = more["local_addr"][1] or self._next
+        number = local_addr[1] or self._next
         if number in self.ports:
             raise OSError("the address is in use")
         self._next += 1
