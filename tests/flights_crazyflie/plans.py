@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from shutil import copytree
 
-from tests.kill.plans import trip
+from tests.kill.plans import TRIP
 from tests.kit.apps import EXAMPLES, compiled_file
 
 Target = tuple[float, float, float]
@@ -88,7 +88,7 @@ def missions(plan: Plan) -> str:
         if mission != last:
             written += f'[[mission]]\nname = "{mission}"\n'
             last = mission
-        written += trip(name, action, f"{x}, {y}", more)
+        written += TRIP.format(name=name, action=action, x=x, y=y, more=more)
     return written
 
 

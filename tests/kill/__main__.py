@@ -41,7 +41,7 @@ class Flights:
         self._folder, self._brains, self._gateways, self._seed = folder, brains, gateways, seed
         self._plans = (*PLANS, HOUSE)
         self._sources = {plan.app: compiled(plan.app) / "src" for plan in PLANS}
-        self._sources[HOUSE.app] = painter_in(folder / "painter") / "src"
+        self._sources[HOUSE.app] = painter_in(folder / "painter")
 
     def _left(self) -> tuple[int, int]:
         """Return how many brains and gateways are still to be killed."""

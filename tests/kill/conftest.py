@@ -16,39 +16,28 @@ from tests.kit.apps import compiled
 NewFlight = Callable[[float], Flight]
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture
 def plan() -> Plan:
     """An app with delays and retries, whose three missions carry things."""
     return next(plan for plan in PLANS if plan.app == "drugs_distribution_retry")
 
 
-@pytest.fixture(scope="session")
-def source(plan: Plan, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder that the app's package is imported from."""
-    return compiled(plan.app, tmp_path_factory.mktemp("package")) / "src"
-
-
-@pytest.fixture(scope="session")
-def painter(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder that an app with an action of its own is imported from."""
-    folder = tmp_path_factory.mktemp("painter")
-    return painter_in(folder) / "src"
-
-
 @pytest.fixture
-def painting(painter: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Flight]:
-    """Prepare a flight of that app."""
+def painting(tmp_path: Path) -> Iterator[Flight]:
+    """Prepare a flight of the app with an action of its own."""
     WALL.write(tmp_path)
-    flight = Flight(app="painter", source=painter, folder=tmp_path, speed=20.0)
+    source = painter_in(tmp_path / "painter")
+    flight = Flight(app="painter", source=source, folder=tmp_path, speed=20.0)
     yield flight
     flight.end()
     end_gateway(flight.journal)
 
 
 @pytest.fixture
-def new_flight(plan: Plan, source: Path, tmp_path: Path) -> Iterator[NewFlight]:
+def new_flight(plan: Plan, tmp_path: Path) -> Iterator[NewFlight]:
     """Prepare flights at some speed; none of their processes is left behind."""
     flights: list[Flight] = []
+    source = compiled(plan.app) / "src"
 
     def new(speed: float) -> Flight:
         folder = tmp_path / str(len(flights))

@@ -154,7 +154,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = campaign.parse(arguments)
     folder = options.folder or Path(mkdtemp(prefix="misbehaving-"))
     print(f"flights in {folder}", flush=True)
-    source = misfits_in(folder / "app") / "src"
+    source = misfits_in(folder / "app")
     by_name = {trial.name: trial for trial in TRIALS}
     names = by_name if options.only is None else [options.only]
     flights = [(name, number) for name in names for number in range(options.times)]

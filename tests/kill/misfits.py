@@ -8,27 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from tests.kill.plans import Plan, fleet, trip
-from tests.kit.apps import compiled_file
-
-APP = """pluto 1
-
-app misfits "Do what hooks must not do" {
-  category worker can act, dig, measure
-
-  action act safe
-  action dig safe
-
-  create = MissionCreator
-  allocate = DroneAllocator
-  launch = TripLauncher
-  watch = TripMonitor
-
-  start -> create -> allocate -> launch -> watch
-  watch -> allocate when STANDBY
-  watch -> end otherwise
-}
-"""
+from tests.kill.plans import TRIP, Plan, plan, source_of
 
 HOOKS = '''"""Hooks that misbehave as the name of a trip says."""
 
@@ -171,21 +151,19 @@ RAISED = ("exit", "interrupt", "shout")
 
 
 def misfits_in(folder: Path) -> Path:
-    """Compile the app into a folder, and return the package's own."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "app.pluto").write_text(APP)
-    (folder / "hooks.py").write_text(HOOKS)
-    return compiled_file(folder / "app.pluto", folder / "package")
+    """Compile the app into a folder, and return the one that it is imported from."""
+    return source_of("misfits", HOOKS, folder)
+
+
+INNOCENT = ("innocent", (("one", "act"), ("two", "dig"), ("three", "act")))
 
 
 def plan_of(*missions: tuple[str, Sequence[tuple[str, str]]]) -> Plan:
     """Return a plan of these missions, by their trips' names and actions, and an innocent one."""
     text = ""
-    for number, (name, trips) in enumerate((*missions, INNOCENT)):
-        text += f'[[mission]]\nname = "{name}"\n'
-        for place, (called, action) in enumerate(trips):
-            text += trip(called, action, f"{0.5 + number % 5}, {1.5 + (number + place) % 2}")
-    return Plan(app="misfits", missions=text, fleet=fleet("worker worker worker"))
-
-
-INNOCENT = ("innocent", (("one", "act"), ("two", "dig"), ("three", "act")))
+    for number, (mission, trips) in enumerate((*missions, INNOCENT)):
+        text += f'[[mission]]\nname = "{mission}"\n'
+        for place, (name, action) in enumerate(trips):
+            x, y = 0.5 + number % 5, 1.5 + (number + place) % 2
+            text += TRIP.format(name=name, action=action, x=x, y=y, more="")
+    return plan("misfits", missions=text)

@@ -4,26 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.kill.plans import Plan, fleet, trip
-from tests.kit.apps import compiled_file
-
-APP = """pluto 1
-
-app painter "Paint what the missions say" {
-  category sprayer can spray
-
-  action spray once
-
-  create = MissionCreator
-  allocate = DroneAllocator
-  launch = TripLauncher
-  watch = TripMonitor
-
-  start -> create -> allocate -> launch -> watch
-  watch -> allocate when STANDBY
-  watch -> end otherwise
-}
-"""
+from tests.kill.plans import plan, source_of
 
 HOOKS = '''"""An action that takes its time, and can hold up everything."""
 
@@ -54,11 +35,8 @@ PAINTED = "painted"
 
 
 def painter_in(folder: Path) -> Path:
-    """Compile the app into a folder, and return the package's own."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "app.pluto").write_text(APP)
-    (folder / "hooks.py").write_text(HOOKS)
-    return compiled_file(folder / "app.pluto", folder / "package")
+    """Compile the app into a folder, and return the one that it is imported from."""
+    return source_of("painter", HOOKS, folder)
 
 
 def painted(folder: Path) -> list[str]:
@@ -67,22 +45,6 @@ def painted(folder: Path) -> list[str]:
     return file.read_text().split() if file.exists() else []
 
 
-WALL = Plan(
-    app="painter",
-    missions='[[mission]]\nname = "wall"\n'
-    + trip("left", "spray", "2.0, 1.0")
-    + trip("right", "spray", "3.0, 1.0"),
-    fleet=fleet("sprayer"),
-)
-
-HOUSE = Plan(
-    app="painter",
-    missions="".join(
-        f'[[mission]]\nname = "{side}"\n'
-        + trip(f"{side}-low", "spray", f"{x}, 1.0")
-        + trip(f"{side}-high", "spray", f"{x}, 2.0")
-        for x, side in ((1.0, "west"), (2.5, "north"), (4.0, "east"))
-    ),
-    fleet=fleet("sprayer sprayer"),
-)
+WALL = plan("wall", app="painter")
+HOUSE = plan("house", app="painter")
 """Each trip has a name of its own."""

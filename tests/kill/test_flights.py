@@ -18,7 +18,7 @@ import pytest
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.reader import Reader
 from tests.kill.conftest import NewFlight
-from tests.kill.judge import done_by_the_world, events_of, folded
+from tests.kill.judge import events_of, folded
 from tests.kill.lives import Flight, alive, eventually
 from tests.kill.painter import painted
 from tests.kill.plans import Plan
@@ -77,25 +77,6 @@ def test_a_kill_loses_nothing_and_lets_nothing_be_done_twice(
     assert tally.brains.total() == (victim == "brain")
     assert tally.gateways.total() == (victim == "gateway")
     assert tally.ends == {"COMPLETED": 3} and tally.actions == 6
-
-
-@pytest.mark.long
-def test_a_flight_stopped_on_its_way_home_goes_on_where_it_was(new_flight: NewFlight) -> None:
-    """All drones fly home and land; delays, attempts and results are there, and all completes."""
-    flight = new_flight(10.0)
-    flight.start()
-    flight.until_it_says("fetch completed")
-    said = flight.run("tell", str(flight.journal), "stop", "--rtl")
-    assert (said.returncode, said.stderr) == (0, "")
-    assert flight.see_through() == 130
-    assert f"to go on: {flight.app} resume {flight.journal}" in flight.lives[0]
-    assert all(y == 0.5 and z == 0.0 for _, y, z in drones_are_at(flight))
-    assert no_process_is_left(flight)
-    flight.start()
-    assert flight.see_through() == 0
-    assert statuses(flight) == ["COMPLETED"] * 3
-    assert {event["attempt"] for event in events(flight, "trip.launched")} == {1}
-    assert set(done_by_the_world(flight.journal).values()) == {1}
 
 
 @pytest.mark.long

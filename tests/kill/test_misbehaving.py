@@ -24,7 +24,7 @@ CHOSEN = ("errors that are raised", "children that are ended", "exits that look 
 @pytest.fixture(scope="session")
 def misfits(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder that the app whose hooks misbehave is imported from."""
-    return misfits_in(tmp_path_factory.mktemp("misfits")) / "src"
+    return misfits_in(tmp_path_factory.mktemp("misfits"))
 
 
 def share(trial: Trial) -> Trial:

@@ -49,6 +49,7 @@ class Plan:
             (folder / name).write_text(text, encoding="utf-8")
 
 
+_HERE = Path(__file__).parent
 _CONTENT = {
     "SHARP = 0.7": "SHARP = 0.0",
     "AHEAD = 0.55": "AHEAD = 0.0",
@@ -82,31 +83,7 @@ def example(name: str) -> Plan:
 _FILES = ("app.pluto", "hooks.py")
 
 TOURS = {
-    "app.pluto": """pluto 1
-
-app tours "Plans by which predictions are judged" {
-  category slow(speed: 0.3 m/s, payload: 20 g) can pick_item, release_item, take_photo, measure
-  category plain(payload: 12 g) can pick_item, release_item, take_photo, measure, inspect
-  category swift(speed: 1 m/s, flight_time: 5 min) can take_photo, measure, inspect
-  category tired(flight_time: 3 min, charge_time: 5 min) can take_photo, measure
-
-  action inspect safe
-
-  create = MissionCreator
-  wait = Clock
-  allocate = DroneAllocator(policy: nearest)
-  launch = TripLauncher
-  watch = TripMonitor
-  retry = PriorityManager(max_attempts: 3)
-
-  start -> create -> wait -> allocate -> launch -> watch
-  watch -> wait when STANDBY
-  watch -> retry when FAILED
-  retry -> allocate when STANDBY
-  watch -> end when COMPLETED
-  retry -> end otherwise
-}
-""",
+    "app.pluto": (_HERE / "tours.pluto").read_text(),
     "hooks.py": '''"""An action that fails when it is tried for the first time, in every world."""
 
 from __future__ import annotations
@@ -181,89 +158,14 @@ def _trip(number: int, stop: Stop) -> str:
     return "\n".join(lines)
 
 
-def _measures(*places: tuple[float, ...]) -> tuple[Stop, ...]:
-    return tuple(Stop(action="measure", at=at) for at in places)
+def _own(folder: Path) -> Plan:
+    """Return one of our own plans."""
+    missions, fleet = ((folder / f"{name}.toml").read_text() for name in ("missions", "fleet"))
+    name = folder.name.replace("_", " ")
+    return Plan(name=name, app="tours", sources=TOURS, missions=missions, fleet=fleet)
 
 
-def _photos(*places: tuple[float, ...]) -> tuple[Stop, ...]:
-    return tuple(Stop(action="take_photo", at=at) for at in places)
-
-
-def _carries(item: str, fro: tuple[float, ...], to: tuple[float, ...]) -> tuple[Stop, ...]:
-    return (
-        Stop(action="pick_item", at=fro, item=item),
-        Stop(action="release_item", at=to, item=item),
-    )
-
-
-OWN = (
-    tour(  # trip after trip, with charging in between
-        "one drone",
-        size=(8.0, 6.0),
-        cruise=1.0,
-        drones={(1.0, 1.0): "tired"},
-        missions={
-            "near": _measures((2.5, 1.5), (1.5, 3.0)),
-            "far": _measures((5.0, 2.5), (4.0, 4.0)),
-            "there and back": _photos((3.0, 3.0), (1.0, 2.0)),
-        },
-    ),
-    tour(  # three walls, each with one gap
-        "crowded ward",
-        size=(12.0, 5.0),
-        cruise=1.2,
-        drones={(x, y): "plain" for x in (0.6, 1.5) for y in (0.8, 2.5, 4.2)},
-        missions={
-            "A": _photos((11.0, 1.0), (5.0, 4.2)),
-            "B": _photos((11.0, 4.0), (5.0, 0.8)),
-            "C": _measures((8.0, 1.0), (2.3, 4.2)),
-            "D": _measures((8.0, 4.0), (2.3, 0.8)),
-            "E": _carries("pills", (4.5, 2.5), (10.0, 2.5)),
-            "F": _photos((7.0, 2.5), (11.0, 2.5)),
-        },
-        no_fly=tuple((x, y, x + 0.2, y + 1.7) for x in (3.2, 6.2, 9.2) for y in (0.0, 3.3)),
-    ),
-    tour(  # three missions meet twice, each time at one spot
-        "shared spots",
-        size=(10.0, 8.0),
-        cruise=1.2,
-        drones={(1.0 + 1.5 * n, 0.8): "plain" for n in range(3)},
-        missions={name: _photos((5.0, 4.0), (2.5, 6.0)) for name in "ABC"},
-        after_trip="next",
-    ),
-    tour(
-        "three speeds",
-        size=(12.0, 8.0),
-        cruise=1.5,
-        drones={
-            (1.0, 1.0): "slow",
-            (2.0, 1.0): "plain",
-            (3.0, 1.0): "swift",
-            (4.0, 1.0): "swift",
-        },
-        missions={
-            "A": _photos((2.0, 6.0), (5.0, 6.0), (8.0, 6.0)),
-            "B": _measures((10.0, 2.0), (10.0, 2.0, 3.0), (11.0, 7.0)),
-            "C": _carries("pills", (3.0, 3.0), (5.0, 5.0)),
-            "D": (*_measures((6.0, 2.0)), Stop(action="measure", at=(7.0, 4.0), delay=20.0)),
-            "E": (Stop(action="inspect", at=(9.0, 4.0)),),
-        },
-        after_trip="stay",
-    ),
-    tour(
-        "long legs",
-        size=(24.0, 10.0),
-        cruise=1.6,
-        drones={(1.0, 1.0): "plain", (1.0, 2.0): "plain", (1.0, 3.0): "plain"},
-        missions={
-            "east": _carries("fuse", (6.0, 2.0), (20.0, 2.0)),
-            "west": _carries("label", (18.0, 8.0), (5.0, 6.0)),
-            "dark": (Stop(action="inspect", at=(12.0, 5.0)),),
-            "light": _photos((22.0, 9.0)),
-        },
-        no_fly=((10.0, 6.5, 14.0, 7.5),),
-    ),
-)
+OWN = tuple(map(_own, sorted((_HERE / "own").iterdir())))
 """Our own plans: what the examples lack."""
 
 

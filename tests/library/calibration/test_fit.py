@@ -94,15 +94,6 @@ def test_legs_that_are_all_alike_do_not_tell_pace_from_settling(tmp_path: Path) 
 SCOUT = Category(name="scout", speed=0.5)
 
 
-def test_what_there_is_too_little_of_is_not_told(tmp_path: Path) -> None:
-    what = surveyed_and_fitted(tmp_path, SLOW, trips=1, drones=1)
-    assert what.found == {}
-    assert what.untold["pace"] == "it takes 5 legs at least, and there are 2"
-    assert what.untold["take_off"] == "it takes 3 take-offs at least, and there is 1"
-    assert what.untold["drain"] == "it takes 6 whole flights at least, and there is 1"
-    assert what.untold["action_spread"] == "it takes 6 built-in actions at least, and there is 1"
-
-
 def test_a_category_that_moves_otherwise_is_noted(tmp_path: Path) -> None:
     """`[motion]` is for the whole fleet."""
     slow, fast = (

@@ -27,12 +27,6 @@ async def test_it_takes_off_flies_and_lands_where_it_says(one: Hangar, cf: Crazy
     assert not one.did("setpoint")
 
 
-async def test_closing_in_the_air_lands_first_and_cuts_nothing(one: Hangar, up: Crazyflie) -> None:
-    await up.close()
-    assert not one.flies and not one.drone.supervisor.locked
-    assert one.did("land") and not one.did("setpoint") and not one.did("emergency stop")
-
-
 async def test_a_course_that_is_broken_off_ends_in_a_hover_nearby(
     one: Hangar, up: Crazyflie
 ) -> None:

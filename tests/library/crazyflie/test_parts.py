@@ -22,7 +22,7 @@ from pluto_fleet.crazyflie.worker import Worker
 from pluto_fleet.crtp.body import AxisState as Start
 from pluto_fleet.crtp.body import Body, profile
 from pluto_fleet.drones.errors import LinkLost
-from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
+from pluto_fleet.drones.protocol import BATTERY_LOW
 from pluto_fleet.lithium import level_at
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Point
@@ -113,27 +113,12 @@ def test_a_drone_that_is_to_stop_stops_within_its_way_of_a_third_of_a_second(spe
     assert target[1:] == (0.0, 1.0)
 
 
-def test_where_it_was_long_ago_says_nothing_of_its_speed() -> None:
-    assert trajectory.braking(state(0.0), state(5.0, x=3.0)) == (
-        (3.0, 0.0, 1.0),
-        SHORTEST,
-    )
-    assert trajectory.braking(None, state(5.0, x=3.0)) == ((3.0, 0.0, 1.0), SHORTEST)
-
-
 @given(sent=st.floats(0.0, 16777.0), passed=st.floats(0.0, 9.0), x=st.floats(-500.0, 500.0))
 def test_it_is_never_sent_far_to_stop_no_matter_what_its_telemetry_makes_believe(
     sent: float, passed: float, x: float
 ) -> None:
     target, seconds = trajectory.braking(state(0.0, sent=sent), state(0.1, x=x, sent=sent + passed))
     assert abs(target[0] - x) <= 1.0 + 1e-9 and SHORTEST <= seconds <= 5.0
-
-
-def test_two_states_that_arrive_at_one_moment_were_not_sent_at_one() -> None:
-    before, now = state(5.0, sent=1.0), state(5.0001, x=0.1, sent=1.1)
-    assert trajectory.braking(before, now)[0][0] == pytest.approx(0.3)
-    at_once = state(5.0001, x=0.1, sent=1.001)
-    assert trajectory.braking(before, at_once) == ((0.1, 0.0, 1.0), SHORTEST)
 
 
 def test_the_clock_of_the_log_begins_anew_in_flight() -> None:
@@ -218,18 +203,6 @@ def test_volts_in_the_air_are_corrected_by_what_flying_costs() -> None:
     assert battery.level == level_at(3.9)
 
 
-def test_a_drone_that_is_met_in_the_air_loses_what_is_usual() -> None:
-    battery = BatteryGauge()
-    battery.hear(state(0.0, volts=3.5, bits=FLYING))
-    assert battery.level == level_at(3.8)
-
-
-def test_a_battery_without_volts_says_nothing() -> None:
-    battery = BatteryGauge()
-    battery.hear(state(0.0, volts=0.0))
-    assert battery.level == 0.0 and battery.rest is None
-
-
 # AlarmDetector
 
 
@@ -254,12 +227,6 @@ def test_another_battery_can_be_low_again() -> None:
     flights = [*[3.1] * 50, *[4.1] * 10, *[3.1] * 50]
     told = heard([state(tick / 10, volts=volts) for tick, volts in enumerate(flights)])
     assert [kind for _, kind in told] == [BATTERY_LOW, BATTERY_LOW]
-
-
-def test_tumbling_and_locking_are_told_when_they_begin() -> None:
-    bits = [0, TUMBLED, TUMBLED, TUMBLED | LOCKED_BIT, 0, TUMBLED]
-    told = heard([state(float(tick), bits=one) for tick, one in enumerate(bits)])
-    assert told == [(1.0, CRASHED), (3.0, LOCKED), (5.0, CRASHED)]
 
 
 # What it tells
@@ -295,19 +262,6 @@ def test_one_not_sure_within_the_last_second_is_not_sure() -> None:
     assert told(*[1e-5] * 8, 0.5).variance == 0.5
     assert not told(*[1e-5] * 5, 0.02).sure(1.25, SURE_WITHIN)
     assert told(*[0.02] * 5).sure(1.0, 0.15)
-
-
-def test_one_that_only_sees_the_ground_pass_by_is_steady_once_its_variance_stays() -> None:
-    certainty = PositionConfidence()
-    for tick in range(8):
-        certainty.hear((1e4 - (100 if tick < 3 else 0), 1e4, 1e-5), tick / 4)
-        assert certainty.steady(tick / 4) == (tick >= 7)
-        assert not certainty.sure(tick / 4, SURE_WITHIN)
-
-
-def test_what_it_said_long_ago_does_not_make_it_sure() -> None:
-    certainty = told(*[0.0] * 8)
-    assert certainty.sure(2.0, SURE_WITHIN) and not certainty.sure(9.0, SURE_WITHIN)
 
 
 def test_a_place_is_lost_once_it_has_been_unknown_for_a_second() -> None:
@@ -354,13 +308,6 @@ def test_options_have_their_defaults() -> None:
     assert options.sure_within == 0.07 and options.lost_beyond == pytest.approx(0.05**0.5)
     assert options_of({"sure_within": 0.5}).lost_beyond == 0.5
     assert options.least_voltage == 3.7 and options.grip is None and dict(options.measure) == {}
-
-
-def test_one_variable_may_be_what_every_other_quantity_is_measured_by() -> None:
-    options = options_of({"measure": {"dust": "sps.pm25", "*": "sim.measured"}})
-    assert options.variable_of("dust") == "sps.pm25"
-    assert options.variable_of("anything at all") == "sim.measured"
-    assert options_of({"measure": {"dust": "sps.pm25"}}).variable_of("light") is None
 
 
 # Tables of contents

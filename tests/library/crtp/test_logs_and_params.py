@@ -27,18 +27,6 @@ def created(bench: Bench, number: int, *wanted: str) -> int:
     return answer[2]
 
 
-def test_a_table_says_how_many_and_then_each() -> None:
-    bench = Bench()
-    head = bench.told(Port.LOG, 0, b"\3")
-    assert head is not None
-    count = struct.unpack("<H", head[1:3])[0]
-    assert count == len(names())
-    item = bench.told(Port.LOG, 0, b"\2" + struct.pack("<H", 1))
-    assert item is not None and item[4:] == b"stateEstimate\0y\0"
-    beyond = bench.told(Port.LOG, 0, b"\2" + struct.pack("<H", count))
-    assert beyond == b"\2"
-
-
 def test_a_block_sends_its_values_at_its_period() -> None:
     bench = Bench()
     assert created(bench, 1, "stateEstimate.x", "bme.temp") == Errno.OK
@@ -83,14 +71,6 @@ def test_numbers_that_a_type_cannot_say_are_its_last() -> None:
 
 def number_of(name: str) -> bytes:
     return struct.pack("<H", [one.name for one in parameters()].index(name))
-
-
-def test_a_parameter_is_set_and_read_back() -> None:
-    bench, grip = Bench(), number_of("gripper.closed")
-    assert bench.told(Port.PARAMETERS, 1, grip) == grip + b"\0\0"
-    assert bench.told(Port.PARAMETERS, 2, grip + b"\1") == grip + b"\1"
-    assert bench.told(Port.PARAMETERS, 1, grip) == grip + b"\0\1"
-    assert bench.commands[-1].what == "set gripper.closed"
 
 
 def test_what_is_read_only_keeps_its_value_and_what_is_not_there_is_said_to_be_so() -> None:

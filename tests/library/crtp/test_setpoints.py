@@ -44,15 +44,6 @@ def test_once_setpoints_are_released_commands_are_flown_again(setpoint: Packet) 
     assert bench.z == pytest.approx(1.0, abs=0.05)
 
 
-def test_a_restart_forgets_that_there_were_setpoints() -> None:
-    bench = Bench()
-    bench.told(*STOP)
-    bench.drone.restart()
-    bench.passes(2.0)
-    bench.up()
-    assert bench.z > 0.9
-
-
 def test_going_on_sending_setpoints_flies_it() -> None:
     bench = Bench()
     bench.arm()
