@@ -14,8 +14,9 @@ from pluto_fleet.app import described
 from pluto_fleet.station.graph.picture import app_graph
 from plutoc.compile import compile_source
 from plutoc.source import Source
-from tests.compiler.emit.apps import PLAIN
+from tests.paths import ROOT
 
+PLAIN = (ROOT / "tests/compiler/emit/apps/plain.pluto").read_text("utf-8")
 NAMES = iter(f"drawn_{number}" for number in range(100))
 
 Made = tuple[str, Path]

@@ -100,8 +100,8 @@ def test_what_is_wrong_with_the_whole_plan_holds_up_every_start(
     """What is wrong with another mission does not, nor what is not chosen."""
     plan = drawn(*map(mission, KEYS), mission("mission-six", trip("trip-six", target=None)))
     assert plan.launchable(KEYS)[1] == KEYS
-    words = {"trip": None, "field": None, "text": "x", "alone": "The plan is no plan"}
-    whole = PlanProblem(mission=None, **words)
+    alone = "The plan is no plan"
+    whole = PlanProblem(mission=None, trip=None, field=None, text=alone, alone=alone)
     monkeypatch.setattr("pluto_fleet.station.plan.plan.read", lambda *_: ([], [whole]))
     plan.replace(plan.revision, [*map(mission, KEYS)])
     with pytest.raises(BadInput, match="The plan is no plan"):

@@ -110,8 +110,13 @@ def test_what_is_said_twice_counts_for_nothing_and_no_proxy_is_believed(tmp_path
         answer = await station.say(bad + station.request("GET", "/nowhere"))
         assert answer.count(b"HTTP/1.1 403") == 1 and answer.count(b"HTTP/1.1 404") == 1
         for method, path in (("POST", "/api/start"), ("GET", "/api/app")):
-            lengths = {"Content_Length": "4", "Transfer_Encoding": "chunked"}
-            both = station.request(method, path, Connection="keep-alive", **lengths)
+            both = station.request(
+                method,
+                path,
+                Connection="keep-alive",
+                Content_Length="4",
+                Transfer_Encoding="chunked",
+            )
             answer = await station.say(both + b"0\r\n\r\n" + start)
             assert status(answer) == 400 and answer.count(b"HTTP/1.1") == 1
             assert b"says its length once" in answer
