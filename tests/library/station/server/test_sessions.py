@@ -1,13 +1,15 @@
 """What is answered at each address: requests and answers as a text, in sessions/; `--update` writes them anew.
 
 A request is `> METHOD address body`; a line `: name: value` below it gives it another header, or none. `$now`
-in it is the plan's revision. Of a plan its names and its problems are shown.
+in it is the plan's revision, and `local` the address that was connected to. Of a plan its names and its
+problems are shown.
 """
 
 from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qsl, urlsplit
@@ -15,19 +17,29 @@ from urllib.parse import parse_qsl, urlsplit
 import pytest
 
 from pluto_fleet.station.web.http import Reply
+from tests.library.station.jumping import run
 from tests.library.station.map.test_drawn import ward
 from tests.library.station.plan.test_library import library
 
-from .asking import OURS, Asked, AStation, asked
+from .asking import OURS, Asked, AStation, asked, request
 
 SESSIONS = sorted(Path(__file__).parent.glob("sessions/*.txt"))
 
 
-def whole(folder: Path) -> Asked:
+EVERYWHERE = {
+    "host": "0.0.0.0",
+    "names": ("ward.example", "far.example:8443"),
+    "token": "sesame",
+    "watch_token": "poppy",
+}
+"""How a station is reached by others."""
+
+
+def whole(folder: Path, **guard: Any) -> Asked:
     """Return a station with a map, a plan and a library of plans, at which every command can be done."""
     station = AStation(map=ward(folder))
     station.library = library(folder, station.plan)
-    return asked(station)
+    return asked(station, **guard)
 
 
 def told(reply: Reply) -> str:
@@ -54,11 +66,11 @@ def _in_short(data: Any) -> Any:
 def talked(ask: Asked, session: str) -> str:
     """Return the session with the answers as they are now."""
     lines: list[str] = []
-    for request in re.findall(r"^> .*(?:\n: .*)*|^#.*|^$", session, re.MULTILINE):
-        lines.append(request)
-        if not request.startswith("> "):
+    for each in re.findall(r"^> .*(?:\n: .*)*|^#.*|^$", session, re.MULTILINE):
+        lines.append(each)
+        if not each.startswith("> "):
             continue
-        first, *others = request.splitlines()
+        first, *others = each.splitlines()
         first = first.replace("$now", str(ask.station.plan.revision))
         _, method, address, *body = first.split(" ", 3)
         headers = dict(OURS)
@@ -70,7 +82,9 @@ def talked(ask: Asked, session: str) -> str:
         url = urlsplit(address)
         query = dict(parse_qsl(url.query, keep_blank_values=True))
         ask.times.append(ask.times[-1] + 1.0)  # it is asked as often as it may be
-        lines.append(told(ask(method, url.path, "".join(body), headers, **query)))
+        asks = request(method, url.path, "".join(body), headers, **query)
+        asks = replace(asks, local=headers.pop("local", asks.local))
+        lines.append(told(run(ask.api.answer(asks))))
     return "\n".join(lines).strip() + "\n"
 
 
@@ -79,7 +93,8 @@ def test_each_request_is_answered_as_it_is_written(
     file: Path, tmp_path: Path, update: bool
 ) -> None:
     session = file.read_text("utf-8")
-    now = talked(whole(tmp_path), session)
+    guard = EVERYWHERE if file.stem == "everywhere" else {}
+    now = talked(whole(tmp_path, **guard), session)
     if update:
         file.write_text(now, "utf-8")
     assert now == (now if update else session)
