@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout
 from io import StringIO
 from typing import Any, TypeVar
+from zipfile import ZipFile
 
 import pytest
 from jsonschema import Draft202012Validator
@@ -145,3 +146,9 @@ def test_a_flight_is_told_as_it_is_described_and_the_same_by_the_next_station(se
     assert (dose["kind"], dose["parameters"]) == ("handling", {"dose": 2e-05})
     station.start()
     assert station.get("/api/results.json") == results
+    packed = station.ask("GET", "/api/results.zip").file
+    assert packed is not None
+    with ZipFile(packed) as archive:
+        assert archive.read("results.csv") == station.ask("GET", "/api/results.csv").body
+    features = station.get("/api/results.geojson", flight=station.journals()[0].stem)["features"]
+    assert {one["id"] for one in features} <= {one["number"] for one in results} and features

@@ -104,7 +104,7 @@ def tangles(
     return sizes, ways, widths
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(tangles())
 def test_any_boxes_and_ways_are_drawn(
     tangle: tuple[list[tuple[float, float]], list[tuple[int, int]], list[float]],

@@ -153,7 +153,7 @@ def test_a_file_may_name_places_of_the_map() -> None:
 
 
 @given(missions=SOUND_PLANS)
-@settings(max_examples=40, derandomize=True, deadline=None)
+@settings(max_examples=20, derandomize=True, deadline=None)
 def test_what_is_exported_flies_the_same(
     tmp_path_factory: pytest.TempPathFactory, missions: list[Json]
 ) -> None:

@@ -69,7 +69,7 @@ def start_refused(plan: Any) -> str:
 
 
 @given(PLANS)
-@settings(max_examples=60, derandomize=True, deadline=None)
+@settings(max_examples=30, derandomize=True, deadline=None)
 def test_a_screen_and_a_file_find_the_same(tmp_path_factory: Any, missions: list[Json]) -> None:
     """Each problem that `check` finds in the file; whether it can be flown, if there is none."""
     plan = drawn(*missions)

@@ -62,7 +62,7 @@ def test_anything_is_taken_or_refused(revision: Any, missions: Any) -> None:
 
 
 @given(PLANS, ANYTHING, st.data())
-@settings(max_examples=80, derandomize=True, deadline=None)
+@settings(max_examples=50, derandomize=True, deadline=None)
 def test_a_plan_with_anything_in_one_place_is_taken_or_refused(
     missions: list[Json], anything: Any, data: st.DataObject
 ) -> None:

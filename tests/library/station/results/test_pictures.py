@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import io
 import os
-import subprocess
-import sys
 import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -19,82 +17,7 @@ from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.results.archive import write_archive
 from pluto_fleet.station.results.flights import FlightResults
-from pluto_fleet.station.results.pictures import SMALL, picture, small
-from tests.kill.trial import end_gateway
-from tests.kit.apps import compiled
-from tests.library.station.flights.conftest import Serve
-from tests.library.station.results.camera import SIZE
-from tests.paths import ROOT
-
-MISSIONS = """
-[[mission]]
-name = "ward"
-[[mission.trip]]
-action = "take_photo"
-target = [1.4, 1.0]
-[[mission.trip]]
-action = "take_photo"
-target = [1.8, 1.0]
-"""
-FLEET = """
-[map]
-size = [6.0, 6.0]
-cruise_height = 0.5
-[fleet]
-navigation = "camera:CameraWren"
-[[drone]]
-id = "w1"
-category = "nurse"
-home = [1.0, 0.5]
-uri = "wren:100,50"
-"""
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_a_picture_of_a_users_own_drone_comes_out_of_a_station(
-    serve: Serve, tmp_path: Path
-) -> None:
-    """Of a flight that was begun by hand, and of which the station knows the journal alone."""
-    station = serve()
-    journal = station.folder / "by-hand.journal"
-    (tmp_path / "missions.toml").write_text(MISSIONS)
-    (tmp_path / "fleet.toml").write_text(FLEET)
-    source = compiled("drugs_distribution") / "src"
-    path = [source, ROOT / "docs/navigation", Path(__file__).parent, ROOT / "runtime", ROOT]
-    words = [sys.executable, "-m", "drugs_distribution", "fly", "missions.toml"]
-    try:
-        done = subprocess.run(
-            [*words, "--fleet", "fleet.toml", "--journal", str(journal)],
-            cwd=tmp_path,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, path))},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-    finally:
-        end_gateway(journal)
-    assert done.returncode == 0, done.stdout + done.stderr
-    flight = {"flight": "by-hand"}
-    photos = station.get("/api/results.json", **flight)
-    assert [one["kind"] for one in photos] == ["photo", "photo"]
-    assert photos[0]["value"]["picture"] == "/api/photo?result=1&flight=by-hand"
-    whole = station.ask("GET", "/api/photo", result="1", **flight)
-    assert whole.type == "image/png"
-    assert whole.body == (gateway_folder(journal) / "files/w1-1.png").read_bytes()
-    little = station.ask("GET", "/api/photo", result="1", size="thumb", **flight)
-    assert little.type == "image/jpeg"
-    with Image.open(io.BytesIO(little.body)) as image, Image.open(io.BytesIO(whole.body)) as first:
-        assert first.size == SIZE
-        assert image.size == (SMALL[0], SMALL[0] * SIZE[1] // SIZE[0])
-    packed = station.ask("GET", "/api/results.zip", **flight).file
-    assert packed is not None
-    with ZipFile(packed) as archive:
-        assert archive.namelist() == ["results.csv", "00001.png", "00002.png"]
-        assert archive.read("00001.png") == whole.body
-        assert b"00002.png" in archive.read("results.csv")
-    for wrong in ({"result": "3", **flight}, {"result": "1", "flight": "../by-hand"}):
-        assert station.ask("GET", "/api/photo", **wrong).status == 404
+from pluto_fleet.station.results.pictures import picture, small
 
 
 @dataclass(kw_only=True)

@@ -22,13 +22,13 @@ SOUND = st.recursive(
 )
 
 
-@settings(derandomize=True, deadline=None)
+@settings(max_examples=40, derandomize=True, deadline=None)
 @given(data=SOUND, is_ascii=st.booleans())
 def test_what_is_sound_is_read_as_it_was_written(data: object, is_ascii: bool) -> None:
     assert parsed(json.dumps(data, ensure_ascii=is_ascii).encode()) == data
 
 
-@settings(derandomize=True, deadline=None)
+@settings(max_examples=40, derandomize=True, deadline=None)
 @given(text=st.text(alphabet='{}[]",:\\u0d8019.eE-+ aN', max_size=40))
 def test_what_is_not_is_malformed_and_nothing_else(text: str) -> None:
     try:
