@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+
 import pytest
 
 from pluto_fleet.station.session import FlightSession
@@ -20,3 +22,23 @@ def test_a_mistake_in_what_is_shown_leaves_no_page_waiting_and_the_flight_flies_
         station.comes_to("over")
     assert complaints
     station.completes_all_once()
+
+
+def test_a_page_that_has_seen_all_is_answered_when_something_changes_or_in_a_second(
+    serve: Serve,
+) -> None:
+    station = serve()
+    seen, loop = int(station.now()["version"]), station.world.loop
+
+    async def answered(change: bool) -> float:
+        """Return how long a page waits, if something changes soon or nothing does."""
+        begun = loop.time()
+        asked = asyncio.ensure_future(station.life.newer("", seen, 0, 0))
+        await asyncio.sleep(0.3)
+        if change:
+            station.life.plan.example(station.life.plan.revision)
+        await asked
+        return loop.time() - begun
+
+    assert station.world.run(answered(change=False)) == pytest.approx(1.1, abs=0.1)
+    assert station.world.run(answered(change=True)) == pytest.approx(0.4, abs=0.1)
