@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from plutoc.block import ANY_SAME, Block, Choice, HookKind, HookParam, Narrowed, Param, emits
-from plutoc.diagnostic import Diagnostic, Rejected
+from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Graph
 from plutoc.graph.resolve import resolve
 from plutoc.registry import Blocks, RegistryError
@@ -95,12 +95,3 @@ def graph(statements: str, uses: str = "") -> Graph:
     resolved, warnings = graph_of(statements, uses)
     assert warnings == ()
     return resolved
-
-
-def codes(statements: str, uses: str = "") -> list[str]:
-    """Return the codes of all that is found, warnings too, each with the text it points at."""
-    try:
-        _, found = graph_of(statements, uses)
-    except Rejected as rejected:
-        found = rejected.diagnostics
-    return [f"{d.code} {d.source.quote(d.span)}" for d in found]

@@ -35,55 +35,11 @@ def in_app(text: str) -> list[str]:
     return [f"{d.code} {d.source.position(d.span.start)[0] - 2}" for d in found]
 
 
-def test_each_statement_has_its_own_mistake() -> None:
-    """The parser goes on with the next statement."""
-    text = 'a b\nc -> d\ne = K(x 3)\nf = "t\ng -> h when\ni = K;\n[j -> k'
-    assert in_app(text) == ["P0001 1", "P0001 3", "P0002 4", "P0001 5", "P0003 6", "P0001 7"]
-
-
-@pytest.mark.parametrize(
-    "follower", ["b = K", "b -> c", "category s can x", "action x", "modifier m"]
-)
-def test_forgotten_bracket_swallows_nothing(follower: str) -> None:
-    """What can only begin a statement closes what was left open."""
-    assert in_app(f"a = K(x: 3,\n{follower}\nb b") == ["P0011 1", "P0001 3"]
-    assert in_app(f"a = K(x: [3,\n{follower}\nb b") == ["P0011 1", "P0001 3"]
-
-
-def test_bracket_left_open_at_the_end_of_the_app() -> None:
-    """The brace ends it."""
-    assert in_app("a = K(x: 3") == ["P0011 1"]
-
-
-def test_braces_in_an_app_are_one_mistake() -> None:
-    """With all that stands in them."""
-    assert in_app("loop {\n  a -> b\n}\nc d") == ["P0001 1", "P0001 4"]
-
-
 def test_mistakes_before_the_app() -> None:
     """A broken line does not hide the app's own mistakes."""
     found = mistakes("pluto 1\nuse 3\nuse b\nap demo {\n a b\n}\n")
     assert [d.code for d in found] == ["P0001", "P0001", "P0001"]
     assert found[1].help == "did you mean `app`?"
-
-
-def test_fix_mends() -> None:
-    """A proposed change makes the source one that parses."""
-    for broken in (
-        "a = K(x 3)",
-        "a -> b if X",
-        "a => b",
-        "a → b",
-        "a = K;",
-        "a: K",
-        "a = K(x = 3)",
-        "a = K(x: 3",
-    ):
-        text = f"pluto 1\napp demo {{\n{broken}\n}}"
-        (found,) = mistakes(text)
-        assert found.fix, broken
-        start, end = found.fix.span.start, found.fix.span.end
-        assert not mistakes(text[:start] + found.fix.text + text[end:]), broken
 
 
 def test_fix_of_a_missing_header() -> None:
