@@ -1,40 +1,31 @@
-"""What a developer may write, and what `--add-stubs` adds. Findings: tests/cases/p3*."""
+"""What is said of a hooks.py, and what is believed; and what `--add-stubs` adds.
+
+`modules.txt` has modules of hooks for `crop.pluto`, an app with a hook of each kind, and what is found in them.
+"""
 
 from __future__ import annotations
 
 import ast
+from inspect import iscoroutinefunction
+from pathlib import Path
 
 import pytest
 
-from plutoc.check.model import Checked
 from plutoc.compile import analyse, check_hooks, policies_for_all
-from plutoc.diagnostic import Rejected
+from plutoc.diagnostic import Diagnostic, Rejected
+from plutoc.edits import applied
+from plutoc.emit.hooks_file import hooks_file
 from plutoc.emit.hooks_tests import hooks_test
 from plutoc.hooks.add import with_stubs
+from plutoc.hooks.awaits import MUST_BE_AWAITED
 from plutoc.source import Source
+from plutoc_runtime.hooks.context import Context, LiveDrone
+from tests.compiler.emit.apps import ODD_NAMES
+from tests.kit.findings import findings
+from tests.kit.sections import Section, compare, params
 
-APP = """pluto 1
-app crop {
-  action pollinate(dose: mass = 50 mg)
-  evaluator find_blooms
-  modifier limit_trip(limit: time = 3 min) emits STANDBY, COMPLETED, FAILED
-  policy by_battery
-  create = MissionCreator
-  allocate = DroneAllocator(policy: by_battery)
-  launch = TripLauncher
-  watch = TripMonitor
-  limit = MissionModifier(hook: limit_trip, limit: 2 min)
-  first = GateFIFO
-  judge = MissionEvaluator(hook: find_blooms)
-  start -> create -> allocate -> launch -> [watch, limit] -> first
-  first -> allocate when STANDBY
-  first -> judge when COMPLETED
-  first -> end when FAILED
-  judge -> allocate when STANDBY
-  judge -> end otherwise
-}
-"""
-
+APP = Path(__file__).with_name("crop.pluto").read_text(encoding="utf-8")
+CROP = analyse(Source("app.pluto", APP))[0]
 GOOD = """
 from . import Verdict
 def pollinate(drone, trip, context, *, dose): ...
@@ -44,179 +35,93 @@ def by_battery(trip, candidates): return candidates[0]
 """
 
 
-@pytest.fixture(scope="module")
-def crop() -> Checked:
-    """An app with a hook of each kind."""
-    return analyse(Source("app.pluto", APP))[0]
-
-
-def codes(checked: Checked, hooks: str) -> list[str]:
-    """Return the codes of what is found in a hooks.py."""
+def found(hooks: Source, app: str = APP) -> tuple[Diagnostic, ...]:
+    """Return what is found in a hooks.py."""
     try:
-        check_hooks(checked, Source("hooks.py", hooks))
+        return check_hooks(CROP if app == APP else analyse(Source("app.pluto", app))[0], hooks)
     except Rejected as rejected:
-        return [found.code for found in rejected.diagnostics]
-    return []
+        return rejected.diagnostics
 
 
-def test_plain_functions_will_do(crop: Checked) -> None:
-    """Annotations are not asked for."""
-    assert codes(crop, GOOD) == []
+@pytest.mark.parametrize("case", params(Path(__file__).with_name("modules.txt")))
+def test_of_hooks_just_this_is_said(case: Section, update: bool) -> None:
+    """In the order of the app; and what mends a finding leaves nothing to be said."""
+    hooks = Source("hooks.py", f"{case.given}\n")
+    said = found(hooks)
+    compare(case, findings(said), update)
+    if said and all(each.fix for each in said):
+        mended = applied(hooks, [each.fix for each in said if each.fix])
+        assert found(Source("hooks.py", mended)) == ()
 
 
-@pytest.mark.parametrize(
-    ("old", "new"),
-    [
-        ("def pollinate", "async def pollinate"),
-        ("def find_blooms", "async def find_blooms"),
-        ("def limit_trip", "async def limit_trip"),
-        ("drone, trip, context, *, dose", "drone, trip, context, dose"),
-        ("drone, trip, context, *, dose", "_drone, _t, context, /, *, dose"),
-        ("drone, trip, context, *, dose", "drone, trip, context, *, dose, more=1"),
-        ("drone, trip, context, *, dose", "drone, trip, context, often=1, *, dose=2"),
-        ("drone, trip, context, *, dose", "*args, **kwargs"),
-        ("drone, trip, context, *, dose", "drone, *rest, dose"),
-        ("def by_battery", "@cached\ndef by_battery"),
-        ("def find_blooms(mission, results)", "@wrapped\ndef find_blooms()"),
-        ("def find_blooms(mission, results): return", "find_blooms ="),
-    ],
-)
-def test_other_ways_to_write_a_hook_are_as_good(crop: Checked, old: str, new: str) -> None:
-    """What the app's call fits, and what cannot be known, is accepted."""
-    assert codes(crop, GOOD.replace(old, new)) == []
+def test_the_methods_are_those_that_must_be_awaited() -> None:
+    """All `async def` of what hooks are given, and no others."""
+    for of in (Context, LiveDrone):
+        waits = {name for name, what in vars(of).items() if iscoroutinefunction(what)}
+        assert {name for name in waits if not name.startswith("_")} == MUST_BE_AWAITED[of.__name__]
 
 
-def test_a_star_import_may_bring_any_hook(crop: Checked) -> None:
-    """Nothing is run to find out."""
-    assert codes(crop, "from .mine import *\n") == []
-    assert codes(crop, "from .mine import *\nasync def by_battery(trip, candidates): ...") == [
-        "P3010"
-    ]
+def test_a_type_of_thousands_of_parts_is_read() -> None:
+    """Without recursion."""
+    wide = f"by_battery(trip: {'Trip | ' * 1500}Trip, candidates)"
+    hooks = "from . import Trip\n" + GOOD.replace("by_battery(trip, candidates)", wide)
+    assert found(Source("hooks.py", hooks)) == ()
 
 
-def test_the_last_definition_counts(crop: Checked) -> None:
-    """As it does when Python runs it."""
-    assert codes(crop, "def find_blooms(): ...\n" + GOOD) == []
-    assert codes(crop, GOOD + "def find_blooms(): ...\n") == ["P3005"]
-
-
-def test_all_findings_come_in_the_order_of_the_app(crop: Checked) -> None:
-    """Missing ones and wrong ones."""
-    hooks = "def by_battery(): ...\nclass find_blooms: ...\n"
-    assert codes(crop, hooks) == ["P3003", "P3004", "P3003", "P3005"]
-
-
-@pytest.mark.parametrize(
-    ("parameters", "expected"),
-    [
-        ("dos", ["P3007"]),
-        ("amount", ["P3007"]),
-        ("amount, dosage", ["P3007", "P3008"]),
-        ("far, off", ["P3007", "P3008", "P3008"]),
-        ("dos, **others", ["P3008"]),
-        ("dos=1.0", ["P3007"]),
-        ("dose, dos", ["P3008"]),
-    ],
-)
-def test_a_parameter_by_another_name_is_one_mistake(
-    crop: Checked, parameters: str, expected: list[str]
-) -> None:
-    """Not one that is missing and one too many."""
-    assert codes(crop, GOOD.replace("*, dose", f"*, {parameters}")) == expected
-
-
-def test_stubs_make_any_hooks_complete(crop: Checked) -> None:
+def test_stubs_make_any_hooks_complete() -> None:
     """An empty file, and one of which only the last hook is there."""
     for text in ("", '"""Mine."""\n', "import os\n\nx = os.sep\n", "def by_battery(a, b): ...\n"):
-        grown = with_stubs(crop, Source("hooks.py", text))
-        assert codes(crop, grown) == []
+        grown = with_stubs(CROP, Source("hooks.py", text))
+        assert found(Source("hooks.py", grown)) == ()
         ast.parse(grown)
         for line in text.splitlines():
             assert line in grown
-        assert with_stubs(crop, Source("hooks.py", grown)) == grown
+        assert with_stubs(CROP, Source("hooks.py", grown)) == grown
 
 
-def test_stubs_import_what_they_name_once(crop: Checked) -> None:
-    """What is imported already is not imported again."""
-    grown = with_stubs(crop, Source("hooks.py", "from . import Drone, Trip as Trip\n\nx = 1\n"))
+def test_stubs_import_what_they_name_once() -> None:
+    """What is imported already is not imported again; and what is no Python has to be mended first."""
+    grown = with_stubs(CROP, Source("hooks.py", "from . import Drone, Trip as Trip\n\nx = 1\n"))
     lines = [line for line in grown.splitlines() if "import" in line]
     assert lines == [
         "from . import Drone, Trip as Trip",
         "from collections.abc import Sequence",
         "from . import Context, Mission, Results, Status, Verdict",
     ]
+    assert with_stubs(CROP, Source("hooks.py", "def (")) == "def ("
 
 
-def test_nothing_is_added_to_what_is_not_python(crop: Checked) -> None:
-    """First it has to be mended."""
-    source = Source("hooks.py", "def (")
-    assert with_stubs(crop, source) == source.text
+def test_fresh_stubs_are_right_for_all_names_of_an_app() -> None:
+    """Also where an action is called like a type of Python's."""
+    for app in (APP, ODD_NAMES):
+        checked = analyse(Source("app.pluto", app))[0]
+        assert found(Source("hooks.py", hooks_file(checked)), app) == ()
 
 
-@pytest.mark.parametrize(
-    ("probe", "wanted"),
-    [
-        ("async def pollinate_done(drone: Drone, trip: Trip) -> bool | None: return None", []),
-        ("def pollinate_done(drone, trip): return True", []),
-        ("pollinate_done = None", []),
-        ("def pollinate_done(drone): return True", ["P3005"]),
-        ("def pollinate_done(trip, drone): return True", ["P3006"]),
-        ("def pollinate_done(drone, trip, dose): return True", ["P3008"]),
-        ("def pollinate_done(drone, trip) -> str: return 'yes'", ["P3014"]),
-    ],
-)
-def test_what_tells_whether_an_action_was_done_is_looked_at(
-    crop: Checked, probe: str, wanted: list[str]
-) -> None:
-    """It need not be there; where it is, the app can call it after a crash."""
-    text = GOOD.replace("import Verdict", "import Drone, Trip, Verdict") + probe
-    assert codes(crop, text) == wanted
-
-
-@pytest.mark.parametrize(
-    ("parameters", "found"),
-    [
-        ("(trip, candidates)", []),
-        ("(waiting, drones, now)", []),
-        ("(a, b, c)", []),
-        ("(a, b, c=1)", []),
-        ("(a, b, /, c)", []),
-        ("(*given)", []),
-        ("(waiting)", ["P3005"]),
-        ("(waiting, now, drones)", ["P3006"]),
-        ("(trip, candidates, now)", ["P3008"]),
-        ("(waiting, drones, now, *, more)", ["P3008"]),
-        ("(a, b, c, d)", ["P3008", "P3008"]),
-    ],
-)
-def test_a_policy_has_one_of_two_shapes(crop: Checked, parameters: str, found: list[str]) -> None:
-    """Three parameters without a default are those of all that wait."""
-    hooks = GOOD.replace(
-        "by_battery(trip, candidates): return candidates[0]", f"by_battery{parameters}: ..."
-    )
-    assert codes(crop, hooks) == found
-
-
-def test_help_for_a_policy_that_chooses_for_all_shows_that_shape(crop: Checked) -> None:
-    hooks = GOOD.replace(
-        "def by_battery(trip, candidates)", "async def by_battery(waiting, drones, now)"
-    )
-    with pytest.raises(Rejected) as rejected:
-        check_hooks(crop, Source("hooks.py", hooks))
-    (found,) = rejected.value.diagnostics
-    assert found.help is not None
-    assert (
-        "(waiting: Sequence[Waiting], drones: Sequence[Drone], now: float) -> Assignment"
-        in found.help
-    )
-
-
-def test_the_test_of_such_a_policy_is_written_for_its_shape(crop: Checked) -> None:
+def test_the_test_of_a_policy_is_written_for_its_shape() -> None:
     """It is written once, when there may be a hooks.py already."""
-    hooks = Source(
-        "hooks.py", GOOD.replace("by_battery(trip, candidates)", "by_battery(all, free, at)")
-    )
-    assert policies_for_all(crop, Source("hooks.py", GOOD)) == frozenset()
-    assert policies_for_all(crop, hooks) == {"by_battery"}
-    assert "hooks.by_battery, waiting, [drone], 0.0" in hooks_test(crop, frozenset({"by_battery"}))
-    assert "hooks.by_battery, trip, [drone]" in hooks_test(crop)
+    for_all = GOOD.replace("by_battery(trip, candidates)", "by_battery(all, free, at)")
+    assert policies_for_all(CROP, Source("hooks.py", GOOD)) == frozenset()
+    assert policies_for_all(CROP, Source("hooks.py", for_all)) == {"by_battery"}
+    assert "hooks.by_battery, waiting, [drone], 0.0" in hooks_test(CROP, frozenset({"by_battery"}))
+    assert "hooks.by_battery, trip, [drone]" in hooks_test(CROP)
+
+
+def test_a_modifier_without_emits_returns_nothing() -> None:
+    """A status that it returned would be a fault."""
+    app = """pluto 1
+app crop {
+  modifier look
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  spoken = MissionModifier(hook: look)
+  start -> create -> spoken -> allocate -> launch -> watch
+  watch -> allocate when STANDBY
+  watch -> end
+}
+"""
+    hooks = "from . import Status\ndef look(mission, context) -> Status: ...\n"
+    (one,) = found(Source("hooks.py", hooks), app)
+    assert (one.code, one.label) == ("P3014", "must be `None`")
