@@ -100,6 +100,7 @@ def test_who_is_busy_lost_or_kept_on_the_ground_by_the_limit_is_said() -> None:
     assert said(full) == ["waits for a drone (2 free, but no more may fly at once; 1 flying)"] * 2
     assert {one["key"] for one in reasons(full)} == {"wait.drone-full"}
     fleet = living(*missions, apps.mission("d", apps.trip("1", 9.0)))
+    fleet.life.control.retire("cf1")  # it is lost for all that, and counted once
     fleet.kernel.spawn(fleet.gateway.cut_motors("cf1"), FLEET, "the motors of one are cut")
     fleet.run(5.0)
     assert said(fleet) == ["waits for a drone (1 lost; 2 flying)"]

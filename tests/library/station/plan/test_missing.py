@@ -145,6 +145,14 @@ def test_what_cannot_be_flown_again_alone_is_refused_in_words(tmp_path: Path) ->
         missing(plan, ["mission-two"])
 
 
+def test_what_was_done_before_counts_though_it_is_said_twice_that_it_flies() -> None:
+    plan = failed(drawn(long("mission-one")), mission_one=["1"])
+    plan.launched(["mission-one"], only_failed=True)
+    plan.launched(["mission-one"])
+    plan.settle({"mission-one": "FAILED"}, {"mission-one": []})
+    assert missing(plan) == {"mission-one": ["2", "3", "4", "5", "6"]}
+
+
 def test_missions_in_rounds_are_flown_whole() -> None:
     plan = failed(drawn({**long("mission-one"), "repeat": 2}), mission_one=["1"])
     with pytest.raises(BadInput, match='"mission-one" flies in rounds'):

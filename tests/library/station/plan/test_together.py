@@ -108,6 +108,22 @@ def test_what_is_wrong_with_the_whole_plan_holds_up_every_start(
         plan.launchable(KEYS[:1])
 
 
+def test_a_mission_comes_after_one_that_is_started_with_it_or_flies_or_was_completed() -> None:
+    plan = drawn(mission(KEYS[0]), mission(KEYS[1], after=[KEYS[0]]))
+
+    def after(*chosen: str) -> object:
+        missions, _ = plan.launchable(chosen or None)
+        return missions[-1].promises.get("after")
+
+    assert after() == [KEYS[0]]
+    with pytest.raises(BadInput, match='comes after "mission-one", which is not started'):
+        after(KEYS[1])
+    plan.launched(KEYS[:1])
+    assert after(KEYS[1]) == [KEYS[0]]
+    plan.settle({KEYS[0]: "COMPLETED"})
+    assert after(KEYS[1]) is None
+
+
 def test_missions_to_fly_are_new_ones_each_time() -> None:
     """Flying them changes them."""
     plan = drawn(mission())

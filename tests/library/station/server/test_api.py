@@ -107,8 +107,10 @@ async def test_many_who_guess_keep_no_owner_out() -> None:
     start = request("POST", "/api/start", {"id": "2"}, without(authorization="Bearer sesame"))
     guess = request("POST", "/api/start", {"id": "3"})
     guesses = [asyncio.create_task(ask.api.answer(guess)) for _ in range(200)]
+    await asyncio.sleep(0)
     assert (await ask.api.answer(start)).status == 200
     assert (await ask.api.answer(stop)).status == 200
+    assert len(ask.paused) == 32  # the others are answered at once
     gate.set()
     assert {(await each).status for each in guesses} == {401}
 
