@@ -73,6 +73,7 @@ def air() -> Iterator[Air]:
     assert not any(drone.body.airborne for drone in server.drones.values())
 
 
+@pytest.mark.long
 def test_crazyflies_say_how_they_are(air: Air, command: Command) -> None:
     """Where they stand, what their batteries have, what they run; a silent one delays no other."""
     air.done(air.server.let("cf2", "lock"))
@@ -100,6 +101,7 @@ def test_a_fleet_file_is_made_of_crazyflies(air: Air, command: Command, tmp_path
         assert drone.home == pytest.approx((float(number), 1.0, 0.0), abs=0.1)
 
 
+@pytest.mark.long
 def test_one_blinks(air: Air, command: Command) -> None:
     """And nothing else is done to it."""
     code, out, _ = command("drones", "--identify", air.uris[1])

@@ -76,6 +76,8 @@ def test_a_program_is_told_so_too(missions: Path, command: Command) -> None:
     assert "given_up" not in json.loads(command("simulate", missions, "--json")[1])
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_each_of_many_runs_is_given_up(missions: Path, command: Command) -> None:
     """None of them counts as one that succeeded."""
     code, out, _ = command("simulate", missions, *NEVER, "--runs", 2, app=UNBOUNDED)
@@ -134,10 +136,8 @@ def test_missions_that_only_rest_are_given_up(missions: Path, command: Command) 
 
 
 def test_crashed_drones_are_counted(missions: Path, command: Command) -> None:
-    """In the last line, in that of each of many runs, and for programs; not where none has crashed."""
+    """For programs; not where none has crashed."""
     crash = ("--fail", "crash=100%")
-    assert " failed, 3 drones crashed)\n" in command("simulate", missions, *crash)[1]
-    assert " drones crashed)\n" in command("simulate", missions, *crash, "--runs", 2)[1]
     said = json.loads(command("simulate", missions, *crash, "--json")[1])
     assert said["crashed_drones"] == sum(one["status"] == "LOST" for one in said["drones"]) == 3
     assert "crashed" not in command("simulate", missions)[1]

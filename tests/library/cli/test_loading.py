@@ -75,6 +75,8 @@ def test_what_hooks_end_with_is_told_in_a_line_of_some_length(
     assert "the hooks cannot be loaded: Odd" in capsys.readouterr().err
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_a_process_that_hooks_fork_as_they_are_loaded_is_no_app(
     load_with: Callable[[str], int], monkeypatch: pytest.MonkeyPatch
 ) -> None:

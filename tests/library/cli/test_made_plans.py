@@ -36,46 +36,12 @@ def plan(tmp_path: Path) -> Path:
     return file
 
 
-def test_check_tells_what_each_area_has_become(plan: Path, command: Command) -> None:
-    code, out, _ = command("check", plan)
-    assert code == 0
-    assert out.split("\n") == [
-        'mission "Bed 1" (beds.csv, row 2), area 1: 1 trip, 0 m from the first to the last',
-        'mission "Bed 2" (beds.csv, row 3), area 1: 2 trips, 2 m from the first to the last',
-        "2 missions with 5 trips: a fleet of 5 drones can fly them",
-        "",
-    ]
-
-
 def test_of_very_many_areas_the_first_are_told(plan: Path, command: Command) -> None:
     rows = "".join(f"{n},7\n" for n in range(60))
     plan.with_name("beds.csv").write_text(f"nr,x\n{rows}", encoding="utf-8")
     *told, more, last, end = command("check", plan)[1].split("\n")
     assert (len(told), more, end) == (50, "… and 10 more areas", "")
     assert last.startswith("60 missions with 120 trips")
-
-
-def test_check_writes_plain_missions(plan: Path, tmp_path: Path, command: Command) -> None:
-    """Into a new file, which needs no list and no shapely; never over another one."""
-    plain = tmp_path / "plain.toml"
-    assert command("check", plan, "--write", plain)[0] == 0
-    text = plain.read_text(encoding="utf-8")
-    assert "each" not in text
-    assert "area]]" not in text
-    assert text.count("[[mission]]") == 2
-    assert text.count("[[mission.trip]]") == 5
-    plan.with_name("beds.csv").unlink()
-    assert command("check", plain)[:2] == (
-        0,
-        "2 missions with 5 trips: a fleet of 5 drones can fly them\n",
-    )
-    code, _, said = command("check", plain, "--write", plain)
-    assert (code, said) == (2, f"{plain}: it is there already, and is not replaced\n")
-    code, _, said = command("check", plain, "--write", tmp_path / "no" / "p.toml")
-    assert (code, said) == (
-        2,
-        f"{tmp_path}/no/p.toml: the missions cannot be written: No such file or directory\n",
-    )
 
 
 def test_a_simulation_flies_plain_trips(plan: Path, command: Command) -> None:
@@ -86,6 +52,8 @@ def test_a_simulation_flies_plain_trips(plan: Path, command: Command) -> None:
     assert missions[1]["completed_trips"] == ["1", "area 1.1", "area 1.2"]
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_a_journal_keeps_plain_missions(plan: Path, tmp_path: Path, command: Command) -> None:
     """It is resumed where the list is gone, and from before the first mission has begun."""
     journal = tmp_path / "j"
@@ -140,27 +108,8 @@ def test_missions_at_one_spot_fly_at_the_same_time(spot: Path, command: Command)
         assert told["at"] != told["target"]
 
 
-def test_it_is_said_on_the_console_and_in_the_trace(
-    spot: Path, tmp_path: Path, command: Command
-) -> None:
-    trace = tmp_path / "trace"
-    _, out, _ = command("simulate", spot, "--trace", trace)
-    assert out.count("another drone is at its place (cf") == 2
-    events = [json.loads(line) for line in trace.read_text(encoding="utf-8").splitlines()]
-    order = [event["event"] for event in events if event.get("mission") == "3"]
-    assert order[-4:] == ["trip.launched", "trip.beside", "trip.completed", "mission.ended"]
-
-
-def test_a_dry_run_commands_just_that(spot: Path, command: Command) -> None:
-    """All three are there at once."""
-    code, out, _ = command("fly", spot, "--dry-run", "--sim")
-    assert code == 0
-    acts = [line.split() for line in out.splitlines() if "measure" in line]
-    times = [float(words[0]) for words in acts]
-    assert len(times) == 3
-    assert max(times) <= 1.25 * min(times)
-
-
+@pytest.mark.long
+@pytest.mark.process
 def test_a_flight_writes_it_into_its_journal(spot: Path, tmp_path: Path, command: Command) -> None:
     """As it says it."""
     journal = tmp_path / "j"
@@ -186,20 +135,3 @@ def test_what_changes_something_is_done_just_there(spot: Path, command: Command)
     found = json.loads(command("simulate", spot, "--json", "--no-spread")[1])
     assert {one["status"] for one in found["missions"]} == {"COMPLETED"}
     assert "beside" not in found
-
-
-def test_a_plan_with_names_of_places_is_kept_without_them(tmp_path: Path, command: Command) -> None:
-    """What is written, as a journal is, needs no map to be read again."""
-    (tmp_path / "fleet.toml").write_text(
-        '[[map.places]]\nname = "Bed 3"\nat = [2.5, 8]\n'
-        '[[drone]]\nid = "a"\ncategory = "scout"\nhome = [1, 1]\n',
-        encoding="utf-8",
-    )
-    file, plain = tmp_path / "m.toml", tmp_path / "other" / "plain.toml"
-    file.write_text(
-        '[[mission]]\n[[mission.trip]]\naction = "measure"\ntarget = "Bed 3"\n', encoding="utf-8"
-    )
-    plain.parent.mkdir()
-    assert command("check", file, "--write", plain)[0] == 0
-    assert "target = [2.5, 8.0, 1.2]" in plain.read_text(encoding="utf-8")
-    assert command("check", plain)[0] == 0

@@ -22,28 +22,6 @@ def with_pollinate(hook: Any) -> App:
     return apps.changed(APP, actions={**APP.actions, "pollinate": replace(POLLINATE, hook=hook)})
 
 
-def test_the_log_is_told_as_it_happens_then_two_tables_and_a_last_line(
-    missions: Path, command: Command
-) -> None:
-    """A person reads it from top to bottom."""
-    code, out, err = command("simulate", missions)
-    assert (code, err) == (0, "")
-    log, table, drones, end = out.split("\n\n")
-    last, world = end.splitlines()
-    assert log.startswith("     0.0 s  North: trip A launched (cf1)\n")
-    assert log.endswith("North: COMPLETED")
-    assert table.split("\n") == [
-        "mission  status     trips  rounds  attempts  reason",
-        "North    COMPLETED    2/2       1         2",
-        "South    COMPLETED    1/1       1         1",
-    ]
-    assert drones.startswith("drone  category  trips")
-    assert len(drones.split("\n")) == 6
-    assert last.startswith("2 of 2 missions completed in ")
-    assert last.endswith(" s (3 flights)")
-    assert world == "flown with traffic: drones keep 0.5 m apart from each other"
-
-
 def test_an_app_that_repeats_nothing_has_no_column_for_rounds(
     missions: Path, command: Command
 ) -> None:
@@ -81,34 +59,7 @@ def test_the_same_seed_gives_the_same_text(missions: Path, command: Command) -> 
     assert first[1].replace('"seed": 1', '"seed": 3') != other[1]
 
 
-def test_a_mission_that_failed_is_exit_1(missions: Path, command: Command) -> None:
-    """And the table says why."""
-    code, out, _ = command("simulate", missions, "--fail", "action=100%")
-    assert code == 1
-    assert "South: FAILED: measure failed" in out
-    assert "0 of 2 missions completed, 2 failed in " in out
-
-
-def test_until_cuts_the_simulation_short(missions: Path, command: Command) -> None:
-    """A mission that has not finished by then has not failed."""
-    code, out, _ = command("simulate", missions, "--until", "5 s")
-    assert code == 0
-    assert "0 of 2 missions completed, 2 not finished in 5 s" in out
-
-
-def test_what_repeats_until_stopped_needs_until(missions: Path, command: Command) -> None:
-    """It would never end."""
-    missions.write_text(missions.read_text().replace('"North"', '"North"\nrepeat = true'))
-    code, out, err = command("simulate", missions)
-    assert (code, out) == (2, "")
-    assert err == (
-        f'{missions}: mission "North" repeats until it is stopped (repeat = true): '
-        "say when with --until, such as --until 2h\n"
-    )
-    assert command("simulate", missions, "--until", "10 min")[0] == 0
-    assert command("check", missions)[0] == 0
-
-
+@pytest.mark.process
 def test_many_runs_have_a_summary(missions: Path, command: Command) -> None:
     """Each run is the object of one, and the summary tells what they share."""
     flags = ("simulate", missions, "--runs", 4, "--seed", 10, "--fail", "crash=30%")
@@ -131,6 +82,8 @@ def test_many_runs_have_a_summary(missions: Path, command: Command) -> None:
     assert f"\n\n{4 - len(bad)} of 4 runs succeeded" in text
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_runs_that_took_the_same_are_not_given_a_range(missions: Path, command: Command) -> None:
     """Nor is a single one."""
     words = command("simulate", missions, "--runs", 1)[1].splitlines()[-1]
@@ -140,32 +93,6 @@ def test_runs_that_took_the_same_are_not_given_a_range(missions: Path, command: 
     assert "2 of 2 runs succeeded (100 %); each took " in words
     words = command("simulate", missions, "--runs", 2)[1].splitlines()[-1]
     assert re.search(r"; they took [\d.]+ s to [\d.]+ s$", words)
-
-
-def test_the_trace_has_every_event(missions: Path, command: Command, tmp_path: Path) -> None:
-    """One JSON object a line, in order; an older trace is replaced."""
-    trace = tmp_path / "trace.jsonl"
-    trace.write_text("old")
-    assert command("simulate", missions, "--trace", trace)[0] == 0
-    events = [json.loads(line) for line in trace.read_text().splitlines()]
-    assert events[0]["event"] == "mission.created"
-    assert sum(event["event"] == "trip.launched" for event in events) == 3
-    assert [event["t"] for event in events] == sorted(event["t"] for event in events)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["m.toml", "trace.jsonl"]
-
-
-def test_a_trace_that_cannot_be_written_stops_everything(
-    missions: Path, command: Command, tmp_path: Path
-) -> None:
-    """Exit 2 with the reason, and nothing is left behind."""
-    for target, why in (
-        (tmp_path / "none" / "t", "No such file or directory"),
-        (tmp_path, "it is a folder"),
-        (Path("/dev/full"), "No space left on device"),
-    ):
-        code, _, err = command("simulate", missions, "--trace", target)
-        assert (code, err) == (2, f"{target}: the trace cannot be written: {why}\n")
-    assert [path.name for path in tmp_path.iterdir()] == ["m.toml"]
 
 
 def interrupt(*_: object, **__: object) -> None:

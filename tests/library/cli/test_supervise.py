@@ -11,6 +11,7 @@ import pytest
 
 from pluto_fleet.cli.supervise import GIVES_UP_AFTER, Supervised, supervise
 
+pytestmark = pytest.mark.process
 LIVES = """
 import os, signal, sys
 place, ends = sys.argv[1:3]
@@ -64,12 +65,13 @@ def lived(tmp_path: Path) -> Lived:
     return run
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("code", [0, 1, 4, 129, 143])
 def test_an_app_that_meant_to_end_is_not_started_again(code: int, lived: Lived) -> None:
     assert lived(str(code)) == (code, ["fly"])
 
 
-@pytest.mark.parametrize("end", ["-9", "70"])
+@pytest.mark.parametrize("end", ["-9", pytest.param("70", marks=pytest.mark.long)])
 def test_an_app_that_crashed_goes_on(
     end: str, lived: Lived, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -78,6 +80,7 @@ def test_an_app_that_crashed_goes_on(
     assert capfd.readouterr().err.count("it is started again") == 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("code", [0, 1, 2, 4, 129, 130, 143])
 def test_an_exit_code_counts_only_if_the_flight_has_ended(code: int, lived: Lived) -> None:
     """A hook can end the process with any: what has ended is in the journal."""
@@ -88,16 +91,19 @@ def test_an_exit_code_counts_only_if_the_flight_has_ended(code: int, lived: Live
     )
 
 
+@pytest.mark.long
 def test_an_app_that_refuses_to_go_on_is_not_asked_again(lived: Lived) -> None:
     """Its journal cannot say so: it may be what cannot be written."""
     assert lived("refuses", over=lambda _: False) == (2, ["fly"])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("code", [2, 70, 78, 255])
 def test_no_exit_code_alone_says_so(code: int, lived: Lived) -> None:
     assert lived(f"{code},{code},0", over=lambda end: end == 0) == (0, ["fly", "resume", "resume"])
 
 
+@pytest.mark.long
 def test_an_app_that_crashes_again_and_again_stays_down(
     lived: Lived, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -112,6 +118,7 @@ def test_an_app_that_crashes_again_and_again_stays_down(
     ]
 
 
+@pytest.mark.long
 def test_who_finishes_something_between_crashes_is_started_again_for_ever(lived: Lived) -> None:
     done = iter(range(100))
     crashes = ["-9"] * (GIVES_UP_AFTER + 1)
@@ -119,11 +126,13 @@ def test_who_finishes_something_between_crashes_is_started_again_for_ever(lived:
     assert (code, len(calls)) == (0, len(crashes) + 1)
 
 
+@pytest.mark.long
 def test_stopping_the_supervisor_stops_the_app(lived: Lived) -> None:
     """It is told by the same signal, and what it ends with is the end of all."""
     assert lived("waits") == (143, ["fly"])
 
 
+@pytest.mark.long
 def test_nothing_is_started_again_after_a_stop(
     lived: Lived, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -140,6 +149,7 @@ def test_nothing_is_started_again_after_a_stop(
     assert "to go on: app resume J" in capfd.readouterr().err
 
 
+@pytest.mark.long
 def test_signals_are_as_before_afterwards(lived: Lived) -> None:
     before = signal.getsignal(signal.SIGTERM)
     lived("0")

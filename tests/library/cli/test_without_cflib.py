@@ -86,6 +86,8 @@ def test_all_else_works(missions: Path, fleet: Path, command: Command) -> None:
     assert err.endswith(SAID)
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_every_module_of_the_library_is_imported_without_it() -> None:
     """It is imported when a radio is opened, and no sooner."""
     home = Path(pluto_fleet.__path__[0]).parent
