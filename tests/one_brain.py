@@ -1,7 +1,7 @@
 """Lets all that a test imports share one brain: the compiler's, the library's copy, and those of apps.
 
 So a test can make an app of its own, compile one beside it, and compare what comes of both. In an app's
-program the library and the app have each their own; tests/library/whole flies such programs.
+program the library and the app have each their own; tests/library/public flies such programs.
 """
 
 from __future__ import annotations

@@ -3,55 +3,38 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import shutil
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 
+from tests.kit.command import python
 from tests.paths import ROOT
 
-EXAMPLES = sorted(path.parent.name for path in ROOT.glob("examples/*/app.pluto"))
-FOR_PACKAGES = ("jinja2", "black", "asyncio")
+pytestmark = [pytest.mark.long, pytest.mark.process]
 
 
-def python(*arguments: str) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    return subprocess.run(
-        [sys.executable, *arguments], env=environment, capture_output=True, text=True, check=True
-    )
-
-
-def loaded(*arguments: str) -> set[str]:
-    """Return the modules that a command of plutoc loads."""
-    code = (
-        "import sys; before = set(sys.modules); from plutoc.cli import main; main(sys.argv[1:]);"
-        "print(*(set(sys.modules) - before))"
-    )
-    return set(python("-c", code, *arguments).stdout.splitlines()[-1].split())
+def measured(script: str, *words: str) -> str:
+    """Run a script of benchmarks/ in small, and return what it prints."""
+    ran = python(ROOT / "benchmarks" / script, *words)
+    assert ran.code == 0, ran.err
+    return ran.out
 
 
 @pytest.mark.parametrize("flag", ["--version", "--help"])
 def test_the_version_and_the_help_do_not_wait_for_the_compiler(flag: str) -> None:
     """No tool of the compiler is loaded, nor the compiler itself."""
-    assert not loaded(flag).intersection((*FOR_PACKAGES, "lark", "networkx", "plutoc.compile"))
-
-
-@pytest.mark.parametrize("example", EXAMPLES)
-def test_checking_an_app_loads_nothing_that_writes_packages(example: str, tmp_path: Path) -> None:
-    """Not even where there is a hooks.py, or a warning to be told."""
-    for name in ("app.pluto", "hooks.py"):
-        if (ROOT / "examples" / example / name).exists():
-            shutil.copy(ROOT / "examples" / example / name, tmp_path)
-    assert not loaded("check", str(tmp_path / "app.pluto")).intersection(FOR_PACKAGES)
+    code = (
+        "import sys; before = set(sys.modules); from plutoc.cli import main; main(sys.argv[1:]);"
+        "print(*(set(sys.modules) - before))"
+    )
+    loaded = python("-c", code, flag).out.splitlines()[-1].split()
+    heavy = {"jinja2", "black", "asyncio", "lark", "networkx", "plutoc.compile"}
+    assert not heavy.intersection(loaded)
 
 
 def test_the_cold_start_is_measured() -> None:
     """Every command gets a line, and the sample apps are what they are meant to be."""
-    said = python(str(ROOT / "benchmarks" / "cold_start.py"), "--rounds", "1").stdout
+    said = measured("cold_start.py", "--rounds", "1")
     lines = {line[:24].strip(): line for line in said.splitlines()[1:]}
     assert "lark" not in lines["--help"]
     for name in ("check", "check, with a hooks.py", "check, with a warning"):
@@ -61,16 +44,14 @@ def test_the_cold_start_is_measured() -> None:
 
 def test_large_apps_are_measured() -> None:
     """Here with few blocks: every shape is an app that passes."""
-    script = str(ROOT / "benchmarks" / "large_apps.py")
-    said = python(script, "--sizes", "12", "24", "--rounds", "1").stdout.splitlines()[1:]
+    said = measured("large_apps.py", "--sizes", "12", "24", "--rounds", "1").splitlines()[1:]
     assert [line.split()[0] for line in said] == ["chain", "wide", "forks"]
 
 
 def test_compiling_is_measured() -> None:
     """Here with few blocks, and once."""
-    script = str(ROOT / "benchmarks" / "compile.py")
     few = ("--sizes", "12", "24", "--rounds", "1", "--large-rounds", "1", "--json")
-    found = json.loads(python(script, *few).stdout)
+    found = json.loads(measured("compile.py", *few))
     for name in ("cold", "edit", "unchanged", "growth_10k"):
         assert found[name] > 0
     assert set(found["raw"]) >= {"python -c pass", "cold", "edit", "unchanged", "wide 24"}
@@ -80,7 +61,7 @@ def test_compiling_is_measured() -> None:
 def test_the_choice_of_drones_is_measured() -> None:
     """Here in small: every policy chooses, shares out and empties a queue."""
     few = ["--rounds", "1", "--fleets", "5", "30", "--shares", "3x2", "--plans", "2", "15"]
-    told = json.loads(python(str(ROOT / "benchmarks" / "choosing.py"), *few, "--json").stdout)
+    told = json.loads(measured("choosing.py", *few, "--json"))
     policies = (
         *("first", "least_used", "nearest", "batch_optimal"),
         *("least_makespan", "nearest, charging"),
@@ -93,7 +74,7 @@ def test_the_choice_of_drones_is_measured() -> None:
 def test_makespans_are_measured_by_policy() -> None:
     """Here of one plan, without a solver: the defaults are nowhere near `nearest` and `home`."""
     few = ["--plans", "1", "--seconds", "0", "--json"]
-    told = json.loads(python(str(ROOT / "benchmarks" / "allocation.py"), *few).stdout)
+    told = json.loads(measured("allocation.py", *few))
     assert list(told["makespans_s"]) == ["1 few drones"]
     defaults, nearest = told["ratios"]["defaults"], told["ratios"]["nearest, home"]
     assert 1.0 <= defaults["median"] <= defaults["worst"] < 1.5 < nearest["median"]
@@ -103,15 +84,8 @@ def test_makespans_are_measured_by_policy() -> None:
 def test_simulations_are_measured() -> None:
     """Here in small, beside a bare loop that flies as many trips."""
     few = ["--rounds", "1", "--fleets", "2", "3", "--trips", "5", "10"]
-    script = str(ROOT / "benchmarks" / "simulate.py")
-    done = subprocess.run(
-        [sys.executable, script, *few, "--json"],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
-        capture_output=True,
-        text=True,
-        check=False,  # so little says nothing of the growth
-    )
-    told = json.loads(done.stdout)
+    # its exit code says whether it grows too fast: so little tells nothing of that
+    told = json.loads(python(ROOT / "benchmarks" / "simulate.py", *few, "--json").out)
     assert {"apart = 0", "apart = 0.5", "bare loop"} <= told["start_s"].keys()
     sizes = [
         "10 trips, 2 drones",
@@ -125,7 +99,7 @@ def test_simulations_are_measured() -> None:
 
 def test_the_house_is_measured() -> None:
     """Each package has its line, and so have the rings."""
-    sizes, *rings = python(str(ROOT / "benchmarks" / "house.py")).stdout.split("\n\n")
+    sizes, *rings = measured("house.py").split("\n\n")
     named = {line.split()[0] for line in sizes.splitlines()[1:]}
     assert {"plutoc", "runtime/plutoc_runtime", "runtime/pluto_fleet", "tests"} <= named
     titles = [ring.partition(":")[0] for ring in rings]
@@ -134,7 +108,7 @@ def test_the_house_is_measured() -> None:
 
 def test_the_path_of_a_trip_is_measured() -> None:
     """It leads through more files where a gateway keeps drones apart."""
-    said = python(str(ROOT / "benchmarks" / "trip_path.py")).stdout
+    said = measured("trip_path.py")
     counted = re.findall(r"files (\d+), moves (\d+) until ([a-z.]+)", said)
     assert [end for _, _, end in counted] == ["mission.ended", "drone.free"] * 2
     alone, *_, together = (int(files) for files, _, _ in counted)

@@ -2,67 +2,47 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
-from typing import Any, cast
 from xml.etree import ElementTree
 
 import pytest
 
 import instructions
-from contenders.flights import AllTogether
-from contenders.process import Notes, Said
+from contenders.process import Said
 from contenders.work import Done, Work, expected
 from measuring.cases import SMALL, cases
 from measuring.chart import Bar, Group, chart
 from measuring.figures import FIGURES, figures
 from measuring.page import picture, rewritten
-from measuring.rounds import Case, Measured, Spread, run
+from measuring.rounds import Measured, Spread
+from tests.kit.command import Ran, python
 from tests.paths import ROOT
 
 DOCS = ROOT / "docs"
-PROMISED = (
-    "ratio_ideal_contended",
-    "ratio_ideal_free",
-    "ratio_journal",
-    "times_thesis",
-    "times_py_trees",
-    "ratio_des",
-    "times_simpy",
-    "mib_100k",
-    "landing_to_launch_ms",
-)
 
 
-def script(*arguments: str) -> subprocess.CompletedProcess[str]:
+def script(*words: str) -> Ran:
     """Run a script of benchmarks/."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    return subprocess.run(
-        [sys.executable, *arguments],
-        cwd=ROOT / "benchmarks",
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    return python(*words, cwd=ROOT / "benchmarks")
 
 
 SCRIPTS = sorted(path.name for path in (ROOT / "benchmarks").glob("*.py"))
 
 
+@pytest.mark.long
+@pytest.mark.process
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_every_script_says_what_it_is_for_and_does_nothing_else(name: str) -> None:
     """And refuses what it does not know."""
     asked, wrong = script(name, "--help"), script(name, "--no-such-thing")
-    assert (asked.returncode, asked.stderr) == (0, "")
-    assert "show this help message" in asked.stdout
-    assert (wrong.returncode, wrong.stdout) == (2, "")
+    assert (asked.code, asked.err) == (0, "")
+    assert "show this help message" in asked.out
+    assert (wrong.code, wrong.out) == (2, "")
 
 
+@pytest.mark.long
+@pytest.mark.process
 @pytest.mark.parametrize(
     ("name", "arguments", "told"),
     [
@@ -75,8 +55,8 @@ def test_every_script_says_what_it_is_for_and_does_nothing_else(name: str) -> No
 def test_what_cannot_be_measured_is_refused(name: str, arguments: list[str], told: str) -> None:
     """At once, and not by a traceback in the end."""
     done = script(name, *arguments)
-    assert done.returncode == 2
-    assert told in done.stderr
+    assert done.code == 2
+    assert told in done.err
 
 
 def said(flights: int, *cpu: float) -> Said:
@@ -93,11 +73,13 @@ def measured(flights: int, *cpu: float) -> Measured:
     return case
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_every_contender_that_is_there_does_the_work_and_is_told(tmp_path: Path) -> None:
     """Each checks what came of its flights; those that are not installed are named."""
     done = script("flow.py", "--small", "--rounds", "1", "--json", "--write", str(tmp_path))
-    assert done.returncode == 0, done.stderr
-    found = json.loads(done.stdout)
+    assert done.code == 0, done.err
+    found = json.loads(done.out)
     absent = [case.name for case in cases(SMALL, "", "") if case.needs in found["missing"]]
     assert len(found["cases"]) + len(absent) == len(list(cases(SMALL, "", "")))
     for figure in FIGURES:
@@ -109,16 +91,13 @@ def test_every_contender_that_is_there_does_the_work_and_is_told(tmp_path: Path)
     assert ElementTree.parse(tmp_path / "results.svg").getroot().tag.endswith("svg")
 
 
-def test_the_figures_that_were_promised_are_there() -> None:
-    """By these very names."""
-    assert set(PROMISED) <= {figure.key for figure in FIGURES}
-
-
 def test_what_must_come_of_the_work_is_known() -> None:
     """The hash decides, so all must come to the same counts."""
     assert expected(Work()) == Done(missions=400, completed=2000, failed=97)
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_a_contender_that_does_other_work_is_found_out() -> None:
     """It is no figure at all, then."""
     code = (
@@ -126,25 +105,8 @@ def test_a_contender_that_does_other_work_is_found_out() -> None:
         "main(lambda work, notes: Done(missions=1, completed=2, failed=3))"
     )
     done = script("-c", code)
-    assert done.returncode == 1
-    assert "must be" in done.stderr
-
-
-def test_each_round_begins_with_another_case() -> None:
-    """And every case runs once in each, but for those that are asked for in fewer rounds."""
-    order: list[str] = []
-
-    def ask(case: Case) -> Said:
-        order.append(case.name)
-        return said(1, 1.0)
-
-    three = [Case(name=name, module="") for name in "abc"]
-    run(three, 3, lambda text: None, ask)
-    assert "".join(order) == "abcbcacab"
-    order.clear()
-    known = run([*three, Case(name="d", module="", rounds=1)], 2, lambda text: None, ask)
-    assert "".join(order) == "abcdcab"
-    assert [len(case.cpu) for case in known.values()] == [2, 2, 2, 1]
+    assert done.code == 1
+    assert "must be" in done.err
 
 
 def test_a_ratio_is_of_costs_a_trip_by_minimum_and_by_median() -> None:
@@ -155,47 +117,6 @@ def test_a_ratio_is_of_costs_a_trip_by_minimum_and_by_median() -> None:
     assert spread == Spread(minimum=8.0, median=6.0)
     assert not figure.kept(spread.minimum)
     assert figure.kept(80.0)
-
-
-def test_a_gap_is_from_a_landing_to_the_next_launch_of_that_drone() -> None:
-    """What a drone waits before its first flight and after its last is none."""
-    notes = Notes()
-    notes.launched(1, 5.0)
-    notes.landed(1, 6.0)
-    notes.launched(2, 6.5)
-    notes.launched(1, 8.0)
-    notes.landed(2, 9.0)
-    assert notes.gaps == [2.0]
-
-
-def test_no_drone_lands_before_all_are_in_the_air() -> None:
-    """Then all come down, in the order in which they took off."""
-    told: list[object] = []
-
-    class Heard:
-        over = due = None
-
-        def tell(self, message: object, now: float) -> None:
-            told.append(message)
-
-        def advance(self, now: float) -> None:
-            """Nothing is due."""
-
-        def orders(self) -> list[object]:
-            return []
-
-    async def fly() -> list[int]:
-        flights = AllTogether(None, Work(missions=3, trips=1), Notes())
-        flights.brain = cast("Any", Heard())
-        before = []
-        for mission in range(3):
-            before.append(len(told))
-            flights.obey({"id": mission, "do": "fly", "flight": f"{mission}/0/0/1"})
-        await asyncio.sleep(0)  # one turn of the loop
-        return before
-
-    assert asyncio.run(fly()) == [0, 0, 0]
-    assert told == [{"done": 0}, {"done": 1}, {"done": 2}]
 
 
 def test_a_picture_has_its_numbers_as_text_and_the_shortest_bar_first() -> None:
@@ -227,10 +148,12 @@ def test_only_what_costs_more_than_the_tolerance_is_told() -> None:
     assert "3.1%" in line
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_a_trip_costs_no_more_instructions_than_it_did() -> None:
     """Counted by valgrind, where it is there and Python is the build that the counts are of."""
     reason = instructions.why_not()
     if reason is not None:
         pytest.skip(reason)
     done = script("instructions.py")
-    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.code == 0, done.out + done.err

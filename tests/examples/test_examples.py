@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import ast
 import json
-import os
-import subprocess
-import sys
 import tomllib
-from pathlib import Path
+from functools import partial
 from xml.etree import ElementTree
 
 import pytest
 
+from pluto_fleet.cli import main as fleet_main
 from pluto_fleet.trials.invariants import violations
 from plutoc.cli import main
-from tests.kit.apps import EXAMPLES, MISHAPS, NAMES, Example, compiled
+from tests.kit.apps import EXAMPLES, MISHAPS, NAMES, Example
+from tests.kit.command import run
 
-SEEDS = range(10)
-BAD_SEEDS = range(20)
+FEW_OR_MANY = pytest.mark.parametrize(
+    "seeds",
+    [range(3), pytest.param(range(3, 20), marks=pytest.mark.long)],
+    ids=["few seeds", "many seeds"],
+)
 LEAST = 0.1
 """Half of the usual reserve: waiting for others on the way takes no more."""
 
@@ -73,22 +75,6 @@ def test_floor_plan_is_as_large_as_the_map(name: str) -> None:
     assert [float(n) for n in picture.attrib["viewBox"].split()] == [0, 0, *fleet["map"]["size"]]
 
 
-def test_hooks_of_the_examples_are_typed(tmp_path: Path) -> None:
-    """mypy --strict accepts each hooks.py inside its package."""
-    names = [name for name in NAMES if (EXAMPLES / name / "hooks.py").exists()]
-    sources = [compiled(name, tmp_path) / "src" for name in names]
-    modules = [word for name in names for word in ("-m", f"{name}.hooks")]
-    run = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--config-file=", *modules],
-        cwd=tmp_path,
-        env={**os.environ, "MYPYPATH": os.pathsep.join(map(str, sources)), "PYTHONPATH": ""},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert run.returncode == 0, run.stdout + run.stderr
-
-
 def test_hooks_of_an_example_become_the_packages(example: Example) -> None:
     """Where there is a hooks.py beside the source it is the package's first."""
     beside = EXAMPLES / example.name / "hooks.py"
@@ -102,9 +88,10 @@ def test_hooks_of_an_example_become_the_packages(example: Example) -> None:
         )
 
 
-def test_examples_complete_when_nothing_goes_wrong(example: Example) -> None:
+@FEW_OR_MANY
+def test_examples_complete_when_nothing_goes_wrong(example: Example, seeds: range) -> None:
     """Every mission of every example is completed, for any seed, within its battery limits."""
-    for seed in SEEDS:
+    for seed in seeds:
         flown = example.fly(seed)
         assert {status for status, _ in flown.ends} == {"COMPLETED"}, f"seed {seed}"
         assert violations(flown.trace, example.items) == [], f"seed {seed}"
@@ -113,29 +100,24 @@ def test_examples_complete_when_nothing_goes_wrong(example: Example) -> None:
         assert all(float(str(event["battery"])) >= LEAST for event in low), f"seed {seed}"
 
 
-def test_examples_end_no_matter_what_goes_wrong(example: Example) -> None:
+@FEW_OR_MANY
+def test_examples_end_no_matter_what_goes_wrong(example: Example, seeds: range) -> None:
     """With crashes, lost links and failed actions every mission still ends, and says why."""
-    for seed in BAD_SEEDS:
+    for seed in seeds:
         flown = example.fly(seed, MISHAPS)
         for status, reason in flown.ends:
             assert status == "COMPLETED" or (status == "FAILED" and reason), f"seed {seed}"
         assert violations(flown.trace, example.items) == [], f"seed {seed}"
 
 
-def test_command_line_completes(example: Example) -> None:
+def test_command_line_completes(example: Example, monkeypatch: pytest.MonkeyPatch) -> None:
     """`simulate missions.toml --fleet fleet.toml`, as a person types it, ends with 0."""
-    folder = EXAMPLES / example.name
-    run = subprocess.run(
-        [sys.executable, "-m", example.name, "simulate", "missions.toml", "--fleet", "fleet.toml"],
-        cwd=folder,
-        env={**os.environ, "PYTHONPATH": str(example.package / "src")},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert run.returncode == 0, run.stdout + run.stderr
+    monkeypatch.chdir(EXAMPLES / example.name)
+    words = ("simulate", "missions.toml", "--fleet", "fleet.toml")
+    ran = run(partial(fleet_main, example.app), *words)
     count = len(example.missions)
-    assert f"{count} of {count} missions completed" in run.stdout
+    assert ran.code == 0, ran.out + ran.err
+    assert f"{count} of {count} missions completed" in ran.out
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("drugs_")])

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from tests.kit.apps import EXAMPLES, compiled
+from tests.kit.command import python
 
 WITH_HOOKS = sorted(path.parent.name for path in EXAMPLES.glob("*/hooks.py"))
 
 
+@pytest.mark.long
+@pytest.mark.process
 @pytest.mark.parametrize("name", WITH_HOOKS)
 def test_tests_beside_the_hooks_pass_in_the_package(name: str, tmp_path: Path) -> None:
     """Copied to where their first line says; every hook of the app is in them."""
@@ -27,12 +27,6 @@ def test_tests_beside_the_hooks_pass_in_the_package(name: str, tmp_path: Path) -
     for hook in {one.partition(",")[0] for one in hooks if one.partition(",")[0].isidentifier()}:
         assert f"hooks.{hook}" in text
     shutil.copy(tests, package / "tests")
-    run = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_hooks.py"],
-        cwd=package,
-        env={**os.environ, "PYTHONPATH": ""},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert run.returncode == 0 and " passed" in run.stdout, run.stdout + run.stderr
+    words = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_hooks.py")
+    ran = python(*words, cwd=package, PYTHONPATH="")
+    assert ran.code == 0 and " passed" in ran.out, ran.out + ran.err

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +10,7 @@ import pytest
 from pluto_fleet.shared.alone.testing import AppKit, Clock, HookCall, KitContext
 from tests.examples.test_docs import DOCS, blocks
 from tests.kit.apps import compiled_file
+from tests.kit.command import python
 
 PAGE = DOCS / "testing-hooks.md"
 
@@ -31,27 +29,15 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_the_hooks_of_the_page_pass_its_tests(package: Path) -> None:
     """And the generated ones, which hold for any."""
     tests = sum(text.count("\ndef test_") for text in blocks(PAGE, "python"))
     assert tests == 8
-    run = subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "pytest",
-            "-q",
-            "-p",
-            "no:cacheprovider",
-            "--ignore=tests/test_flow.py",
-        ],
-        cwd=package,
-        env={**os.environ, "PYTHONPATH": ""},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert f"{tests + 4} passed" in run.stdout, run.stdout + run.stderr
+    words = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "--ignore=tests/test_flow.py")
+    ran = python(*words, cwd=package, PYTHONPATH="")
+    assert f"{tests + 4} passed" in ran.out, ran.out + ran.err
 
 
 def test_the_page_lists_what_there_is() -> None:

@@ -17,6 +17,8 @@ PAGES = [*TUTORIAL, ROOT / "docs/sizing.md"]
 README = (ROOT / "README.md").read_text("utf-8")
 
 
+@pytest.mark.long
+@pytest.mark.process
 @pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
 def test_what_a_page_has_one_type_shows_what_it_shows(
     file: Path, tmp_path: Path, update: bool
@@ -51,6 +53,8 @@ def test_the_tutorial_says_what_needs_more_than_a_computer(file: Path) -> None:
         assert needs.removeprefix("a ") in words
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_a_reader_of_the_readme_can_type_it_all_in_an_empty_folder(tmp_path: Path) -> None:
     """One session, as it stands there; it ends at the first command that does not work."""
     before, browser, radio = _of_the_readme("greenhouse ")

@@ -17,6 +17,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.kit.sentences import check_sentences
 from tests.library.files.an_app import APP
+from tests.library.files.extremes import extreme_app
 
 SENTENCES = Path(__file__).parent / "sentences"
 FENCED = Airspace(size=(20.0, 12.0), no_fly=(((8.0, 0.0), (9.0, 0.0), (9.0, 5.0), (8.0, 5.0)),))
@@ -66,6 +67,18 @@ def of_fleets(path: Path, text: str) -> object:
     return load_fleet(path, APP)
 
 
+def of_missions_beyond(path: Path, text: str) -> object:
+    """Read a missions file of an app that has all there is to ask for."""
+    path.write_text(text, "utf-8")
+    return load_missions(path, extreme_app(0), Airspace())
+
+
+def of_fleets_beyond(path: Path, text: str) -> object:
+    """Read a fleet file of that app."""
+    path.write_text(text, "utf-8")
+    return load_fleet(path, extreme_app(0))
+
+
 def advice(path: Path, text: str) -> object:
     """Read a file that is not TOML; what is wrong there, other versions of Python word otherwise."""
     try:
@@ -82,6 +95,8 @@ def advice(path: Path, text: str) -> object:
         ("lists", of_lists),
         ("missions_of_lists", of_missions_of_lists),
         ("fleets", of_fleets),
+        ("missions_beyond", of_missions_beyond),
+        ("fleets_beyond", of_fleets_beyond),
         ("advice", advice),
     ],
 )

@@ -94,6 +94,8 @@ def test_settings_that_are_none_are_told_so(
     assert capsys.readouterr().err.startswith(f"{file}: these are no settings of a gateway: ")
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_output_that_cannot_be_written_ends_cleanly() -> None:
     command = [sys.executable, "-m", "pluto_fleet", "--version"]
     with open("/dev/full", "w") as full:

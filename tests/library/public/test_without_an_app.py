@@ -17,9 +17,10 @@ from pluto_fleet.process import respawn
 from tests.kit.apps import compiled
 from tests.library.gateway.flights import Task
 from tests.library.gateway.processes import Brain, pid, played, settings
-from tests.library.whole.installed import installed
+from tests.library.public.installed import installed
 from tests.paths import ROOT
 
+pytestmark = [pytest.mark.long, pytest.mark.process]
 APP = "drugs_distribution"
 WRENS = [ROOT / "docs/navigation"]
 FLEET = """

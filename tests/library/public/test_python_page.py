@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
+import pytest
+
 from tests.kit.apps import compiled
+from tests.kit.command import python
 from tests.paths import ROOT
 
 PAGE = ROOT / "docs/python.md"
@@ -17,6 +18,8 @@ RUNTIME = ROOT / "runtime"
 BETWEEN = "-- next --\n"
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_what_it_shows_is_so(tmp_path: Path, update: bool) -> None:
     packages = [str(compiled(name, tmp_path) / "src") for name in ("pm10", "drugs_distribution")]
     text = PAGE.read_text("utf-8")
@@ -24,16 +27,9 @@ def test_what_it_shows_is_so(tmp_path: Path, update: bool) -> None:
     assert len(blocks) == text.count("```python")
     code = f"print({BETWEEN!r}, end='')\n".join(code for code, _ in blocks)
     path = os.pathsep.join([*packages, str(RUNTIME)])
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        env={**os.environ, "PYTHONPATH": path},
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert (done.returncode, done.stderr) == (0, "")
-    printed = done.stdout.split(BETWEEN)
+    done = python("-c", code, cwd=tmp_path, PYTHONPATH=path)
+    assert (done.code, done.err) == (0, "")
+    printed = done.out.split(BETWEEN)
     if update:
         for (code, before), now in zip(blocks, printed, strict=True):
             text = text.replace(
