@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
-import signal
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
@@ -25,7 +23,8 @@ from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain import app
 from pluto_fleet.shared.domain.trace import dumped
 from tests.kit import apps
-from tests.kit.apps import EXAMPLES, compiled
+from tests.kit.apps import EXAMPLES
+from tests.kit.command import Ran, python
 from tests.library.cli.conftest import MISSIONS
 from tests.library.files.an_app import APP
 
@@ -309,123 +308,115 @@ def test_the_library_is_called_where_there_is_one(monkeypatch: pytest.MonkeyPatc
 PROGRAM = """
 import sys
 sys.path.insert(0, {src!r})
+{before}
 from {name}.__main__ import main
 sys.exit(main())
 """
+FLIES = ("simulate", "missions.toml", "--fleet", "fleet.toml")
 
 
-@pytest.fixture(scope="module")
-def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """An example, compiled, in a process that finds no library."""
-    return compiled("pm10", tmp_path_factory.mktemp("package"))
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """An example, compiled, for a process that finds no library."""
+    return apps.compiled("pm10", tmp_path)
 
 
-def program(package: Path, *words: object) -> subprocess.CompletedProcess[str]:
-    """Run an example's program without the library: nothing of Pluto's is on its path."""
-    source = PROGRAM.format(src=str(package / "src"), name=package.name)
-    return subprocess.run(
-        [sys.executable, "-BIS", "-c", source, *map(str, words)],
-        capture_output=True,
-        text=True,
-        check=False,
-        cwd=EXAMPLES / "pm10",
-    )
+def words(package: Path, *given: str, before: str = "") -> list[str]:
+    """Return the command line of an example's program: nothing of Pluto's is on its path."""
+    source = PROGRAM.format(src=str(package / "src"), name=package.name, before=before)
+    return ["-BIS", "-c", source, *given]
 
 
+def program(package: Path, *given: str) -> Ran:
+    """Run it to its end."""
+    return python(*words(package, *given), cwd=EXAMPLES / "pm10")
+
+
+@pytest.mark.process
 def test_a_package_alone_checks_and_simulates(package: Path) -> None:
     """Its own program, in a process of its own."""
-    checked = program(package, "check", "missions.toml", "--fleet", "fleet.toml")
-    assert (checked.returncode, checked.stderr) == (0, "")
-    flown = program(package, "simulate", "missions.toml", "--fleet", "fleet.toml", "--json")
-    assert (flown.returncode, flown.stderr) == (0, "")
-    assert json.loads(flown.stdout)["world"] == "each drone alone in the air"
-    assert "fly needs pluto-fleet" in program(package, "fly").stderr
-    assert "pluto-fleet: not installed" in program(package, "--version").stdout
+    assert program(package, "check", *FLIES[1:])[::2] == (0, "")
+    flown = program(package, *FLIES, "--json")
+    assert (flown.code, flown.err) == (0, "")
+    assert json.loads(flown.out)["world"] == "each drone alone in the air"
+    assert "fly needs pluto-fleet" in program(package, "fly").err
+    assert "pluto-fleet: not installed" in program(package, "--version").out
 
 
-def test_a_library_that_the_package_carries_is_found(package: Path, tmp_path: Path) -> None:
+@pytest.mark.long
+@pytest.mark.process
+def test_a_library_that_the_package_carries_is_found(package: Path) -> None:
     """It lies beside the brain; one that is broken shows itself."""
-    carried = package / "src" / package.name / "_fleet"
-    (carried / "pluto_fleet").mkdir(parents=True)
-    (carried / "pluto_fleet" / "__init__.py").touch()
-    file = carried / "pluto_fleet" / "entry.py"
-    try:
-        file.write_text(
-            "def start(name, load, brain, seam):\n    print(name, brain, seam)\n    return 7\n"
-        )
-        found = program(package, "fly")
-        assert (found.returncode, found.stdout) == (7, f"pm10 pm10._runtime {app.SEAM}\n")
-        file.write_text("import no_such_module\n")
-        broken = program(package, "fly")
-        assert broken.returncode == 1
-        assert "No module named 'no_such_module'" in broken.stderr
-    finally:
-        shutil.rmtree(carried)
+    carried = package / "src" / package.name / "_fleet" / "pluto_fleet"
+    carried.mkdir(parents=True)
+    (carried / "__init__.py").touch()
+    start = "def start(name, load, brain, seam):\n    print(name, brain, seam)\n    return 7\n"
+    (carried / "entry.py").write_text(start)
+    found = program(package, "fly")
+    assert (found.code, found.out) == (7, f"pm10 pm10._runtime {app.SEAM}\n")
+    (carried / "entry.py").write_text("import no_such_module\n")
+    broken = program(package, "fly")
+    assert broken.code == 1
+    assert "No module named 'no_such_module'" in broken.err
 
 
-HOOKS = [
-    ("import no_such_module\n", "hooks.py:1: the hooks cannot be loaded: ModuleNotFoundError"),
-    ("def f():\n  return 1 +\n", "hooks.py:2: invalid syntax"),
-    ("raise SystemExit(0)\n", "hooks.py:1: the hooks cannot be loaded: SystemExit: 0"),
-    ("x = 1\n", "hooks.py has no "),
-]
-
-
-@pytest.mark.parametrize(("text", "said"), HOOKS)
+@pytest.mark.long
+@pytest.mark.process
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("import no_such_module\n", "hooks.py:1: the hooks cannot be loaded: ModuleNotFoundError"),
+        ("def f():\n  return 1 +\n", "hooks.py:2: invalid syntax"),
+        ("raise SystemExit(0)\n", "hooks.py:1: the hooks cannot be loaded: SystemExit: 0"),
+        ("x = 1\n", "hooks.py has no "),
+    ],
+)
 def test_hooks_that_cannot_be_loaded_are_told_with_their_place(
     package: Path, text: str, said: str
 ) -> None:
     """Without a traceback."""
-    hooks = package / "src" / package.name / "hooks.py"
-    before = hooks.read_text()
-    try:
-        hooks.write_text(text)
-        done = program(package, "check", "missions.toml")
-        assert done.returncode == 2
-        assert said in done.stderr and "Traceback" not in done.stderr
-    finally:
-        hooks.write_text(before)
+    (package / "src" / package.name / "hooks.py").write_text(text)
+    done = program(package, "check", "missions.toml")
+    assert done.code == 2
+    assert said in done.err and "Traceback" not in done.err
 
 
+@pytest.mark.long
+@pytest.mark.process
 def test_output_that_cannot_be_written_ends_cleanly(package: Path) -> None:
     """A full disk, and a reader that has gone."""
-    words = ("simulate", "missions.toml", "--fleet", "fleet.toml")
-    source = PROGRAM.format(src=str(package / "src"), name=package.name)
-    line = [sys.executable, "-BIS", "-c", source, *words]
-    with open("/dev/full", "w") as full:
-        done = subprocess.run(
-            line, stdout=full, stderr=subprocess.PIPE, text=True, check=False, cwd=EXAMPLES / "pm10"
-        )
-    assert done.returncode == 2
-    assert done.stderr == "pm10: the output cannot be written: No space left on device\n"
     reading, writing = os.pipe()
     os.close(reading)
-    done = subprocess.run(
-        line, stdout=writing, stderr=subprocess.PIPE, text=True, check=False, cwd=EXAMPLES / "pm10"
-    )
-    os.close(writing)
-    assert (done.returncode, done.stderr) == (141, "")
+    ends = []
+    with open("/dev/full", "w") as full, open(writing, "w") as gone:
+        for out in (full, gone):
+            line = [sys.executable, *words(package, *FLIES)]
+            done = subprocess.run(
+                line, stdout=out, stderr=-1, text=True, check=False, cwd=EXAMPLES / "pm10"
+            )
+            ends.append((done.returncode, done.stderr))
+    full_disk = "pm10: the output cannot be written: No space left on device\n"
+    assert ends == [(2, full_disk), (141, "")]
 
 
-def test_ctrl_c_ends_a_simulation_cleanly(package: Path) -> None:
+@pytest.mark.parametrize(
+    ("error", "code", "said"),
+    [
+        (KeyboardInterrupt(), 130, "tried: interrupted\n"),
+        (OSError(28, "no space"), 2, "tried: the output cannot be written: no space\n"),
+        (BrokenPipeError(), 141, ""),
+    ],
+)
+def test_what_ends_a_command_is_told(
+    error: BaseException, code: int, said: str, capfd: pytest.CaptureFixture[str]
+) -> None:
     """However long it would have gone on."""
-    source = PROGRAM.format(src=str(package / "src"), name=package.name)
-    slow = f"import time\nfrom {package.name}._runtime.alone import simulate as alone\n"
-    slow += "def simulate(*_, **__):\n    print('begins', flush=True)\n    time.sleep(60)\n"
-    slow += "alone.simulate = simulate\n"
-    first, path, rest = source.partition(f"from {package.name}.__main__")
-    process = subprocess.Popen(
-        [sys.executable, "-BIS", "-c", first + slow + path + rest, "simulate", "missions.toml"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=EXAMPLES / "pm10",
-    )
-    assert process.stdout is not None and process.stdout.readline() == "begins\n"
-    process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert err.endswith("pm10: interrupted\n") and "Traceback" not in err
+
+    def load() -> App:
+        raise error
+
+    assert command.alone("tried", load, ["check"]) == code
+    assert capfd.readouterr().err == said
 
 
 def test_an_error_of_ours_is_no_traceback(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,37 +3,33 @@
 from __future__ import annotations
 
 import re
-import subprocess
-import sys
-from pathlib import Path
+
+import pytest
 
 from pluto_fleet.shared.brain import Brain
-from pluto_fleet.shared.flow.control import _COMMANDS
-from tests.kit.apps import compiled
+from tests.kit import apps
+from tests.kit.command import python
 from tests.paths import ROOT
 
 PAGE = (ROOT / "docs/seam.md").read_text("utf-8")
-ORDERS = (ROOT / "runtime/plutoc_runtime/fleet/orders.py").read_text("utf-8")
+BRAIN = ROOT / "runtime/plutoc_runtime"
 
 
-def test_the_flight_by_hand_is_flown(tmp_path: Path) -> None:
+@pytest.mark.process
+def test_the_flight_by_hand_is_flown() -> None:
     code, printed = re.findall(r"```(?:python)?\n(.*?)```", PAGE, re.DOTALL)
-    package = compiled("drugs_distribution", tmp_path)
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        env={"PYTHONPATH": str(package / "src")},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert (done.stdout, done.stderr) == (printed, "")
+    source = apps.compiled("drugs_distribution") / "src"
+    done = python("-c", code, PYTHONPATH=str(source))
+    assert (done.out, done.err) == (printed, "")
 
 
 def test_every_call_order_and_command_is_on_it() -> None:
     named = set(re.findall(r"`([\w-]+)", PAGE))
     calls = {name for name in vars(Brain) if not name.startswith("_")}
-    assert calls <= named
-    ordered = set(re.findall(r'"do": "(\w+)"', ORDERS)) | set(re.findall(r'_ask\("(\w+)"', ORDERS))
-    assert ordered
-    assert ordered <= named
-    assert set(_COMMANDS) <= named
+    orders = (BRAIN / "fleet/orders.py").read_text("utf-8")
+    ordered = set(re.findall(r'"do": "(\w+)"', orders))
+    commands = set(
+        re.findall(r'"([\w-]+)": Control', (BRAIN / "flow/control.py").read_text("utf-8"))
+    )
+    assert calls and ordered and commands
+    assert calls | ordered | commands <= named

@@ -131,6 +131,15 @@ def watched(run: Run[Any], status: Status) -> Coroutine[Any, Any, Status]:
     return watch_trip(run, status)
 
 
+def allocated(run: Run[Any], status: Status) -> Coroutine[Any, Any, Status]:
+    """A DroneAllocator alone."""
+    return allocate_drone(run, status, block="allocate", policy=nearest)
+
+
+launched = launch_trip
+"""A TripLauncher alone."""
+
+
 async def timed(run: Run[Any], status: Status) -> Status:
     """TripMonitor ∥ TimerMonitor → GateFIFO."""
 
@@ -261,6 +270,10 @@ def fleet(
     )
 
 
+TWO = fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
+"""Two drones beside each other."""
+
+
 def fly(
     tested: App,
     *missions: Mission,
@@ -275,6 +288,21 @@ def fly(
     return simulate(
         tested, missions, on or fleet(), seed=seed, faults=faults, until=until, on_event=None
     )
+
+
+def flown(
+    *missions: Mission,
+    on: FleetFile | None = None,
+    faults: Faults = NO_FAULTS,
+    seed: int = 0,
+    until: float | None = None,
+    categories: Sequence[Category] = (SCOUT,),
+    actions: Sequence[Action] = (),
+    **how: Any,
+) -> SimulationResult:
+    """Fly missions through a flow that is made so."""
+    tested = app(flow(**how), categories=categories, actions=actions)
+    return fly(tested, *missions, on=on, faults=faults, seed=seed, until=until)
 
 
 def events(outcome: SimulationResult, kind: str) -> list[Event]:

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from pluto_fleet.shared.domain.model import Category, Drone, Point, Trip
+from pluto_fleet.shared.domain.motion import Motion
 from pluto_fleet.shared.fleet.policies import Able
+from pluto_fleet.shared.fleet.telemetry import KnownState
 
 SCOUT = Category(name="scout")
 
@@ -54,3 +56,16 @@ def offer(goal: Point, able: Able | None = None) -> Any:
 def anyone(drone: Drone) -> bool:
     """Refuse none."""
     return True
+
+
+class StillClock:
+    """A clock that stands still."""
+
+    now = 0.0
+
+
+def known(place: Point, level: float, motion: Motion) -> KnownState:
+    """Return what is known of a drone that stands there with this battery."""
+    state = KnownState(StillClock(), place, motion)
+    state.take({"at": place, "battery": level})
+    return state

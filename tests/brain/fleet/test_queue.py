@@ -1,8 +1,10 @@
-"""The queue for drones: who is eligible, who comes first, and what is refused."""
+"""The queue for drones: who comes first, who is charged for whom, and what is refused."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
+from random import Random
 from typing import Any
 
 import pytest
@@ -11,241 +13,288 @@ from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Trip
 from pluto_fleet.shared.domain.status import Status
-from pluto_fleet.shared.fleet.batch_optimal import batch_optimal
+from pluto_fleet.shared.fleet.needs import Request
 from pluto_fleet.shared.fleet.own_policy import own_policy
 from pluto_fleet.shared.fleet.policies import Policy, first, least_used, nearest
 from tests.kit import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
+THREE = apps.fleet(*HOMES)
+TIRED = Category(name="scout", flight_time=100.0, charge_time=400.0)
+"""A flight of twenty seconds takes a fifth of its battery."""
 
 
 def chosen(outcome: apps.SimulationResult) -> list[str]:
     return [f"{e['mission']}:{e['drone']}" for e in apps.events(outcome, "trip.allocated")]
 
 
-def fly(policy: Policy, *missions: apps.Mission) -> apps.SimulationResult:
-    return apps.fly(apps.app(apps.flow(policy=policy)), *missions, on=apps.fleet(*HOMES))
+def missions(*names: str, x: float = 3.0, **more: Any) -> list[apps.Mission]:
+    """Return missions of one trip each."""
+    return [apps.mission(name, apps.trip(name.upper(), x, **more)) for name in names]
 
 
-@pytest.mark.parametrize(("policy", "drone"), [(nearest, "cf3"), (first, "cf1")])
-def test_policies_choose_as_they_say(policy: Policy, drone: str) -> None:
-    outcome = fly(policy, apps.mission("m", apps.trip("A", 17.0)))
-    assert chosen(outcome) == [f"m:{drone}"]
-    assert apps.events(outcome, "trip.allocated")[0]["why"]
-
-
-def test_least_used_spreads_the_trips() -> None:
-    trips = [apps.trip(name, 3.0) for name in "ABC"]
-    assert chosen(fly(least_used, apps.mission("m", *trips))) == ["m:cf1", "m:cf2", "m:cf3"]
-
-
-def test_batch_optimal_shortens_the_way_of_all_together() -> None:
-    def missions() -> list[apps.Mission]:
-        return [apps.mission("a", apps.trip("A", 6.0)), apps.mission("b", apps.trip("B", 9.0))]
-
-    assert chosen(fly(nearest, *missions())) == ["a:cf2", "b:cf1"]
-    assert chosen(fly(batch_optimal, *missions())) == ["a:cf1", "b:cf2"]
-
-
-def test_a_policy_of_the_apps_own_is_asked_again_until_it_chooses() -> None:
-    asked: list[int] = []
-
-    def patient(trip: Trip, candidates: Sequence[Drone]) -> Drone | None:
-        asked.append(len(candidates))
-        return candidates[-1] if len(asked) > 1 else None
-
-    outcome = fly(
-        own_policy(patient),
-        apps.mission("a", apps.trip("A", 3.0)),
-        apps.mission("b", apps.trip("B", 3.0)),
-    )
-    assert outcome.completed
-    assert chosen(outcome)[0] == "b:cf3"
-
-
-@pytest.mark.parametrize("answer", ["cf1", 7])
-def test_a_policy_that_names_no_candidate_is_at_fault(answer: Any) -> None:
-    def wrong(trip: Trip, candidates: Sequence[Drone]) -> Drone | None:
-        named: Drone = answer
-        return named
-
-    (mission,) = fly(own_policy(wrong), apps.mission("m", apps.trip("A", 3.0))).missions
-    assert "must return one of the candidates or None" in mission.reason
+# Who comes first
 
 
 def test_a_higher_priority_comes_first_then_arrival() -> None:
-    outcome = apps.fly(
-        apps.app(apps.flow()),
-        apps.mission("a", apps.trip("A", 3.0)),
-        apps.mission("b", apps.trip("B", 3.0)),
-        apps.mission("c", apps.trip("C", 3.0, priority=5)),
-    )
-    assert chosen(outcome) == ["c:cf1", "a:cf1", "b:cf1"]
+    flown = apps.flown(*missions("a", "b"), *missions("c", priority=5))
+    assert chosen(flown) == ["c:cf1", "a:cf1", "b:cf1"]
+
+
+def test_one_that_comes_later_goes_before_those_of_a_lower_priority() -> None:
+    late = missions("late", x=2.0, priority=1, delay=5.0)
+    flown = apps.flown(*missions("a", "b", "c"), *late, clock=True)
+    assert chosen(flown) == ["a:cf1", "late:cf1", "b:cf1", "c:cf1"]
 
 
 def test_a_priority_that_compares_with_none_keeps_no_mission_from_its_drone() -> None:
     """A hook may have left it there."""
-    flow = apps.flow(within=60.0)
-    assert apps.fly(apps.app(apps.flow()), *odd_ones()).completed
-    ended = apps.events(apps.fly(apps.app(flow), *odd_ones()), "mission.ended")
+
+    def odd_ones() -> list[apps.Mission]:
+        odd: Any = float("nan")
+        trips = [apps.trip(str(n), 3.0, priority=odd if n % 2 else n) for n in range(6)]
+        return [apps.mission(trip.name, trip) for trip in trips]
+
+    assert apps.flown(*odd_ones()).completed
+    ended = apps.events(apps.flown(*odd_ones(), within=60.0), "mission.ended")
     assert len(ended) == 6, "those that had to leave have left, and no others"
-
-
-def odd_ones() -> list[apps.Mission]:
-    """Return six missions, every other one of which has such a priority."""
-    odd: Any = float("nan")
-    trips = [apps.trip(str(n), 3.0, priority=odd if n % 2 else n) for n in range(6)]
-    return [apps.mission(trip.name, trip) for trip in trips]
 
 
 def test_only_a_drone_whose_category_can_do_it_gets_a_trip() -> None:
     scout = Category(name="scout", actions=frozenset({"take_photo"}))
     carrier = Category(name="carrier", actions=frozenset({"measure"}))
-    outcome = apps.fly(
-        apps.app(apps.flow(), categories=(scout, carrier)),
-        apps.mission("m", apps.trip("A", 1.0, action="measure")),
-        on=apps.fleet(*HOMES, categories=("scout", "carrier")),
-    )
-    assert chosen(outcome) == ["m:cf2"]
+    on = apps.fleet(*HOMES, categories=("scout", "carrier"))
+    flown = apps.flown(*missions("m", x=1.0, action="measure"), categories=(scout, carrier), on=on)
+    assert chosen(flown) == ["m:cf2"]
+
+
+def test_who_can_be_served_is_served_though_those_before_it_cannot() -> None:
+    """The first wait for the carrier; the scouts fly past them, in the order in which they came."""
+    scout = Category(name="scout", actions=frozenset({"take_photo"}))
+    carrier = Category(name="carrier", actions=frozenset({"measure"}))
+    on = apps.fleet(*HOMES, categories=("scout", "carrier", "scout"))
+    waiting = [*missions(*"abcdef", action="measure"), *missions(*"xyz")]
+    flown = apps.flown(*waiting, categories=(scout, carrier), on=on)
+    assert sorted(chosen(flown)[:3]) == ["a:cf2", "x:cf1", "y:cf3"]
+    served = [one[0] for one in chosen(flown)]
+    assert [one for one in served if one in "abcdef"] == [*"abcdef"]
+    assert [one for one in served if one in "xyz"] == [*"xyz"]
+
+
+# What is refused
 
 
 def test_a_fleet_that_loses_its_only_able_drone_fails_the_mission_with_the_reason() -> None:
-    outcome = apps.fly(
-        apps.app(apps.flow(attempts=0)),
-        apps.mission("m", apps.trip("A", 3.0)),
-        faults=Faults(crash=1.0),
-    )
-    (mission,) = outcome.missions
+    flown = apps.flown(*missions("a"), attempts=0, faults=Faults(crash=1.0))
+    (mission,) = flown.missions
     assert mission.status is Status.FAILED
     assert mission.reason == "no drone of the fleet can fly trip A: 1 of 1 drones are lost"
 
 
-def test_a_mission_that_waits_too_long_for_a_drone_fails() -> None:
-    outcome = apps.fly(
-        apps.app(apps.flow(within=10.0)),
-        apps.mission("a", apps.trip("A", 10.0)),
-        apps.mission("b", apps.trip("B", 3.0)),
+def test_who_waits_for_a_drone_that_is_lost_then_is_told_at_once() -> None:
+    """Also one that has been waiting since before; what others could fly is flown."""
+    scout = Category(name="scout", actions=frozenset({"take_photo"}))
+    carrier = Category(name="carrier", actions=frozenset({"measure"}))
+    on = apps.fleet(*HOMES[:2], categories=("scout", "carrier"))
+    flown = apps.flown(
+        *missions("a", "b", action="measure"),
+        *missions("c"),
+        categories=(scout, carrier),
+        on=on,
+        faults=Faults(crash=1.0),
     )
-    first_mission, second = outcome.missions
-    assert first_mission.status is Status.COMPLETED
-    assert second.reason == "trip B had no drone within 10 s: waits for a drone (1 busy)"
-    assert apps.events(outcome, "mission.ended")[0]["t"] == 10.0
-
-
-def test_a_drone_too_low_for_the_next_trip_is_charged_first() -> None:
-    trips = [apps.trip(str(n), 19.0, 19.0) for n in range(4)]
-    outcome = apps.fly(apps.app(apps.flow()), apps.mission("m", *trips))
-    assert outcome.completed
-    waits = [
-        float(str(launch["t"])) - float(str(end["t"]))
-        for end, launch in zip(
-            apps.events(outcome, "trip.completed"),
-            apps.events(outcome, "trip.launched")[1:],
-            strict=False,
-        )
-    ]
-    assert max(waits) > 120.0, "it had to charge"
-
-
-def test_no_more_drones_fly_at_once_than_allowed() -> None:
-    missions = [apps.mission(name, apps.trip(name, 5.0)) for name in "abc"]
-    outcome = apps.fly(apps.app(apps.flow()), *missions, on=apps.fleet(*HOMES, max_airborne=1))
-    assert outcome.completed
-    flying = 0
-    for event in outcome.events:
-        flying += event["event"] == "trip.launched"
-        flying -= event["event"] == "drone.free"
-        assert flying <= 1
-
-
-@pytest.mark.parametrize("after", list(AfterTrip))
-def test_drones_go_where_the_fleet_file_says(after: AfterTrip) -> None:
-    outcome = apps.fly(
-        apps.app(apps.flow()),
-        apps.mission("m", apps.trip("A", 5.0), apps.trip("B", 6.0)),
-        on=apps.fleet(after=after),
-    )
-    assert outcome.completed
-    x = outcome.drones[0].location[0]
-    assert x == pytest.approx(6.0 if after is AfterTrip.STAY else 0.5)
-    assert outcome.flown["cf1"] == pytest.approx(
-        {"home": 24.8, "stay": 10.3, "next": 15.8}[after.value], abs=0.01
+    ended, lost = apps.moments(flown, "mission.ended"), apps.times(flown, "drone.lost")
+    assert ended["b"] in lost
+    assert flown.missions[1].reason == (
+        "no drone of the fleet can fly trip B: 1 of 2 drones are lost; scout cannot measure"
+        if ended["b"] == lost[0]
+        else "no drone of the fleet can fly trip B: 2 of 2 drones are lost"
     )
 
 
-def test_a_drone_that_is_free_is_given_even_to_who_does_not_wait() -> None:
-    outcome = apps.fly(apps.app(apps.flow(within=0.0)), apps.mission("m", apps.trip("A", 3.0)))
-    assert outcome.completed
-
-
-def test_a_drone_that_comes_free_at_the_very_limit_is_given() -> None:
-    def two(within: float | None) -> apps.SimulationResult:
-        return apps.fly(
-            apps.app(apps.flow(within=within)),
-            apps.mission("a", apps.trip("A", 3.0)),
-            apps.mission("b", apps.trip("B", 3.0)),
-        )
-
-    exact = exactly_free(two(None))
-    assert two(exact).completed
-    assert not two(exact - 0.001).completed
-
-
-def exactly_free(outcome: apps.SimulationResult) -> float:
-    """When the second mission got its drone, to the last digit."""
-    (second,) = outcome.missions[1].completed_trips
-    return float(str(second.start_time))
-
-
-def test_a_drone_on_its_way_home_after_next_counts_as_airborne() -> None:
-    missions = [apps.mission("a", apps.trip("A", 3.0)), apps.mission("b", apps.trip("B", 17.0))]
-    outcome = apps.fly(
-        apps.app(apps.flow()),
-        *missions,
-        on=apps.fleet(HOMES[0], HOMES[2], after=AfterTrip.NEXT, max_airborne=1),
-    )
-    assert outcome.completed
-    airborne: set[object] = set()
-    for event in outcome.events:
-        if event["event"] in ("trip.launched", "drone.returning"):
-            airborne.add(event["drone"])
-        elif event["event"] == "drone.free":
-            airborne.discard(event["drone"])
-        assert len(airborne) <= 1, event
-    assert [drone.location[0] for drone in outcome.drones] == [0.5, 18.5]
-
-
-def test_a_drone_that_was_not_given_is_offered_again() -> None:
-    """Not only to missions that come later."""
-    asked: list[list[str]] = []
-
-    def second_thoughts(trip: Trip, candidates: Sequence[Drone]) -> Drone | None:
-        asked.append([drone.id for drone in candidates])
-        return candidates[0] if trip.name == "A" or len(asked) > 2 else None
-
-    outcome = fly(
-        own_policy(second_thoughts),
-        apps.mission("a", apps.trip("A", 3.0)),
-        apps.mission("b", apps.trip("B", 3.0)),
-    )
-    assert outcome.completed
-    assert asked[:3] == [["cf1", "cf2", "cf3"], ["cf2", "cf3"], ["cf2", "cf3"]]
-
-
-def test_candidates_come_in_the_fleets_order_in_any_order_of_coming_free() -> None:
-    asked: list[list[str]] = []
-
-    def last(trip: Trip, candidates: Sequence[Drone]) -> Drone:
-        asked.append([drone.id for drone in candidates])
-        return candidates[-1]
-
-    far = apps.mission("far", *(apps.trip(str(n), 1.0) for n in range(3)))
-    near = apps.mission("near", *(apps.trip(str(n), 9.0) for n in range(6)))
-    assert fly(own_policy(last), far, near).completed
-    assert all(ids == sorted(ids) for ids in asked)
-    assert {len(ids) for ids in asked} == {1, 2, 3}
+def test_what_no_drone_can_reach_is_refused_as_it_is_asked_for() -> None:
+    near, far = missions("a")[0], apps.mission("far", apps.trip("F", 19.0, 19.0))
+    weak = Category(name="scout", flight_time=60.0)
+    flown = apps.flown(near, far, categories=(weak,))
+    assert flown.missions[0].status is Status.COMPLETED
+    assert flown.missions[1].reason.startswith("no drone of the fleet can fly trip F: scout would")
+    assert apps.moments(flown, "mission.ended")["far"] == 0.0
 
 
 def test_a_policy_that_never_gives_a_drone_stops_the_simulation_with_the_reason() -> None:
     with pytest.raises(BadInput, match=r"gives them none of the drones \(3 free\)"):
-        fly(own_policy(lambda trip, drones: None), apps.mission("a", apps.trip("A", 3.0)))
+        apps.flown(*missions("a"), policy=own_policy(lambda trip, drones: None), on=THREE)
+
+
+# Drones that are too low
+
+
+def pauses(flown: apps.SimulationResult) -> list[float]:
+    """Return for how long the only drone stood at home between two flights."""
+    homes, launches = apps.times(flown, "drone.free"), apps.times(flown, "trip.launched")
+    return [next(t for t in [*launches, 1e9] if t >= home) - home for home in homes[:-1]]
+
+
+def test_a_drone_is_charged_for_its_share_of_those_that_wait_and_not_for_the_next_one_alone() -> (
+    None
+):
+    """A full battery lasts for three flights: it is full again after these, and then has enough for two."""
+    flown = apps.flown(*missions(*"abcdefgh", x=3.6), categories=(TIRED,))
+    assert flown.completed
+    assert [round(pause) for pause in pauses(flown)] == [0, 0, 257, 0, 0, 108, 0]
+
+
+def test_the_share_is_that_of_one_of_all_drones() -> None:
+    """Of four that wait each of two drones charges for two."""
+    flown = apps.flown(*missions(*"abcdefghij", x=3.6), categories=(TIRED,), on=apps.TWO)
+    assert flown.completed
+    launches = sorted(apps.times(flown, "trip.launched"))
+    (pause,) = [b - a for a, b in pairwise(launches) if b - a > 30.0]
+    assert 100.0 < pause < 130.0, "to be full takes 257 s, and the next flight alone 23 s"
+
+
+@pytest.mark.parametrize(
+    "urgent", [{"priority": 1}, {}], ids=["a higher priority", "a trip that it can fly already"]
+)
+def test_a_drone_that_charges_for_others_is_there_for_what_it_suffices_for(
+    urgent: dict[str, int],
+) -> None:
+    """A new trip, near enough, is flown at once; the others wait on."""
+    far = apps.mission("far", *(apps.trip(str(n), 19.0, 10.0) for n in range(2)))
+    new = apps.mission("new", apps.trip("N", 1.0, delay=130.0, **urgent))
+    flown = apps.flown(
+        far, new, categories=(Category(name="scout", flight_time=160.0),), clock=True
+    )
+    assert flown.completed
+    assert [e["mission"] for e in apps.events(flown, "trip.launched")] == ["far", "new", "far"]
+    assert apps.moments(flown, "trip.launched")["new"] == 130.0
+
+
+def test_a_low_drone_in_the_field_goes_home_to_charge_for_who_waits() -> None:
+    trips = [apps.trip(str(n), 15.0 - n) for n in range(5)]
+    on = apps.fleet(after=AfterTrip.STAY)
+    flown = apps.flown(apps.mission("m", *trips), on=on, categories=(TIRED,))
+    assert flown.completed
+    assert flown.count("drone.returning") > 0
+
+
+# The room in the air
+
+
+def airborne(flown: apps.SimulationResult) -> int:
+    """Return how many drones were in the air at once, at most."""
+    now, most = set[object](), 0
+    for event in flown.events:
+        if event["event"] in ("trip.launched", "drone.returning", "drone.recovering"):
+            now.add(event["drone"])
+        elif event["event"] in ("drone.free", "drone.charging"):
+            now.discard(event["drone"])
+        most = max(most, len(now))
+    return most
+
+
+@pytest.mark.parametrize("after", AfterTrip)
+@pytest.mark.parametrize("most", [1, 2])
+def test_no_more_drones_fly_at_once_than_allowed(after: AfterTrip, most: int) -> None:
+    """Those on their way home count."""
+    on = apps.fleet(*HOMES, after=after, max_airborne=most)
+    flown = apps.flown(*missions(*"abcde", x=5.0), *missions("z", x=17.0), on=on)
+    assert flown.completed
+    assert airborne(flown) == most
+
+
+@pytest.mark.parametrize(
+    ("after", "x", "metres"), [("home", 0.5, 24.8), ("stay", 6.0, 10.3), ("next", 0.5, 15.8)]
+)
+def test_drones_go_where_the_fleet_file_says(after: str, x: float, metres: float) -> None:
+    trips = apps.trip("A", 5.0), apps.trip("B", 6.0)
+    flown = apps.flown(apps.mission("m", *trips), on=apps.fleet(after=AfterTrip(after)))
+    assert flown.completed
+    assert flown.drones[0].location[0] == pytest.approx(x)
+    assert flown.flown["cf1"] == pytest.approx(metres, abs=0.01)
+
+
+# What policies are asked
+
+
+def asked_by(answers: Any, *flown: apps.Mission) -> tuple[list[list[str]], apps.SimulationResult]:
+    """Fly with a policy; return which candidates it was given each time."""
+    asked: list[list[str]] = []
+
+    def policy(trip: Trip, candidates: Sequence[Drone]) -> Drone | None:
+        asked.append([drone.id for drone in candidates])
+        answer: Drone | None = answers(trip, candidates, len(asked))
+        return answer
+
+    return asked, apps.flown(*flown, policy=own_policy(policy), on=THREE)
+
+
+def test_a_drone_that_was_not_given_is_offered_again() -> None:
+    """Not only to missions that come later."""
+    asked, flown = asked_by(
+        lambda trip, drones, count: drones[0] if trip.name == "A" or count > 2 else None,
+        *missions("a", "b"),
+    )
+    assert flown.completed
+    assert asked[:3] == [["cf1", "cf2", "cf3"], ["cf2", "cf3"], ["cf2", "cf3"]]
+
+
+def test_candidates_come_in_the_fleets_order_in_any_order_of_coming_free() -> None:
+    far = apps.mission("far", *(apps.trip(str(n), 1.0) for n in range(3)))
+    near = apps.mission("near", *(apps.trip(str(n), 9.0) for n in range(6)))
+    asked, flown = asked_by(lambda trip, drones, count: drones[-1], far, near)
+    assert flown.completed
+    assert all(ids == sorted(ids) for ids in asked)
+    assert {len(ids) for ids in asked} == {1, 2, 3}
+
+
+@pytest.mark.parametrize("answer", ["cf1", 7])
+def test_a_policy_that_names_no_candidate_is_at_fault(answer: Any) -> None:
+    _, flown = asked_by(lambda *_: answer, *missions("m"))
+    assert "must return one of the candidates or None" in flown.missions[0].reason
+
+
+# Of very many that wait few are looked at
+
+
+def plan(count: int) -> list[apps.Mission]:
+    chance = Random(3)
+    spots = [(chance.uniform(1, 19), chance.uniform(1, 19)) for _ in range(2 * count)]
+    return [
+        apps.mission(
+            f"m{n}", *(apps.trip(str(k), *spots[2 * n + k], priority=n % 3) for k in (0, 1))
+        )
+        for n in range(count)
+    ]
+
+
+FIVE = tuple((2.0 + 3 * n, 10.0, 0.0) for n in range(5))
+WEAK = Category(name="scout", flight_time=200.0, charge_time=400.0)
+
+
+@pytest.mark.parametrize("after", AfterTrip)
+@pytest.mark.parametrize("policy", [nearest, least_used, first])
+def test_many_missions_come_to_their_end_in_the_order_of_their_priorities(
+    policy: Policy, after: AfterTrip
+) -> None:
+    on = apps.fleet(*FIVE, after=after)
+    flown = apps.flown(*plan(40), policy=policy, attempts=3, categories=(WEAK,), on=on)
+    assert flown.completed
+    ended = apps.moments(flown, "mission.ended")
+    by_priority = [sum(ended[f"m{n}"] for n in range(rank, 40, 3)) / 14 for rank in range(3)]
+    assert by_priority[2] < by_priority[1] < by_priority[0]
+
+
+def test_few_are_looked_at_however_many_wait(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A look at all would be 150 bounds a trip."""
+    asked = 0
+    at_least = Request.at_least
+
+    def counted(self: Request, drone: Drone, here: Any) -> float:
+        nonlocal asked
+        asked += 1
+        return at_least(self, drone, here)
+
+    monkeypatch.setattr(Request, "at_least", counted)
+    assert apps.flown(*plan(150), categories=(WEAK,), on=apps.fleet(*FIVE)).completed
+    assert asked < 20 * 300

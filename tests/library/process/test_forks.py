@@ -88,9 +88,19 @@ def in_true_time(hook: Callable[..., object]) -> apps.SimulationResult:
     return in_real_time.fly(_app(hook), _missions(), fleet, lambda event: None)
 
 
-@pytest.mark.parametrize("fly", [in_virtual_time, in_true_time])
-@pytest.mark.parametrize("written", [plain, straight, waiting])
-@pytest.mark.parametrize(("child", "code"), [(comes_back, 0), (exits, 0), (raises, 1)])
+@pytest.mark.process
+@pytest.mark.parametrize(
+    ("fly", "written", "child", "code"),
+    [
+        (in_virtual_time, waiting, comes_back, 0),
+        *(
+            pytest.param(fly, written, child, code, marks=pytest.mark.long)
+            for fly in (in_virtual_time, in_true_time)
+            for written in (plain, straight, waiting)
+            for child, code in ((comes_back, 0), (exits, 0), (raises, 1))
+        ),
+    ],
+)
 def test_the_copy_of_an_app_that_a_hook_forks_does_not_go_on(
     fly: Fly, written: Callable[..., Any], child: Callable[[], None], code: int
 ) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-
 import pytest
 
+from tests.kit.command import python
+
+pytestmark = [pytest.mark.long, pytest.mark.process]
+
 SCRIPT = """
-import os, select, signal, sys, threading, time
+import os, select, signal, sys, threading
 
 def blocked(number):
     signal.pthread_kill(threading.get_ident(), number)
@@ -34,13 +34,13 @@ def quits(number, frame):
 os.register_at_fork(before=strike)  # those that are registered later are called earlier
 from pluto_fleet.process.workers import in_workers
 
-other = threading.Thread(target=time.sleep, args=(60,), daemon=True)
+other = threading.Thread(target=threading.Event().wait, daemon=True)
 other.start()
 send, *names = sys.argv[1:]
 signals = {"blocked": blocked, "elsewhere": elsewhere}[send], [getattr(signal, n) for n in names]
 signal.signal(signal.SIGHUP, quits)
 try:
-    list(in_workers(time.sleep, [60, 60], 2))
+    list(in_workers(lambda _: signal.pause(), [1, 2], 2))
     print("lost")
 except KeyboardInterrupt:
     print("interrupted")
@@ -61,16 +61,9 @@ except ChildProcessError:
 def said(*arguments: str) -> list[str]:
     """Return what a process prints that is sent signals while it forks."""
     # `ignore`: from 3.12 on, Python warns of forks where there are threads
-    run = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", SCRIPT, *arguments],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
-    assert (run.returncode, run.stderr) == (0, "")
-    return run.stdout.splitlines()
+    ran = python("-W", "ignore", "-c", SCRIPT, *arguments)
+    assert (ran.code, ran.err) == (0, "")
+    return ran.out.splitlines()
 
 
 @pytest.mark.parametrize("send", ["blocked", "elsewhere"])
@@ -110,12 +103,5 @@ print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
 
 def test_an_interrupt_of_the_child_ends_it_silently() -> None:
     """It has not begun with anything that were to be told of."""
-    run = subprocess.run(
-        [sys.executable, "-c", CHILD],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
-    assert (run.stdout, run.stderr) == (f"{-2}\n", "")
+    ran = python("-c", CHILD)
+    assert (ran.out, ran.err) == ("-2\n", "")

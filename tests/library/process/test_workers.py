@@ -6,13 +6,14 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Generator
 from pathlib import Path
 
 import pytest
 
-from pluto_fleet.process.workers import WorkerDied, cores, in_workers
+from pluto_fleet.process.workers import WorkerDied, in_workers
+
+pytestmark = pytest.mark.process
 
 
 def squared(number: int) -> int:
@@ -23,7 +24,7 @@ def squared(number: int) -> int:
 
 
 @pytest.mark.usefixtures("no_worker_left")
-@pytest.mark.parametrize("jobs", [1, 7])
+@pytest.mark.parametrize("jobs", [7, pytest.param(1, marks=pytest.mark.long)])
 def test_results_and_prints_come_in_order(jobs: int, capsys: pytest.CaptureFixture[str]) -> None:
     """However many work at once."""
     assert list(in_workers(squared, range(50), jobs)) == [number**2 for number in range(50)]
@@ -32,12 +33,14 @@ def test_results_and_prints_come_in_order(jobs: int, capsys: pytest.CaptureFixtu
     assert err == "three!\n"
 
 
+@pytest.mark.long
 def test_what_is_not_wanted_is_not_printed(capsys: pytest.CaptureFixture[str]) -> None:
     """It would drown the answer."""
     assert sum(in_workers(squared, range(5), 2, quiet=True)) == 30
     assert capsys.readouterr() == ("", "")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("jobs", [1, 7])
 def test_which_tasks_share_a_process_does_not_depend_on_the_jobs(jobs: int) -> None:
     """So what one leaves behind for the next is always the same."""
@@ -60,6 +63,7 @@ def fails(number: int) -> int:
     return number
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_worker_left")
 @pytest.mark.parametrize("jobs", [1, 4])
 def test_an_error_comes_in_its_turn(jobs: int) -> None:
@@ -78,6 +82,7 @@ class Odd(Exception):
         super().__init__("odd")
 
 
+@pytest.mark.long
 def test_an_error_that_cannot_be_sent_is_told_nevertheless() -> None:
     """By its class and its text."""
 
@@ -98,48 +103,45 @@ def dies(how: Callable[[], object]) -> Callable[[int], int]:
 
 
 @pytest.mark.usefixtures("no_worker_left")
-@pytest.mark.parametrize(
-    ("how", "told"),
-    [
-        (lambda: os.kill(os.getpid(), signal.SIGKILL), "was killed by SIGKILL"),
-        (lambda: os.kill(os.getpid(), signal.SIGTERM), "was killed by SIGTERM"),
-    ],
-)
-def test_a_worker_that_dies_is_told_with_its_task(how: Callable[[], object], told: str) -> None:
+def test_a_worker_that_dies_is_told_with_its_task() -> None:
     """And the others are ended."""
     with pytest.raises(WorkerDied) as died:
-        list(in_workers(dies(how), range(12), 2))
-    assert (died.value.place, died.value.how) == (4, told)
+        list(in_workers(dies(lambda: os.kill(os.getpid(), signal.SIGKILL)), range(12), 2))
+    assert (died.value.place, died.value.how) == (4, "was killed by SIGKILL")
 
 
+@pytest.mark.long
 def test_a_hook_cannot_leave_by_itself() -> None:
     """As it cannot anywhere else."""
     with pytest.raises(SystemExit, match=r"os._exit\(3\)"):
         list(in_workers(dies(lambda: os._exit(3)), range(5), 1))
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_worker_left")
 def test_who_stops_early_leaves_no_worker() -> None:
     """Though it would go on for a minute."""
-    work = in_workers(time.sleep, [0, 60, 60], 3)
+    work = in_workers(lambda number: number and signal.pause(), [0, 1, 2], 3)
     assert isinstance(work, Generator)
     next(work)
     work.close()
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_worker_left")
 def test_an_interrupt_ends_all_at_once() -> None:
     """Workers that are busy, too."""
     parent = os.getpid()
 
-    def interrupts(seconds: int) -> None:
+    def interrupts(number: int) -> None:
         os.kill(parent, signal.SIGINT)
-        time.sleep(seconds)
+        signal.pause()
 
     with pytest.raises(KeyboardInterrupt):
-        list(in_workers(interrupts, [60, 60], 2))
+        list(in_workers(interrupts, [0, 1], 2))
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_worker_left")
 def test_an_interrupt_whose_handler_raises_nothing_ends_all_too() -> None:
     """Such is an app's own."""
@@ -148,7 +150,7 @@ def test_an_interrupt_whose_handler_raises_nothing_ends_all_too() -> None:
     def work(number: int) -> None:
         if number == 0:
             os.kill(parent, signal.SIGINT)
-        time.sleep(60)
+        signal.pause()
 
     before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
     try:
@@ -170,6 +172,7 @@ class Interrupts:
             signal.raise_signal(signal.SIGINT)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("no_worker_left")
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_an_interrupt_that_python_drops_ends_all_too() -> None:
@@ -178,13 +181,14 @@ def test_an_interrupt_that_python_drops_ends_all_too() -> None:
 
     def work(number: int) -> Interrupts | None:
         if number == 2:
-            time.sleep(60)
+            signal.pause()
         return Interrupts(parent) if number == 0 else None
 
     with pytest.raises(KeyboardInterrupt):
         list(map(type, in_workers(work, [0, 1, 2], 3)))
 
 
+@pytest.mark.long
 def test_a_child_of_a_hook_that_lives_on_is_not_waited_for(tmp_path: Path) -> None:
     """It has what a worker had open, but the way to its reader."""
     note = tmp_path / "child"
@@ -192,7 +196,7 @@ def test_a_child_of_a_hook_that_lives_on_is_not_waited_for(tmp_path: Path) -> No
     def forks(number: int) -> int:
         child = os.fork()
         if child == 0:
-            time.sleep(60)
+            signal.pause()
         note.write_text(str(child))
         return number
 
@@ -203,17 +207,18 @@ def test_a_child_of_a_hook_that_lives_on_is_not_waited_for(tmp_path: Path) -> No
 
 
 ENDED = """
-import os, sys, time
+import os, signal, sys
 from pluto_fleet.process.workers import in_workers
 
 def work(number):
     os.write(1, f"{os.getpid()}\\n".encode())
-    time.sleep(60)
+    signal.pause()
 
 list(in_workers(work, [1, 2], 2))
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_workers_end_with_who_is_told_to_end(number: signal.Signals) -> None:
     """By `kill`, or as the terminal closes."""
@@ -231,8 +236,3 @@ def test_workers_end_with_who_is_told_to_end(number: signal.Signals) -> None:
     for worker in workers:
         with pytest.raises(ProcessLookupError):
             os.kill(worker, 0)
-
-
-def test_there_is_a_core() -> None:
-    """At least this one."""
-    assert cores() >= 1

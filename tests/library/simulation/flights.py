@@ -30,18 +30,29 @@ PLAIN = Airspace()
 class Team(SimulatedNavigation):
     """The same, with what a gateway adds: flights begin, and drones are brought home."""
 
+    def __init__(
+        self,
+        kernel: Kernel,
+        drones: list[SimulatedDrone],
+        faults: Faults,
+        seed: int,
+        space: Airspace,
+    ) -> None:
+        super().__init__(kernel, drones, World(seed, space), faults, seed, space)
+        self.kernel, self.faults, self.seed, self.space = kernel, faults, seed, space
+
     async def takeoff(self, drone: str, height: float, order: Flight | None = None) -> None:
         """Take off for a flight, or for none."""
-        body, now = self.bodies[drone], self._kernel.now
+        body, now = self.bodies[drone], self.kernel.now
         body.check(now)
-        drawn = draw(self._faults, self._seed, *order) if order else Drawn()
+        drawn = draw(self.faults, self.seed, *order) if order else Drawn()
         body.begin(drawn, now)
         await super().takeoff(drone, height)
 
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight."""
         drones = [body.drone for body in self.bodies.values()]
-        return await Executor(self._kernel, self, drones, self._airspace).recover(drone)
+        return await Executor(self.kernel, self, drones, self.space).recover(drone)
 
 
 def team(
@@ -64,7 +75,7 @@ def team(
         )
         for i in range(2)
     ]
-    return Team(kernel, drones, World(seed, airspace), faults or Faults(), seed, airspace)
+    return Team(kernel, drones, faults or Faults(), seed, airspace)
 
 
 def fly(kernel: VirtualTime, coroutine: Coroutine[Any, Any, T]) -> T:

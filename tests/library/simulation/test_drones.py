@@ -6,19 +6,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.jobs.controls import Controls
-from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Category, Item, Photo, Point
 from pluto_fleet.shared.fleet.reach import needed
 from pluto_fleet.shared.fleet.telemetry import resting
-from pluto_fleet.shared.time.kernel import FLEET, Kernel
+from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.shared.time.virtual import VirtualTime
 from tests.library.simulation.flights import (
     CLIMB,
     HOME,
-    Team,
     at_home,
     failure,
     fly,
@@ -33,18 +30,6 @@ PILLS = Item(name="pills", mass=0.004)
 def advance(kernel: VirtualTime, seconds: float) -> None:
     """Let time pass."""
     fly(kernel, kernel.sleep(seconds))
-
-
-def test_it_can_be_made_to_do_all_that_a_gateway_wants() -> None:
-    """The simulation does what the gateway expects of all that flies its drones."""
-    navigation: Controls = team(VirtualTime())
-    assert navigation.telemetry["cf1"].location == HOME
-
-
-def test_a_drone_begins_full_in_its_dock() -> None:
-    """Landed, at home, charged."""
-    telemetry = team(VirtualTime()).telemetry["cf2"]
-    assert (telemetry.location, telemetry.battery_level, telemetry.landed) == ((2, 1, 0), 1, True)
 
 
 def test_commands_return_when_they_are_done() -> None:
@@ -141,20 +126,6 @@ def test_a_flight_takes_what_was_reckoned(stops: list[tuple[Point, str]]) -> Non
     assert telemetry.landed
 
 
-def test_a_leg_is_one_event() -> None:
-    """A day in the air costs as little as a second."""
-    kernel, navigation = at_home(category=Category(name="slow", speed=0.001, flight_time=1e6))
-
-    async def flight() -> int:
-        await navigation.takeoff("cf1", 1.2, order())
-        before = kernel.count
-        await navigation.go_to("cf1", (20, 20, 1.2))
-        return kernel.count - before
-
-    assert fly(kernel, flight()) == 2  # it arrives; its coroutine goes on
-    assert kernel.now > 20_000
-
-
 def test_a_cancelled_drone_hovers_where_it_is() -> None:
     """Half-way is where it stays, draining, until it is told otherwise."""
     kernel, navigation = at_home()
@@ -202,16 +173,6 @@ def test_a_cancelled_action_has_not_happened() -> None:
     assert navigation.carrying("cf1") is None
 
 
-def test_hovering_goes_on_until_it_is_cancelled() -> None:
-    """Holding never returns by itself."""
-    kernel, navigation = hovering()
-    hover = kernel.spawn(navigation.hold("cf1"), FLEET, "hover")
-    advance(kernel, 300)
-    assert not hover.is_set
-    hover.cancel()
-    assert navigation.telemetry["cf1"].location == (1, 1, 1.2)
-
-
 def test_sensors_show_the_world_where_the_drone_is() -> None:
     """Actions take their time, and give what is to be seen there."""
     kernel, navigation = hovering()
@@ -243,15 +204,7 @@ def test_an_item_is_carried_from_pick_to_release() -> None:
     ("before", "action", "item", "reason"),
     [
         (None, "release_item", PILLS, "cf1 carries nothing, not pills"),
-        (None, "pick_item", None, "there is nothing to pick"),
         (PILLS, "pick_item", PILLS, "cf1 already carries pills"),
-        (PILLS, "release_item", Item(name="bait", mass=0.001), "cf1 carries pills, not bait"),
-        (
-            None,
-            "pick_item",
-            Item(name="brick", mass=2.0),
-            "brick weighs 2 kg, cf1 carries at most 10 g",
-        ),
     ],
 )
 def test_what_a_gripper_cannot_do_fails(
@@ -282,12 +235,6 @@ def test_a_drone_on_the_ground_refuses_to_fly_on() -> None:
     assert kernel.now == 0
 
 
-def test_an_action_that_no_drone_has_is_refused() -> None:
-    """The app's own actions are not navigation's."""
-    kernel, navigation = hovering()
-    assert failure(kernel, navigation.act("cf1", "dance", {}, None)).failure is Failure.REFUSED
-
-
 def test_no_drone_is_commanded_twice_at_once() -> None:
     """Two commands at a time are a mistake of the caller, not a failed flight."""
     kernel, navigation = hovering()
@@ -309,30 +256,6 @@ def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
         kernel.spawn(rise(drone), FLEET + key, drone)
     advance(kernel, 5)
     assert arrived == ["cf1", "cf2"]
-
-
-async def test_the_same_drones_fly_in_real_time() -> None:
-    """On asyncio's clock nothing else changes: a millimetre, and a leg that is cancelled."""
-
-    async def flight(kernel: Kernel, navigation: Team) -> None:
-        telemetry = navigation.telemetry["cf1"]
-        await navigation.takeoff("cf1", 0.0003, order())
-        await navigation.go_to("cf1", (1.001, 1, 0.0003))
-        assert telemetry.location == (1.001, 1, 0.0003)
-        far = kernel.spawn(navigation.go_to("cf1", (9, 1, 0.0003)), FLEET, "far")
-        far.watch(lambda _: None)
-        await kernel.sleep(0.002)
-        far.cancel()
-        hovers_at = telemetry.location
-        await kernel.sleep(0.002)
-        assert telemetry.location == hovers_at
-        assert 1.001 < hovers_at[0] < 9
-        await navigation.land("cf1")
-        assert telemetry.landed
-        assert telemetry.battery_level < 1
-
-    kernel = RealTime()
-    await kernel.run(kernel.spawn(flight(kernel, team(kernel)), FLEET, "flight"))
 
 
 def test_who_stands_somewhere_from_a_moment_to_come_is_there_already() -> None:

@@ -7,13 +7,12 @@ from random import Random
 import pytest
 
 from pluto_fleet.shared.alone.faults import Drawn, Faults, draw
-from tests.library.simulation.flights import order
 
 
 def test_faults_fire_as_often_as_they_should() -> None:
     """Of many flights the asked share goes wrong, at moments all over the flight."""
     faults = Faults(crash=0.3, link=0.1, action=0.2, battery=0.05)
-    drawn = [draw(faults, 1, *order(f"m/t/0/{i}", seconds=100)) for i in range(5000)]
+    drawn = [draw(faults, 1, f"m/t/0/{i}", 100.0) for i in range(5000)]
     crashes = [each.crash for each in drawn if each.crash is not None]
     assert len(crashes) == pytest.approx(1500, rel=0.1)
     assert sum(each.link is not None for each in drawn) == pytest.approx(500, rel=0.15)
@@ -26,9 +25,9 @@ def test_faults_fire_as_often_as_they_should() -> None:
 
 def test_what_goes_wrong_depends_on_the_flight_alone() -> None:
     """Another probability, or another flight before, changes nothing; another seed does."""
-    alone = draw(Faults(link=0.5), 3, *order())
-    assert draw(Faults(link=0.5, crash=1, battery=1), 3, *order()).link == alone.link
+    alone = draw(Faults(link=0.5), 3, "m/t/0/1", 15.0)
+    assert draw(Faults(link=0.5, crash=1, battery=1), 3, "m/t/0/1", 15.0).link == alone.link
     Random(3).random()
-    assert draw(Faults(link=0.5), 3, *order()) == alone
-    assert draw(Faults(crash=1), 3, *order()) != draw(Faults(crash=1), 4, *order())
-    assert draw(Faults(), 3, *order()) == Drawn()
+    assert draw(Faults(link=0.5), 3, "m/t/0/1", 15.0) == alone
+    assert draw(Faults(crash=1), 3, "m/t/0/1", 15.0) != draw(Faults(crash=1), 4, "m/t/0/1", 15.0)
+    assert draw(Faults(), 3, "m/t/0/1", 15.0) == Drawn()

@@ -1,4 +1,4 @@
-"""Evaluators: what their verdicts do, and what becomes of verdicts that cannot be followed."""
+"""MissionEvaluator: what verdicts do, and what becomes of verdicts that cannot be followed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pluto_fleet.files.toml import toml_text
 from pluto_fleet.shared.alone import files
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.shared.domain.model import Mission, Results
+from pluto_fleet.shared.domain.model import Category, Mission, Results
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Verdict
@@ -48,18 +48,6 @@ def test_a_verdict_takes_lists_and_other_sequences(made: Any) -> None:
     assert outcome.completed
     assert outcome.log == ["once more", "done"]
     assert [trip.name for trip in outcome.missions[0].completed_trips] == ["A", "B"]
-
-
-@pytest.mark.parametrize(
-    ("verdict", "reason"),
-    [
-        (Verdict(ok=False), "<lambda> did not accept it"),
-        (Verdict(fail="the field is flooded"), "the field is flooded"),
-    ],
-)
-def test_a_rejected_mission_has_failed_with_the_reason(verdict: Verdict, reason: str) -> None:
-    (mission,) = judged(lambda mission, results: verdict).missions
-    assert (mission.status, mission.reason) == (Status.FAILED, reason)
 
 
 def test_trips_to_redo_fly_again_as_a_further_attempt() -> None:
@@ -117,10 +105,25 @@ def test_a_mission_may_choose_another_of_the_apps_evaluators() -> None:
     assert outcome.completed
 
 
+NOTHING: Any = None
+ODD: Any = apps.trip("B", 2.0)
+NUMBERS: Any = ([1],)
+LINES: Any = "all is well"
+
+
 @pytest.mark.parametrize(
     ("returned", "says"),
     [
         (None, "must return a Verdict, not NoneType"),
+        (Verdict(add=ODD), "must give `add` as a list or a tuple, not as Trip"),
+        (Verdict(redo=NOTHING), "must give `redo` as a list or a tuple, not as NoneType"),
+        (Verdict(log=LINES), "must give `log` as a list or a tuple, not as str"),
+        (Verdict(add=NUMBERS), "it must be a Trip of this app, not list"),
+        (Verdict(fail=NUMBERS), "([1],)"),
+        (Verdict(fail=" "), "did not accept it"),
+        (Verdict(ok=False), "<lambda> did not accept it"),
+        (Verdict(fail="the field is flooded"), "the field is flooded"),
+        (Verdict(add=(apps.trip("B", 2.0, parameters=NOTHING),)), "parameters must be a dict"),
         (Verdict(redo=(apps.trip("B", 1.0),)), "redo a trip that mission m has not completed"),
         (Verdict(add=(apps.trip("B", 99.0),)), "cannot be flown"),
         (Verdict(add=(apps.trip("B", 9.0, action="dance"),)), "there is no action 'dance'"),
@@ -201,6 +204,72 @@ def judged_with_parameters(given: Any) -> apps.SimulationResult:
         apps.app(apps.flow(evaluator=adds), actions=[pollinate]),
         apps.mission("m", apps.trip("A", 3.0)),
     )
+
+
+def test_an_evaluator_does_not_change_the_trips_itself() -> None:
+    def adds(mission: Any, results: object) -> Verdict:
+        mission.trips.append(apps.trip("B", 2.0))
+        return Verdict()
+
+    assert "that is what `add` is for" in judged(adds).missions[0].reason
+
+
+def test_an_added_place_without_a_height_gets_the_maps() -> None:
+    place: Any = (2, 3)
+
+    def adds(mission: Mission[apps.Trip], results: object) -> Verdict:
+        more = apps.Trip(name="B", action="take_photo", target=place)
+        return Verdict(add=() if len(mission.completed_trips) > 1 else (more,))
+
+    assert judged(adds).missions[0].completed_trips[1].target == (2, 3, 1.2)
+
+
+@pytest.mark.parametrize("which", ["add", "redo"])
+def test_a_trip_that_is_named_twice_flies_once(which: str) -> None:
+    new = apps.trip("new", 4.0)
+
+    def twice(mission: Mission[apps.Trip], results: object) -> Verdict:
+        trips = [new] * 2 if which == "add" else mission.completed_trips * 2
+        return Verdict(**{which: trips if mission.attempts == 1 else ()})
+
+    assert judged(twice).count("trip.launched") == 2
+
+
+def test_a_trip_that_has_flown_cannot_be_added() -> None:
+    """Neither to its own mission, where it is redone, nor to another."""
+    extra = apps.trip("extra", 5.0)
+
+    def adds(mission: Mission[apps.Trip], results: object) -> Verdict:
+        again = mission.name == "first" and mission.attempts == 1
+        return Verdict(add=(extra,) if again or mission.name == "second" else ())
+
+    def itself(mission: Mission[apps.Trip], results: object) -> Verdict:
+        return Verdict(add=mission.completed_trips)
+
+    missions = [apps.mission(name, apps.trip("A", 3.0)) for name in ("first", "second")]
+    first, second = apps.flown(*missions, evaluator=adds).missions
+    assert first.status is Status.COMPLETED
+    assert "extra has been used already: make a new Trip each time" in second.reason
+    assert "is the mission's already: ask to redo it" in judged(itself).missions[0].reason
+
+
+def test_a_trip_that_no_drone_of_the_fleet_can_fly_is_told_with_what_each_lacks() -> None:
+    kinds = Category(name="scout", actions=frozenset({"take_photo"})), Category(name="heavy")
+
+    def adds(mission: Mission[apps.Trip], results: object) -> Verdict:
+        return Verdict(add=(apps.trip("B", 3.0, action="measure"),) * (mission.attempts == 1))
+
+    outcomes = [
+        apps.flown(
+            apps.mission("m", apps.trip("A", 3.0)),
+            evaluator=adds,
+            categories=kinds,
+            on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), categories=names),
+        )
+        for names in (("scout",), ("scout", "heavy"))
+    ]
+    assert outcomes[0].missions[0].reason.endswith("cannot be flown: scout cannot measure")
+    assert outcomes[1].completed
 
 
 def test_an_evaluator_that_raises_fails_its_mission_and_no_other() -> None:
