@@ -25,6 +25,7 @@ from pluto_fleet.shared.domain.trace import dumped
 from tests.kit import apps
 from tests.kit.apps import EXAMPLES
 from tests.kit.command import Ran, python
+from tests.kit.command import run as within
 from tests.library.cli.conftest import MISSIONS
 from tests.library.files.an_app import APP
 
@@ -407,16 +408,14 @@ def test_output_that_cannot_be_written_ends_cleanly(package: Path) -> None:
         (BrokenPipeError(), 141, ""),
     ],
 )
-def test_what_ends_a_command_is_told(
-    error: BaseException, code: int, said: str, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_what_ends_a_command_is_told(error: BaseException, code: int, said: str) -> None:
     """However long it would have gone on."""
 
     def load() -> App:
         raise error
 
-    assert command.alone("tried", load, ["check"]) == code
-    assert capfd.readouterr().err == said
+    ran = within(lambda words: command.alone("tried", load, words), "check")
+    assert (ran.code, ran.err) == (code, said)
 
 
 def test_an_error_of_ours_is_no_traceback(capsys: pytest.CaptureFixture[str]) -> None:

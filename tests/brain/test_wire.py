@@ -5,29 +5,23 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from random import Random
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared import brain
 from pluto_fleet.shared.alone import simulate as by_itself
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.domain.trace import Event
 from tests.brain.hand import charged, settled, trip
-from tests.equivalence.campaign import OURS, drawn
-from tests.equivalence.flows import packaged
-from tests.equivalence.fly import Record, alone, record
-from tests.equivalence.worlds import random_world
+from tests.equivalence.fly import alone
 from tests.kit import apps
 from tests.kit.apps import MISHAPS, Example, Flown
 
 Data = Mapping[str, Any]
-GRAPHS = 20
 ROUGH = Faults(crash=0.1, link=0.1, action=0.2)
 
 
@@ -74,51 +68,20 @@ def lines(events: Sequence[Event]) -> list[str]:
     return [json.dumps(event) for event in events]
 
 
-@pytest.mark.parametrize("mishaps", [{}, MISHAPS], ids=["well", "rough"])
-def test_an_example_flies_over_a_wire_as_without(
-    example: Example, mishaps: Mapping[str, float]
-) -> None:
+def test_an_example_flies_over_a_wire_as_without(example: Example) -> None:
     """Each order, message, event, mission, and where all stands at last."""
-    for seed in range(2):
-        fly = partial(example.fly, seed, mishaps)
-        here: Flown = fly()
-        there: Flown = through(Wired, fly)
-        assert lines(there.trace) == lines(here.trace)
-        assert there.ends == here.ends
+    fly = partial(example.fly, 0, MISHAPS)
+    here: Flown = fly()
+    there: Flown = through(Wired, fly)
+    assert lines(there.trace) == lines(here.trace)
+    assert there.ends == here.ends
 
 
-@pytest.mark.parametrize("how", [simulate, alone], ids=["with traffic", "alone"])
-def test_random_graphs_fly_over_a_wire_as_without(how: Any) -> None:
-    """Also where drones fail, hooks change trips and everything is late."""
-    for number in range(GRAPHS):
-        text, checked, rng, _ = drawn(f"wired/{number}")
-        package = packaged(OURS.planner(checked))
-        world = random_world(Random(rng.random()), package.graph)
-        fly = partial(record, package, world, patient=False, fly=how)
-        here: Record = fly()
-        there: Record = through(Wired, fly)
-        if not here.spins:
-            assert lines(there.events) == lines(here.events), f"{text}\n{world}"
-            assert (there.ends, there.diary) == (here.ends, here.diary), f"{text}\n{world}"
-
-
-KNOWN = {
-    *("done", "failed", "hook", "telemetry", "value", "failure", "reason"),
-    *(
-        "drones",
-        "silent",
-        "midnight",
-        "after_trip",
-        "max_airborne",
-        "id",
-        "category",
-        "home",
-    ),
-    *("at", "leg", "battery", "landed"),
-    *("trips", "name", "index", "fields"),
-    *("action", "target", "source", "item", "parameters"),
-    *("added", "attempt", "status", "start_time", "end_time"),
-}
+KNOWN = """
+done failed hook telemetry value failure reason drones silent midnight after_trip max_airborne speeds id category home
+at leg battery landed trips name index fields action target source item parameters added attempt status start_time
+end_time
+"""
 
 values = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=5),
@@ -126,7 +89,7 @@ values = st.recursive(
     max_leaves=3,
 )
 noises = st.dictionaries(
-    st.text(max_size=12).filter(lambda key: key not in KNOWN), values, max_size=3
+    st.text(max_size=12).filter(lambda key: key not in KNOWN.split()), values, max_size=3
 )
 
 
@@ -181,7 +144,7 @@ def a_flight() -> list[str]:
     return lines(outcome.events)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12)
 @given(noises)
 def test_what_is_unknown_is_ignored(noise: Data) -> None:
     """Keys anywhere, messages, orders' ids, hooks, drones."""
@@ -203,6 +166,7 @@ def some(data: Data) -> st.SearchStrategy[dict[str, Any]]:
     )
 
 
+@settings(max_examples=40)
 @given(some(MISSION), some(TRIP), some(FLEET), some(DONE), some(FAILED), some(NEWS))
 def test_what_is_missing_has_a_default(
     mission: Data, a_trip: Data, fleet: Data, done: Data, failed: Data, news: Data

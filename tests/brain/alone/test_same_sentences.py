@@ -173,49 +173,11 @@ def test_what_must_be_filled_in_is_told_with_what_to_write(tmp_path: Path) -> No
     ]
 
 
-KEYS = [
-    "patient",
-    "margin",
-    "fragile",
-    "layers",
-    "warmth",
-    "id",
-    "name",
-    "category",
-    "home",
-    "kind",
-    "at",
-    "radius",
-    "quantity",
-    "peak",
-    "mass",
-    "item",
-    "parameters",
-    "dose",
-    "trip",
-    "mission",
-    "drone",
-    "map",
-    "world",
-    "source",
-    "feature",
-    "target",
-    "action",
-    "delay",
-    "priority",
-    "repeat",
-    "safe_time",
-    "evaluator",
-    "motion",
-    "legs",
-    "limit",
-    "settles",
-    "pace",
-    "taper",
-    "size",
-    "gap",
-    "x",
-]
+KEYS = """
+patient margin fragile layers warmth id name category home kind at radius quantity peak mass item parameters dose trip
+mission drone map world source feature target action delay priority repeat safe_time evaluator motion legs limit
+settles pace taper size gap x
+"""
 VALUES = (
     st.sampled_from(
         ("", " a", "a\n", "cf1", "north", "p", "scout", "measure", "pick_item", "release_item",
@@ -251,7 +213,7 @@ def mistaken(draw: st.DrawFn, text: str) -> str:
             case "less":
                 del around[last]
             case "more" if isinstance(around, dict):
-                around[draw(st.sampled_from(KEYS))] = deepcopy(draw(VALUES))
+                around[draw(st.sampled_from(KEYS.split()))] = deepcopy(draw(VALUES))
             case "again" if isinstance(around, list):
                 around.append(deepcopy(around[last]))
             case _:

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 from collections import UserList, deque
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from pluto_fleet.files.toml import toml_text
-from pluto_fleet.shared.alone import files
-from pluto_fleet.shared.domain.airspace import Airspace
-from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Category, Mission, Results
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
@@ -95,7 +90,7 @@ def test_an_evaluator_sees_what_is_new_of_its_mission_and_everything_of_all() ->
         tested,
         apps.mission("near", apps.trip("A", 2.0), repeat=1),
         apps.mission("far", apps.trip("A", 9.0)),
-        on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0)),
+        on=apps.TWO,
     )
     assert seen == [("near", 1, 1), ("near", 1, 2), ("far", 1, 3)]
 
@@ -144,36 +139,19 @@ def test_a_verdict_that_cannot_be_followed_fails_the_mission(returned: object, s
     ("given", "says"),
     [
         ({"dose": "3 m"}, 'dose "3 m" is a length, not a mass: it takes mg, g, kg'),
-        ({"dose": "much"}, 'dose "much" is not a mass: write a number and a unit (mg, g, kg)'),
-        ({"dose": True}, "dose true is not a mass: write a number, or a text with a unit"),
         ({"dose": float("inf")}, "dose inf is not a finite number"),
         ({"dose": 1, "strokes": 2.5}, "strokes 2.5 is not a whole number"),
-        ({"dose": 1, "gently": 1}, "gently 1 is neither true nor false"),
-        ({"dose": 1, "note": 1}, "note 1 is not a text: put it in quotes"),
-        ({"dose": 1, "doze": 1}, 'unknown parameter "doze"; there may be: dose, '),
         ({}, "pollinate needs the parameter dose"),
         # such as no missions file can have
         ({"dose": 1, 3: 1}, 'unknown parameter "3"; there may be: dose, '),
         ({"dose": [1]}, "its parameter 'dose' must be a number or a text, not [1]"),
     ],
 )
-def test_a_trips_parameters_are_checked_as_those_of_a_missions_file(
-    tmp_path: Path, given: Any, says: str
-) -> None:
-    """With the same sentence; the evaluator and the trip are named."""
-    outcome = judged_with_parameters(given)
-    (mission,) = outcome.missions
+def test_a_trips_parameters_are_checked_as_those_of_a_missions_file(given: Any, says: str) -> None:
+    (mission,) = judged_with_parameters(given).missions
     adds = "evaluator adds adds a trip that cannot be flown: trip bloom: "
     assert mission.status is Status.FAILED
     assert mission.reason.startswith(adds + says)
-    if all(isinstance(name, str) and type(value) is not list for name, value in given.items()):
-        path = tmp_path / "missions.toml"
-        trip = {"action": "pollinate", "target": [2, 2], "parameters": given}
-        path.write_text(toml_text({"mission": [{"trip": [trip]}]}), "utf-8")
-        with pytest.raises(BadInput) as said:
-            files.load_missions(path, an_app.APP, Airspace())
-        told = f"{path}: mission 1, trip 1, parameters: {mission.reason.removeprefix(adds)}"
-        assert str(said.value) == told
 
 
 def test_a_parameter_with_a_unit_is_read_as_in_a_missions_file() -> None:
@@ -278,10 +256,10 @@ def test_an_evaluator_that_raises_fails_its_mission_and_no_other() -> None:
             raise KeyError("no such photo")
         return Verdict()
 
-    outcome = apps.fly(
-        apps.app(apps.flow(evaluator=broken)),
+    outcome = apps.flown(
         apps.mission("bad", apps.trip("A", 2.0)),
         apps.mission("good", apps.trip("A", 9.0)),
+        evaluator=broken,
     )
     bad, good = outcome.missions
     assert bad.reason == "hook broken raised KeyError: 'no such photo'"

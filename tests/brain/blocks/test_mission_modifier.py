@@ -32,9 +32,9 @@ async def limit_trip(mission: Mission[apps.Trip], context: Context) -> Status:
 
 
 def test_a_timer_written_as_a_modifier_fails_a_trip_that_takes_too_long() -> None:
-    outcome = apps.fly(
-        apps.app(apps.flow(watch=apps.modified(limit_trip, *ANY_END))),
+    outcome = apps.flown(
         apps.mission("m", apps.trip("A", 2.0), apps.trip("B", 15.0)),
+        watch=apps.modified(limit_trip, *ANY_END),
     )
     (mission,) = outcome.missions
     assert mission.status is Status.FAILED
@@ -113,9 +113,9 @@ def test_a_mission_that_has_not_flown_may_stay_unexecuted() -> None:
 )
 def test_a_status_that_cannot_be_fails_the_mission(hook: object, says: str) -> None:
     assert callable(hook)
-    outcome = apps.fly(
-        apps.app(apps.flow(watch=apps.modified(hook, *ANY_END))),
+    outcome = apps.flown(
         apps.mission("m", apps.trip("A", 5.0), apps.trip("B", 5.0)),
+        watch=apps.modified(hook, *ANY_END),
     )
     (mission,) = outcome.missions
     assert mission.status is Status.FAILED
@@ -144,7 +144,7 @@ def test_what_a_modifier_returns_is_told_also_where_another_branch_was_faster(
         return returned
 
     watch = apps.modified(returns_when_called_off, *emits)
-    outcome = apps.fly(apps.app(apps.flow(watch=watch)), apps.mission("m", apps.trip("A", 2.0)))
+    outcome = apps.flown(apps.mission("m", apps.trip("A", 2.0)), watch=watch)
     assert outcome.completed
     assert outcome.log == ([f"modifier returns_when_called_off {says}"] if says else [])
 
@@ -158,9 +158,7 @@ def test_a_modifier_may_fail_a_mission_that_does_not_fly_and_the_reason_says_so(
         status = await apps.watched(run, status)
         return await modify_mission(run, status, hook=refuse, emits=(Status.FAILED,))
 
-    outcome = apps.fly(
-        apps.app(apps.flow(watch=watch_then_refuse)), apps.mission("m", apps.trip("A", 2.0))
-    )
+    outcome = apps.flown(apps.mission("m", apps.trip("A", 2.0)), watch=watch_then_refuse)
     (mission,) = outcome.missions
     assert (mission.status, mission.reason) == (
         Status.FAILED,
@@ -173,18 +171,15 @@ def test_a_modifier_without_emits_changes_the_mission_and_not_its_status() -> No
         mission.current.target = (7.0, 7.0, 1.2)
         context.log(f"{context.now:g} s: elsewhere")
 
-    outcome = apps.fly(
-        apps.app(apps.flow(prepare=go_elsewhere)), apps.mission("m", apps.trip("A", 2.0))
-    )
+    outcome = apps.flown(apps.mission("m", apps.trip("A", 2.0)), prepare=go_elsewhere)
     assert outcome.completed
     assert outcome.log == ["0 s: elsewhere"]
     assert outcome.flown["cf1"] > 15.0
 
 
 def test_a_modifier_without_emits_may_return_nothing_at_all() -> None:
-    outcome = apps.fly(
-        apps.app(apps.flow(prepare=lambda mission, context: Status.FAILED)),
-        apps.mission("m", apps.trip("A", 2.0)),
+    outcome = apps.flown(
+        apps.mission("m", apps.trip("A", 2.0)), prepare=lambda mission, context: Status.FAILED
     )
     assert "must return nothing" in outcome.missions[0].reason
 
@@ -223,9 +218,7 @@ def test_a_mission_that_goes_round_for_ever_fails_with_the_reason(
 ) -> None:
     """Also where its hook sleeps in between: then the clock does not stand still."""
     monkeypatch.setattr(asking, "MOST_CALLS", 5_000)
-    outcome = apps.fly(
-        apps.app(apps.flow(watch=round_and_round)), apps.mission(name, apps.trip("A", 2.0))
-    )
+    outcome = apps.flown(apps.mission(name, apps.trip("A", 2.0)), watch=round_and_round)
     (mission,) = outcome.missions
     assert mission.status is Status.FAILED
     assert "it goes round in its graph for ever" in mission.reason
@@ -236,7 +229,7 @@ def test_hooks_calls_are_counted_from_launch_to_launch(monkeypatch: pytest.Monke
     """A mission of many trips calls its hooks often, and goes round nowhere."""
     monkeypatch.setattr(asking, "MOST_CALLS", 1)
     trips = [apps.trip(f"{number}", 1.0 + number) for number in range(4)]
-    assert apps.fly(apps.app(apps.flow(prepare=look)), apps.mission("m", *trips)).completed
+    assert apps.flown(apps.mission("m", *trips), prepare=look).completed
 
 
 def more(mission: Mission[apps.Trip], context: Context) -> Status:
@@ -275,10 +268,11 @@ def test_what_a_modifier_makes_of_a_mission_is_told_in_simulations_too(
         return await modify_mission(run, status, hook=hook, emits=ANY_END)
 
     for seed in range(3):
-        outcome = apps.fly(
-            apps.app(apps.flow(watch=watch, repeater=True)),
+        outcome = apps.flown(
             apps.mission("m", apps.trip("A", 2.0), apps.trip("B", 2.0), repeat=2),
             faults=Faults(action=0.2),
             seed=seed,
+            watch=watch,
+            repeater=True,
         )
         assert violations(outcome.events, {}) == []

@@ -23,7 +23,6 @@ from pluto_fleet.shared.domain.motion import (
     CRAZYFLIE,
     MOST,
     SHORTEST,
-    SINKS,
     STRAIGHT,
     Motion,
     Spread,
@@ -102,26 +101,6 @@ def test_a_longer_way_takes_no_less(motion: Motion, one: float, other: float, sp
         assert takes(less, speed) <= takes(more, speed)
 
 
-@given(motions, distances, speeds, speeds)
-def test_who_may_be_faster_takes_no_longer(
-    motion: Motion, metres: float, one: float, other: float
-) -> None:
-    slow, fast = sorted((one, other))
-    for takes in (motion.leg, motion.climb, motion.sink):
-        assert takes(metres, fast) <= takes(metres, slow)
-
-
-@given(smooth, st.floats(0.01, 20.0), speeds)
-def test_climbs_are_slower_and_landings_slower_still(
-    motion: Motion, metres: float, speed: float
-) -> None:
-    motion = replace(motion, pace=1.0)
-    up, _ = fastest(metres, motion.climb(metres, speed))
-    down, _ = fastest(metres, motion.sink(metres, speed))
-    assert up <= min(speed, motion.limit, 2 * CLIMB_SPEED) + 1e-9
-    assert down <= min(speed, SINKS * motion.limit, 2 * CLIMB_SPEED) + 1e-9
-
-
 @given(distances, speeds)
 def test_straight_legs_take_nothing_beside(metres: float, speed: float) -> None:
     """At the category's speed, and up and down at one and the same."""
@@ -195,13 +174,6 @@ def test_a_charge_from_empty_to_full_takes_its_time(full: float, taper: float) -
     assert all(b <= a + 1e-9 for a, b in pairwise(gained))
     even = gained[: int(STEPS * slows / full)]
     assert even == pytest.approx([(1 + taper) / STEPS] * len(even))
-
-
-@given(levels, st.floats(0.0, 2.0), fulls)
-def test_without_a_taper_a_charge_is_even(level: float, share: float, full: float) -> None:
-    gained = charged(level, share * full, full, 0.0)
-    assert gained == pytest.approx(min(1.0, level + share))
-    assert Charge(level, 5.0, 1 / full).at(5.0 + share * full) == pytest.approx(gained)
 
 
 @given(levels, st.floats(0.0, 2.0), fulls, tapers)
@@ -319,7 +291,7 @@ BETWEEN = CRAZYFLIE.flies(dist(NEAR, FAR), 0.5)
 MEASURES = BUILT_IN[MEASURE].seconds
 
 
-def to_and_fro(motion: Motion, seed: int = 1, count: int = 2000) -> list[float]:
+def to_and_fro(motion: Motion, seed: int = 1, count: int = 1000) -> list[float]:
     """Return how long a drone takes to fly there and measure, again and again."""
     drone = Ideal(kind(motion), seed)
     drone.flies(NEAR)
@@ -342,11 +314,6 @@ def test_legs_vary_as_much_as_their_spread() -> None:
 def test_actions_vary_as_much_as_their_own_spread() -> None:
     taken = to_and_fro(replace(CRAZYFLIE.exact, action_spread=SPREAD))
     assert_spread([(seconds - BETWEEN) / MEASURES for seconds in taken])
-
-
-def test_without_a_spread_nothing_varies() -> None:
-    taken = to_and_fro(CRAZYFLIE.exact, count=20)
-    assert taken == pytest.approx([BETWEEN + MEASURES] * 20)
 
 
 def test_durations_hang_on_the_seed_and_the_drone() -> None:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import permutations
-from random import Random
 
-import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -61,7 +59,7 @@ def table(most: int) -> st.SearchStrategy[list[list[float | None]]]:
     )
 
 
-@settings(max_examples=250)
+@settings(max_examples=100)
 @given(table(4))
 @example([[1.0, None], [2.0, None], [0.0, None]])
 @example([[5.0, 1.0], [1.0, None]])
@@ -69,79 +67,6 @@ def table(most: int) -> st.SearchStrategy[list[list[float | None]]]:
 def test_it_is_the_best_of_all_ways(costs: list[list[float | None]]) -> None:
     """Where a row has to go without it is the one that is best left."""
     assert worth(solved(costs)) == best(costs)
-
-
-Edge = tuple[int, int, float]
-"""A row takes what another has; what that costs more than what the row had."""
-
-
-def exchanges(costs: Costs, pairs: Pairs) -> list[Edge]:
-    """Return all that one row can take. One number past the rows stands for the free columns."""
-    free = len(costs)
-    owner = {pair[1]: row for row, pair in enumerate(pairs) if pair is not None}
-    without = [row for row, pair in enumerate(pairs) if pair is None]
-    edges = [(free, row, 0.0) for row in owner.values()]
-    for row, pair in enumerate(pairs):
-        had = 0.0 if pair is None else pair[0]
-        edges += [
-            (row, owner.get(column, free), cost - had)
-            for column, cost in enumerate(costs[row])
-            if cost is not None
-        ]
-        if pair is not None:
-            edges += [(row, other, -had) for other in without]
-    return edges
-
-
-def reached(edges: Sequence[Edge], start: int) -> set[int]:
-    seen, new = set[int](), {start}
-    while new:
-        seen |= new
-        new = {edge[1] for edge in edges if edge[0] in new} - seen
-    return seen
-
-
-def can_be_cheaper(edges: Sequence[Edge], nodes: int) -> bool:
-    """Return whether an exchange all around has a sum below 0 (Bellman and Ford)."""
-    length = [0.0] * nodes
-    for _ in range(nodes + 1):
-        shorter = [(b, length[a] + c) for a, b, c in edges if length[a] + c < length[b] - 1e-6]
-        if not shorter:
-            return False
-        for node, new in shorter:
-            length[node] = min(length[node], new)
-    return True
-
-
-@pytest.mark.parametrize("seed", range(24))
-def test_no_exchange_makes_it_better(seed: int) -> None:
-    """Of tables that are too large to try every way: drones and trips in a field, and mere chance."""
-    random = Random(seed)
-    rows, columns = random.choice([(40, 40), (30, 50), (50, 30), (45, 44)])
-    share = random.choice([1.0, 0.5, 0.1, 0.03])
-    ways = [(random.uniform(0, 100), random.uniform(0, 100)) for _ in range(rows + columns)]
-    costs = [
-        [
-            (
-                (
-                    abs(complex(*ways[row]) - complex(*ways[rows + column]))
-                    if seed % 3
-                    else 1.0 * (row ^ column)
-                )
-                if random.random() < share
-                else None
-            )
-            for column in range(columns)
-        ]
-        for row in range(rows)
-    ]
-    pairs = solved(costs)
-    edges = exchanges(costs, pairs)
-    plain = [(a, b, c) for a, b, c in edges if a != rows and (pairs[b] if b < rows else True)]
-    for row, pair in enumerate(pairs):
-        if pair is None:
-            assert rows not in reached(plain, row), "one more could have a column"
-    assert not can_be_cheaper(edges, rows + 1)
 
 
 def test_no_more_is_asked_of_a_row_than_matters() -> None:

@@ -12,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Point
 from pluto_fleet.shared.domain.status import Status
@@ -21,12 +20,11 @@ from pluto_fleet.shared.fleet.earliest_deadline import earliest_deadline
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.flow.run import Run
 from pluto_fleet.shared.hooks.context import Context
-from tests.deadlines import SHARE, TIRELESS, Drawn, missed
+from tests.deadlines import SHARE, TIRELESS, missed
 from tests.kit import apps
 from tests.kit.living import Living, enterable
 
 NEAR, FAR = (14.0, 0.5, 0.0), (0.5, 0.5, 0.0)
-TIRED = Category(name="scout", flight_time=200.0, charge_time=400.0)
 OUT = [AfterTrip.STAY, AfterTrip.NEXT]
 
 
@@ -72,7 +70,7 @@ def test_what_is_too_late_already_keeps_none_waiting_that_can_be_in_time() -> No
 
 def test_it_misses_no_more_than_nearest_in_nearly_all_plans() -> None:
     """A share of the campaign."""
-    found = [missed(number) for number in range(25)]
+    found = [missed(number) for number in range(8)]
     assert sum(after <= before for before, after in found) >= SHARE * len(found)
     assert sum(after for _, after in found) < 0.75 * sum(before for before, _ in found)
 
@@ -169,24 +167,7 @@ def test_a_drone_that_is_late_keeps_no_trip_waiting_for_long() -> None:
     assert 0.0 < then < 2 * (16.0 - 0.5) / apps.SCOUT.speed + 1.0
 
 
-@settings(max_examples=30, deadline=None)
-@given(
-    st.integers(0, 10_000),
-    st.sampled_from((TIRELESS, TIRED)),
-    st.sampled_from((None, 1, 2)),
-    st.sampled_from((Faults(), Faults(crash=0.05, link=0.1, action=0.1))),
-)
-def test_every_plan_comes_to_its_end(
-    number: int, kind: Category, most: int | None, faults: Faults
-) -> None:
-    """Whatever befalls its drones, and the same is flown each time."""
-    flown = [Drawn(number).flown(earliest_deadline, kind, faults, most) for _ in range(2)]
-    assert all(one.status.name in ("COMPLETED", "FAILED") for one in flown[0].missions)
-    assert faults != Faults() or flown[0].completed
-    assert flown[0].events == flown[1].events
-
-
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=10)
 @given(st.floats(0.0, 40.0), st.sampled_from(OUT))
 def test_who_waits_when_the_brain_dies_is_served_by_the_next(when: float, after: AfterTrip) -> None:
     """It does not know for which drone a trip has waited; the same is done."""

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial, wraps
-from itertools import pairwise
 from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone
+from pluto_fleet.shared.domain.model import Category, Drone
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.own_batch import Again, Assignment, Waiting, chooses_for_all
 from pluto_fleet.shared.fleet.own_policy import own_policy
-from tests.kit import apps, in_real_time
+from tests.kit import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
 Waits = Sequence[Waiting[Any, Any]]
@@ -93,25 +92,15 @@ def test_an_empty_assignment_waits_for_the_next_change() -> None:
     assert asked == sorted(asked)
 
 
-@pytest.mark.parametrize("fly_it", [apps.fly, None])
-def test_it_can_ask_to_be_asked_again_at_a_time(fly_it: Any) -> None:
-    """In virtual time and in real time alike."""
+def test_it_can_ask_to_be_asked_again_at_a_time() -> None:
     asked: list[float] = []
 
     def later(waiting: Waits, drones: Sequence[Drone], now: float) -> Assignment:
         asked.append(now)
         return Again(after=0.5) if len(asked) < 3 else {waiting[0]: drones[0]}
 
-    app = apps.app(apps.flow(policy=own_policy(later)))
-    (mission,) = missions(0.6)
-    fleet = apps.fleet(HOMES[0])
-    if fly_it is None:
-        outcome = in_real_time.fly(app, [mission], fleet, lambda _: None)
-    else:
-        outcome = apps.fly(app, mission, on=fleet)
-    assert outcome.completed
-    assert len(asked) == 3
-    assert all(after >= before + 0.5 for before, after in pairwise(asked))
+    assert fly(later, *missions(0.6)).completed
+    assert asked == [0.0, 0.5, 1.0]
 
 
 def test_it_can_give_some_now_and_be_asked_again_for_the_rest() -> None:
@@ -201,22 +190,6 @@ def test_a_drone_that_cannot_fly_it_is_a_fault() -> None:
     assert reasons == [
         'policy any_drone gives trip A of mission "m2" drone cf1, which cannot fly it now'
     ]
-
-
-def test_the_same_plan_is_flown_the_same_each_time() -> None:
-    def by_way(waiting: Waits, drones: Sequence[Drone], now: float) -> Assignment:
-        pairs = [(drone.distance(one.trip.target), n, drone.index, one, drone)
-                 for n, one in enumerate(waiting) for drone in one.drones]  # fmt: skip
-        *_, one, drone = min(pairs, key=lambda pair: pair[:3])
-        return Again(after=2.0, pairs={one: drone})
-
-    def flown() -> object:
-        places = [(7.3 * n) % 18 + 0.5 for n in range(12)]
-        app = apps.app(apps.flow(policy=own_policy(by_way)))
-        on = apps.fleet(*HOMES, after=AfterTrip.NEXT)
-        return apps.fly(app, *missions(*places), on=on).events
-
-    assert flown() == flown()
 
 
 def test_the_shape_is_told_by_three_parameters_without_a_default() -> None:

@@ -19,16 +19,14 @@ def carrying() -> apps.Mission:
 
 
 def test_one_drone_flies_from_the_pick_to_the_release() -> None:
-    outcome = apps.fly(apps.app(apps.flow()), carrying(), on=apps.fleet(*HOMES))
+    outcome = apps.flown(carrying(), on=apps.fleet(*HOMES))
     assert outcome.completed
     drones = [event["drone"] for event in apps.events(outcome, "trip.launched")]
     assert drones == ["cf1", "cf1", "cf1", "cf2"]
 
 
 def test_a_drone_with_an_item_aboard_is_not_handed_to_another_mission() -> None:
-    outcome = apps.fly(
-        apps.app(apps.flow()), carrying(), apps.mission("other", apps.trip("X", 3.0))
-    )
+    outcome = apps.flown(carrying(), apps.mission("other", apps.trip("X", 3.0)))
     assert outcome.completed
     order = [event["trip"] for event in apps.events(outcome, "trip.launched")]
     assert order.index("X") > order.index("C")
@@ -51,19 +49,19 @@ def test_a_failure_before_the_pick_is_retried() -> None:
     seed = next(
         seed
         for seed in range(50)
-        if apps.fly(
-            apps.app(apps.flow(attempts=3)),
+        if apps.flown(
             apps.mission("m", apps.pick("A", 3.0), apps.release("B", 9.0)),
             faults=Faults(action=0.3),
             seed=seed,
+            attempts=3,
         ).count("trip.failed")
         == 1
     )
-    outcome = apps.fly(
-        apps.app(apps.flow(attempts=3)),
+    outcome = apps.flown(
         apps.mission("m", apps.pick("A", 3.0), apps.release("B", 9.0)),
         faults=Faults(action=0.3),
         seed=seed,
+        attempts=3,
     )
     failed_trip = apps.events(outcome, "trip.failed")[0]["trip"]
     assert outcome.completed == (failed_trip == "A")
@@ -77,9 +75,7 @@ def test_what_is_aboard_when_a_mission_ends_is_taken_off_before_the_drone_is_fre
     def two() -> tuple[apps.Trip, apps.Trip]:
         return apps.pick("A", 3.0), apps.release("B", 9.0)
 
-    outcome = apps.fly(
-        apps.app(apps.flow(prepare=breaks)), apps.mission("m", *two()), apps.mission("n", *two())
-    )
+    outcome = apps.flown(apps.mission("m", *two()), apps.mission("n", *two()), prepare=breaks)
     assert [mission.status for mission in outcome.missions] == [Status.FAILED, Status.COMPLETED]
     free, *_ = apps.times(outcome, "drone.free")
     assert apps.times(outcome, "trip.launched")[1] >= free > apps.times(outcome, "mission.ended")[0]

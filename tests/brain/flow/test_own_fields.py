@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from importlib import import_module, invalidate_caches
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from pluto_fleet import api
 from pluto_fleet.app import App, described
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.files.missions_text import missions_text
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.trials.explore import random_missions
-from tests.kit.apps import compiled_file
+from tests.kit import apps
 from tests.kit.living import Living
 
 SOURCE = """pluto 1
@@ -123,28 +117,16 @@ class Made:
         return described(replace(given, actions=actions))
 
 
-NUMBERS = iter(range(1_000))
-
-
-def made(folder: Path, source: str = SOURCE, hooks: str = HOOKS) -> Made:
+def made(source: str = SOURCE, hooks: str = HOOKS) -> Made:
     """Compile and import an app under a name of its own."""
-    name = f"own_wards_{next(NUMBERS)}"
-    (folder / "app.pluto").write_text(source.replace("NAME", name), encoding="utf-8")
-    (folder / "hooks.py").write_text(hooks, encoding="utf-8")
-    package = compiled_file(folder / "app.pluto", folder / name)
-    sys.path.insert(0, str(package / "src"))
-    invalidate_caches()
-    try:
-        app = described(import_module(f"{name}.flow").APP)
-        return Made(app=app, hooks=import_module(f"{name}.hooks"), package=package)
-    finally:
-        sys.path.remove(str(package / "src"))
+    found = apps.loaded(source, hooks)
+    return Made(app=found.app, hooks=found.hooks, package=found.package)
 
 
-@pytest.fixture(scope="module")
-def wards(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Made]:
+@pytest.fixture
+def wards() -> Made:
     """The app of these tests."""
-    yield made(tmp_path_factory.mktemp("wards"))
+    return made()
 
 
 def test_hooks_read_and_write_them(wards: Made) -> None:
@@ -152,6 +134,8 @@ def test_hooks_read_and_write_them(wards: Made) -> None:
     mission = wards.fly()
     assert (mission.status.value, mission.reason) == ("COMPLETED", "")
     assert wards.hooks.CALLS[0] == ("strict", 3, 0.5, "ADA", 600.0)
+    said, dose, photo, measured = wards.hooks.CALLS[1]
+    assert (said, dose, type(photo).__name__, type(measured)) == ("gave", 5e-05, "Photo", float)
     trips = mission.completed_trips
     assert [(one.note, one.layers, one.gentle) for one in trips] == [
         ("!", 2, True),
@@ -159,13 +143,6 @@ def test_hooks_read_and_write_them(wards: Made) -> None:
         ("", 4, True),
     ]
     assert (mission.patient, mission.margin) == ("ADA", 600.0)
-
-
-def test_results_are_what_the_actions_declare(wards: Made) -> None:
-    wards.fly()
-    said, dose, photo, measured = wards.hooks.CALLS[1]
-    assert (said, dose) == ("gave", 5e-05)
-    assert (type(photo).__name__, type(measured)) == ("Photo", float)
 
 
 @pytest.mark.parametrize(
@@ -257,37 +234,17 @@ def test_a_wrong_value_that_an_action_leaves_is_told(
         ("mission.margin = float('nan')", "margin must be a number, and a hook has put nan there"),
     ],
 )
-def test_a_wrong_value_that_a_modifier_leaves_is_told(tmp_path: Path, line: str, said: str) -> None:
-    app = made(tmp_path, hooks=HOOKS.replace("mission.patient = mission.patient.upper()", line))
+def test_a_wrong_value_that_a_modifier_leaves_is_told(line: str, said: str) -> None:
+    app = made(hooks=HOOKS.replace("mission.patient = mission.patient.upper()", line))
     reason = "hook count_layers left a mission that cannot go on: its "
     assert app.fly().reason == reason + said
-
-
-def test_a_plan_is_written_and_read_again(wards: Made) -> None:
-    missions = wards.missions()
-    text = missions_text(wards.app, missions)
-    assert 'patient = "Ada"' in text and "margin = 600.0" in text and "layers = 3" in text
-    assert missions_text(wards.app, wards.missions(text)) == text
-
-
-def test_random_missions_have_what_must_be_filled_in(wards: Made) -> None:
-    """And their values are of the types that the app declares."""
-    seen = set()
-    for seed in range(30):
-        for mission in random_missions(wards.app, default_fleet(wards.app), seed):
-            given: Any = mission
-            assert type(given.patient) is str and type(given.margin) in (int, float)
-            for trip in mission.trips:
-                assert type(trip.layers) is int and type(trip.gentle) is bool
-                seen.add(type(trip.note))
-    assert seen == {str}
 
 
 def lived(app: Made) -> Living:
     return Living(app.app, *app.missions(), on=default_fleet(app.app))
 
 
-@pytest.mark.parametrize("when", [0.5, 8.0, 15.0, 25.0, 40.0])
+@pytest.mark.parametrize("when", [0.5, 15.0, 40.0])
 def test_they_survive_a_crash_and_a_stop(wards: Made, when: float) -> None:
     """At any time, as their hooks have left them."""
     for end in ("crash", "stop"):
@@ -313,12 +270,10 @@ FIELDS = 'mission has patient: text, margin: time = 10 min\n  trip has note: tex
         (FIELDS.replace("patient: text, ", ""), "there is no field patient"),
     ],
 )
-def test_a_mission_is_held_if_the_fields_were_changed(
-    wards: Made, tmp_path: Path, fields: str, said: str
-) -> None:
+def test_a_mission_is_held_if_the_fields_were_changed(wards: Made, fields: str, said: str) -> None:
     """It says why, and nothing of it flies."""
     hooks = HOOKS.replace("    mission.patient = mission.patient.upper()\n", "")
-    other = made(tmp_path, SOURCE.replace(FIELDS, fields), hooks.replace("mission.patient", "1"))
+    other = made(SOURCE.replace(FIELDS, fields), hooks.replace("mission.patient", "1"))
     life = lived(wards)
     life.crash(10.0, app=other.app)
     life.run(2_000.0)
@@ -327,8 +282,8 @@ def test_a_mission_is_held_if_the_fields_were_changed(
     assert mission.reason == f"it does not fit into the app as it is now: {said}"
 
 
-def test_a_field_with_a_default_may_come_in_between(wards: Made, tmp_path: Path) -> None:
-    other = made(tmp_path, SOURCE.replace(FIELDS, f'{FIELDS}\n  mission has ward: text = "A"'))
+def test_a_field_with_a_default_may_come_in_between(wards: Made) -> None:
+    other = made(SOURCE.replace(FIELDS, f'{FIELDS}\n  mission has ward: text = "A"'))
     life = lived(wards)
     life.crash(10.0, app=other.app)
     assert life.run() == ["COMPLETED"]
@@ -336,22 +291,7 @@ def test_a_field_with_a_default_may_come_in_between(wards: Made, tmp_path: Path)
     assert mission.ward == "A"
 
 
-def test_a_script_is_told_what_it_has_left_out(wards: Made) -> None:
-    """Before anything flies."""
-    app: Any = wards.app
-    trip = app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers="two")
-    mission = app.mission(name="one", trips=[trip])
-    with pytest.raises(BadInput) as refused:
-        api.simulate(app, [mission])
-    assert str(refused.value).split("\n") == [
-        'mission "one": has no patient',
-        'mission "one", trip a: layers must be a whole number, not "two"',
-    ]
-    trip = app.trip(name="a", action="measure", target=(1.0, 2.0, 1.2), layers=2)
-    assert api.simulate(wards.app, [app.mission(name="one", trips=[trip], patient="A")]).completed
-
-
-def test_a_new_trip_with_a_wrong_value_is_told_of_its_evaluator(tmp_path: Path) -> None:
+def test_a_new_trip_with_a_wrong_value_is_told_of_its_evaluator() -> None:
     """And one without what must be filled in cannot be made."""
     for more, said in (
         (
@@ -367,6 +307,4 @@ def test_a_new_trip_with_a_wrong_value_is_told_of_its_evaluator(tmp_path: Path) 
         hooks = HOOKS.replace(
             "    values = [", f"    return Verdict(add=[{made_of}])\n    values = ["
         )
-        folder = tmp_path / more[:4]
-        folder.mkdir()
-        assert made(folder, hooks=hooks).fly().reason.startswith(said)
+        assert made(hooks=hooks).fly().reason.startswith(said)

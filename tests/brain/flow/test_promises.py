@@ -20,7 +20,6 @@ from tests.kit import apps
 from tests.kit.living import Living, enterable
 
 HOUR, DAY = 3_600.0, 86_400.0
-TWO = apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
 
 
 def short(name: str, **promises: Any) -> apps.Mission:
@@ -33,18 +32,13 @@ def long(name: str, **promises: Any) -> apps.Mission:
     return apps.mission(name, apps.trip("1", 15.0), promises=promises)
 
 
-def moments(outcome: apps.SimulationResult, kind: str) -> dict[str, float]:
-    """Return when an event of this kind happened to each mission, the last time."""
-    return {str(one["mission"]): float(str(one["t"])) for one in apps.events(outcome, kind)}
-
-
 # After other missions
 
 
 def test_a_mission_begins_when_all_that_it_comes_after_have_completed() -> None:
     missions = long("a"), short("b"), short("c", after=["a", "b"])
-    outcome = apps.fly(apps.app(apps.flow()), *missions, on=TWO)
-    ended, begun = moments(outcome, "mission.ended"), moments(outcome, "mission.created")
+    outcome = apps.flown(*missions, on=apps.TWO)
+    ended, begun = apps.moments(outcome, "mission.ended"), apps.moments(outcome, "mission.created")
     assert begun["c"] == ended["a"] > ended["b"] > begun["b"] == 0.0
     assert outcome.completed
 
@@ -54,14 +48,14 @@ def test_a_mission_fails_at_once_that_comes_after_one_that_has_failed(
     order: tuple[str, str],
 ) -> None:
     missions = short("a"), long("b"), short("c", after=[*order]), short("d", after=["c"])
-    outcome = apps.fly(apps.app(apps.flow()), *missions, on=TWO, faults=Faults(action=1.0))
+    outcome = apps.flown(*missions, on=apps.TWO, faults=Faults(action=1.0))
     a, b, c, d = outcome.missions
-    ended = moments(outcome, "mission.ended")
+    ended = apps.moments(outcome, "mission.ended")
     assert [a.status, b.status, c.status, d.status] == [FAILED] * 4
     assert c.reason == 'it comes after mission "a", which is FAILED'
     assert d.reason == 'it comes after mission "c", which is FAILED'
     assert ended["a"] == ended["c"] == ended["d"] < ended["b"]
-    assert set(moments(outcome, "trip.launched")) == {"a", "b"}
+    assert set(apps.moments(outcome, "trip.launched")) == {"a", "b"}
 
 
 def test_what_comes_after_all_before_it_waits_without_looking_again_and_again() -> None:
@@ -72,23 +66,25 @@ def test_what_comes_after_all_before_it_waits_without_looking_again_and_again() 
 
     def look(frame: FrameType, event: str, _: object) -> None:
         nonlocal looks
-        looks += event == "call" and frame.f_code.co_name in ("watch", "_refuse_vain", "result")
+        looks += event == "call" and frame.f_code.co_filename.endswith("promises.py")
 
     sys.setprofile(look)
     try:
-        outcome = apps.fly(apps.app(apps.flow()), *missions, on=TWO)
+        outcome = apps.flown(*missions, on=apps.TWO)
     finally:
         sys.setprofile(None)
     assert outcome.completed
-    assert [*moments(outcome, "mission.ended")] == names
+    assert [*apps.moments(outcome, "mission.ended")] == names
     assert looks < 4 * 40**2
 
 
 def test_a_barrier_holds_until_the_last_round_of_what_is_before_it() -> None:
     missions = apps.mission("a", apps.trip("1", 3.0), repeat=2), short("b", after=["a"])
-    outcome = apps.fly(apps.app(apps.flow(repeater=True)), *missions)
+    outcome = apps.flown(*missions, repeater=True)
     assert len(apps.events(outcome, "trip.launched")) == 4
-    assert moments(outcome, "mission.created")["b"] == moments(outcome, "mission.ended")["a"]
+    assert (
+        apps.moments(outcome, "mission.created")["b"] == apps.moments(outcome, "mission.ended")["a"]
+    )
 
 
 def test_a_mission_whose_predecessor_was_cancelled_is_told_so() -> None:
@@ -129,16 +125,16 @@ def test_trips_of_a_mission_that_has_not_begun_may_be_skipped(trips: int) -> Non
 
 
 def test_a_mission_begins_when_its_window_opens() -> None:
-    outcome = apps.fly(apps.app(apps.flow()), short("a", opens=100.0, deadline=200.0))
-    assert moments(outcome, "trip.launched") == {"a": 100.0}
+    outcome = apps.flown(short("a", opens=100.0, deadline=200.0))
+    assert apps.moments(outcome, "trip.launched") == {"a": 100.0}
     assert not outcome.missions[0].late
 
 
 def test_a_window_and_what_a_mission_comes_after_must_both_be_met() -> None:
     missions = long("a"), short("b", after=["a"], opens=1.0), short("c", after=["a"], opens=200.0)
-    outcome = apps.fly(apps.app(apps.flow()), *missions, on=TWO)
-    begun = moments(outcome, "mission.created")
-    assert begun["b"] == moments(outcome, "mission.ended")["a"]
+    outcome = apps.flown(*missions, on=apps.TWO)
+    begun = apps.moments(outcome, "mission.created")
+    assert begun["b"] == apps.moments(outcome, "mission.ended")["a"]
     assert begun["c"] == 200.0
 
 
@@ -174,16 +170,16 @@ def test_what_is_due_at_this_very_hour_is_due_tomorrow(closes: str) -> None:
 
 
 def test_a_mission_that_has_not_ended_at_its_deadline_is_late_once() -> None:
-    outcome = apps.fly(apps.app(apps.flow()), long("a", deadline=10.0))
+    outcome = apps.flown(long("a", deadline=10.0))
     (late,) = apps.events(outcome, "mission.late")
     assert (late["t"], late["mission"], late["deadline"]) == (10.0, "a", 10.0)
     assert outcome.missions[0].late and outcome.completed
 
 
 def test_what_ends_at_its_very_deadline_is_in_time() -> None:
-    (whole,) = moments(apps.fly(apps.app(apps.flow()), long("a")), "mission.ended").values()
-    at_it = apps.fly(apps.app(apps.flow()), long("a", deadline=whole))
-    before = apps.fly(apps.app(apps.flow()), long("a", deadline=whole - 0.01))
+    (whole,) = apps.moments(apps.flown(long("a")), "mission.ended").values()
+    at_it = apps.flown(long("a", deadline=whole))
+    before = apps.flown(long("a", deadline=whole - 0.01))
     assert (at_it.missions[0].late, before.missions[0].late) == (False, True)
 
 
@@ -197,13 +193,13 @@ def test_the_promises_of_a_mission_are_seconds_from_its_start() -> None:
 @pytest.mark.parametrize("fail_late", [False, True])
 def test_whether_a_late_mission_fails_is_said_at_its_allocator(fail_late: bool) -> None:
     missions = long("a"), long("b", deadline=20.0)
-    outcome = apps.fly(apps.app(apps.flow(fail_late=fail_late)), *missions)
+    outcome = apps.flown(*missions, fail_late=fail_late)
     _, late = outcome.missions
     assert late.late
     if fail_late:
         assert (late.status, late.attempts) == (FAILED, 0)
         assert late.reason == "it is late: trip 1 had no drone by its deadline"
-        assert moments(outcome, "mission.ended")["b"] == 20.0
+        assert apps.moments(outcome, "mission.ended")["b"] == 20.0
     else:
         assert late.status is Status.COMPLETED
 
@@ -211,7 +207,7 @@ def test_whether_a_late_mission_fails_is_said_at_its_allocator(fail_late: bool) 
 def test_a_late_mission_is_not_called_back_from_its_flight() -> None:
     mission = apps.mission("a", *(apps.trip(f"{n}", 15.0) for n in (1, 2)))
     mission.promises = {"deadline": 20.0}
-    outcome = apps.fly(apps.app(apps.flow(fail_late=True)), mission)
+    outcome = apps.flown(mission, fail_late=True)
     assert len(apps.events(outcome, "trip.completed")) == 1
     assert mission.reason == "it is late: its deadline has passed before trip 2"
 
@@ -219,13 +215,13 @@ def test_a_late_mission_is_not_called_back_from_its_flight() -> None:
 def test_a_late_mission_with_an_item_aboard_goes_on() -> None:
     mission = apps.mission("a", apps.pick("p", 15.0), apps.release("r", 3.0))
     mission.promises = {"deadline": 20.0}
-    outcome = apps.fly(apps.app(apps.flow(fail_late=True)), mission)
+    outcome = apps.flown(mission, fail_late=True)
     assert outcome.completed and mission.late
 
 
 def test_allocate_within_counts_where_it_is_over_first() -> None:
     missions = long("a"), long("b", deadline=20.0)
-    outcome = apps.fly(apps.app(apps.flow(fail_late=True, within=10.0)), *missions)
+    outcome = apps.flown(*missions, fail_late=True, within=10.0)
     assert "had no drone within 10 s" in outcome.missions[1].reason
 
 
@@ -237,7 +233,7 @@ def test_a_hook_that_spoils_a_promise_fails_its_own_mission(name: str, value: ob
 
     missions = long("bad", deadline=500.0), short("good", deadline=500.0)
     app = apps.app(apps.flow(prepare=spoil, fail_late=True))
-    bad, good = apps.fly(app, *missions, on=TWO).missions
+    bad, good = apps.fly(app, *missions, on=apps.TWO).missions
     assert (bad.status, good.status) == (FAILED, Status.COMPLETED)
     assert f"its {name} must be" in bad.reason
 
@@ -280,11 +276,11 @@ INTERRUPTED: list[Callable[[Living, float], None]] = [
 
 
 @pytest.mark.parametrize("interrupt", INTERRUPTED)
-@pytest.mark.parametrize("moment", [0.5, 10.0, 19.9, 30.0, 50.0, 61.0, 75.0, 100.0, 119.5, 130.0])
+@pytest.mark.parametrize("moment", [0.5, 19.9, 61.0, 119.5, 130.0])
 def test_promises_are_judged_the_same_after_any_end(
     moment: float, interrupt: Callable[[Living, float], None]
 ) -> None:
-    living = Living(enterable(), *plan(), on=TWO)
+    living = Living(enterable(), *plan(), on=apps.TWO)
     interrupt(living, moment)
     judged(living)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable
 from functools import partial, wraps
 
@@ -64,16 +63,6 @@ def test_what_was_set_is_read_again(real: bool) -> None:
     outcome = flown(grip, real=real)
     assert outcome.completed
     assert seen == [0.0, 1.0, True, True]
-
-
-def test_in_real_time_a_drone_is_asked_for_several_things_at_once() -> None:
-    """Asyncio's own means are there, as for any hook."""
-
-    async def grip(drone: Drone, trip: apps.Trip, context: Context) -> object:
-        live = context.live(drone)
-        return await asyncio.gather(*(live.read(f"range.{n}") for n in range(20)))
-
-    assert flown(grip, real=True).completed
 
 
 @pytest.mark.parametrize("real", [False, True])
@@ -157,7 +146,7 @@ def test_a_modifier_has_no_live_drone() -> None:
         context.live(kept[0])
 
     kept = list(flown(_nothing).drones)
-    outcome = apps.fly(apps.app(apps.flow(prepare=look)), apps.mission("m", apps.trip("A", 3.0)))
+    outcome = apps.flown(apps.mission("m", apps.trip("A", 3.0)), prepare=look)
     assert "has a live drone" in outcome.missions[0].reason
 
 

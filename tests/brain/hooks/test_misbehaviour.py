@@ -31,7 +31,7 @@ def reason_of(hook: Hook, *, watch: apps.Way | None = None) -> str:
         apps.app(apps.flow(watch=watch) if watch else apps.flow(prepare=prepare)),
         apps.mission("bad", apps.trip("A", 3.0)),
         apps.mission("good", apps.trip("A", 9.0)),
-        on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0)),
+        on=apps.TWO,
     )
     bad, good = outcome.missions
     assert (bad.status, good.status) == (Status.FAILED, Status.COMPLETED)
@@ -153,9 +153,7 @@ def test_a_modifier_may_name_a_place_without_a_height() -> None:
     def elsewhere(mission: Any, context: Context) -> None:
         mission.current.target = [4, 5]
 
-    outcome = apps.fly(
-        apps.app(apps.flow(prepare=elsewhere)), apps.mission("m", apps.trip("A", 3.0))
-    )
+    outcome = apps.flown(apps.mission("m", apps.trip("A", 3.0)), prepare=elsewhere)
     assert outcome.missions[0].completed_trips[0].target == (4, 5, 1.2)
 
 

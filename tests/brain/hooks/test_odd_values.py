@@ -171,7 +171,7 @@ def lived(hook: Callable[..., object]) -> Mission[Any]:
         tested,
         apps.mission("odd", apps.trip("odd", 3.0, action="look"), apps.trip("B", 4.0)),
         apps.mission("good", apps.trip("A", 9.0, action="look")),
-        on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0)),
+        on=apps.TWO,
     )
     living.run()
     odd, good = living.life.missions
@@ -218,7 +218,7 @@ def test_a_verdict_of_anything_fails_one_mission(make: Callable[[], Any]) -> Non
 
     names = ("it", "ok", "fail", "redo", "add", "adds", "log", "good")
     missions = [apps.mission(name, apps.trip("A", 3.0)) for name in names]
-    outcome = apps.fly(apps.app(apps.flow(evaluator=verdict)), *missions)
+    outcome = apps.flown(*missions, evaluator=verdict)
     ends = {mission.name: mission.status for mission in outcome.missions}
     assert ends.pop("good") is Status.COMPLETED
     assert {name for name, status in ends.items() if status is not Status.FAILED} <= {"ok", "adds"}
@@ -264,8 +264,8 @@ PLACES = (
 
 @pytest.mark.parametrize("place", PLACES)
 def test_what_a_modifier_leaves_anywhere_fails_one_mission(place: str) -> None:
-    """Or is harmless, as a number is in a field for numbers."""
-    for name, make in ODD.items():
+    """Or is harmless, as a number is in a field for numbers. A quarter of all odd values for each place."""
+    for name, make in [*ODD.items()][PLACES.index(place) % 4 :: 4]:
 
         def leaves(mission: Any, context: Context, make: Callable[[], object] = make) -> None:
             if mission.name == "odd":
@@ -275,7 +275,7 @@ def test_what_a_modifier_leaves_anywhere_fails_one_mission(place: str) -> None:
             enterable(prepare=leaves),
             apps.mission("odd", apps.trip("A", 3.0)),
             apps.mission("good", apps.trip("A", 9.0)),
-            on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0)),
+            on=apps.TWO,
         )
         living.run()
         odd, good = living.life.missions
@@ -331,7 +331,7 @@ values = st.recursive(
 )
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=40, suppress_health_check=list(HealthCheck))
 @given(values)
 def test_any_value_can_be_written_and_read_again(value: object) -> None:
     """As it is, or as text; and what was read stays the same from then on."""

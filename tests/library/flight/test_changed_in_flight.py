@@ -3,23 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
-from functools import partial
-from random import Random
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from pluto_fleet.flight.changing import left
-from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import BadInput, Failure
 from pluto_fleet.trials.invariants import violations
 from tests.kit import apps
 from tests.kit.living import Living, enterable, names
 
 Trip = Mapping[str, object]
-Strike = tuple[int, int, Random]
 
 
 def trip(name: str, x: float, **more: object) -> Trip:
@@ -93,14 +85,6 @@ def test_a_delay_that_runs_becomes_another(crashes: bool) -> None:
         living.crash(8.0)
     assert living.run() == ["COMPLETED"]
     assert living.times("trip.launched") == [65.0]
-
-
-def test_a_trip_without_a_name_is_a_new_one() -> None:
-    living = Living(enterable(), three_trips())
-    new = {"action": "take_photo", "target": [4.0, 1.0]}
-    living.at(3.0, lambda: change(living, new, trip("3", 7)))
-    assert living.run() == ["COMPLETED"]
-    assert names(living.named("trip.completed"), "trip") == ["1", "4", "3"]
 
 
 def test_a_trip_that_has_failed_waits_behind_others_and_keeps_its_attempts() -> None:
@@ -180,51 +164,3 @@ def test_an_item_aboard_is_not_sent_farther_than_the_battery_reaches() -> None:
     item = living.life.recorder.records.missions["a"]["todo"][-1]["item"]
     with pytest.raises(BadInput, match=r"cf1 has 25 % in its battery, and needs \d+ % for what it"):
         change(living, {**trip("r", 18), "action": "release_item", "item": item})
-
-
-@settings(max_examples=60, derandomize=True, deadline=None)
-@given(st.lists(st.tuples(st.integers(1, 90), st.integers(0, 4), st.randoms()), max_size=5))
-def test_whatever_is_changed_each_trip_that_is_left_is_flown_once(strikes: list[Strike]) -> None:
-    """While the app dies, missions are paused, and trips fail: what was taken out never flies."""
-    others = apps.mission("b", apps.trip("x", 12), apps.trip("y", 14))
-    faults = Faults(link=0.2)
-    living = Living(enterable(clock=True, attempts=20), three_trips(), others, faults=faults)
-    out: list[tuple[float, str]] = []
-    dead: list[float] = []
-
-    def strike(what: int, chance: Random) -> None:
-        record = living.life.recorder.records.missions.get("a")
-        if record is None or not living.life.is_set_out or living.kernel.now in dead:
-            return
-        with suppress(BadInput):
-            if what == 0:
-                living.life.control.pause("a")
-                living.at(living.kernel.now + 5.25, lambda: goes_on(living))
-                return
-            names_left = [str(one["name"]) for one in left(record)]
-            kept = chance.sample(names_left, chance.randint(0, len(names_left)))
-            trips: list[Trip] = [trip(name, chance.randint(2, 18)) for name in kept]
-            if what > 2:
-                trips.insert(chance.randint(0, len(trips)), {"action": "measure", "target": [4, 4]})
-            change(living, *trips, replaces=names_left)
-            out.extend((living.kernel.now, one) for one in names_left if one not in kept)
-
-    for when, what, chance in sorted(strikes, key=lambda one: one[0]):
-        if what == 1:
-            if not {when - 1.0, float(when)} & {*dead}:
-                living.crash(when - 0.5)  # what was said an instant before is written down
-                dead.append(float(when))
-        else:
-            living.at(when, partial(strike, what, chance))
-    living.at(200.0, lambda: goes_on(living))  # if the app was dead before
-    assert living.run() == ["COMPLETED", "COMPLETED"]
-    done = names([one for one in living.named("trip.completed") if one["mission"] == "a"], "trip")
-    assert len(done) == len(set(done))
-    late = [(float(str(one["t"])), str(one["trip"])) for one in living.named("trip.launched")]
-    assert not [one for one in late for at, name in out if one[1] == name and one[0] > at]
-    assert violations(living.events, {}) == []
-
-
-def goes_on(living: Living) -> None:
-    with suppress(BadInput):
-        living.life.control.go_on("a")

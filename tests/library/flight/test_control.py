@@ -70,21 +70,6 @@ def test_a_trip_to_come_can_be_skipped_by_its_name() -> None:
     assert names(living.named("trip.completed"), "trip") == ["1"]
 
 
-def test_the_last_trip_can_be_skipped_in_flight() -> None:
-    living = Living(enterable(), apps.mission("a", apps.trip("1", 3)))
-    living.at(3.0, lambda: living.life.control.skip("a"))
-    assert living.run() == ["COMPLETED"]
-    assert living.done_by_drones == []
-
-
-def test_a_skip_is_remembered_by_a_later_life() -> None:
-    living = Living(enterable(), two_trips())
-    living.at(3.0, lambda: living.life.control.skip("a", "2"))
-    living.crash(4.0)
-    assert living.run() == ["COMPLETED"]
-    assert names(living.named("trip.completed"), "trip") == ["1"]
-
-
 def test_what_a_person_says_before_the_first_drone_is_remembered_by_a_later_life() -> None:
     alone = replace(apps.fleet(), drones=apps.fleet().drones[:1])
     others = apps.mission("a", apps.trip("1", 3))
@@ -121,13 +106,6 @@ def test_a_mission_with_an_item_aboard_can_be_cancelled() -> None:
     assert living.run() == ["CANCELLED"]
     assert living.done_by_drones == [("pick_item", "pills")]
     assert living.navigation.carrying("cf1") is None
-
-
-def test_a_cancelled_mission_stays_so_when_the_app_dies() -> None:
-    living = Living(enterable(), two_trips(), apps.mission("b", apps.trip("1", 9)))
-    living.at(3.0, lambda: living.life.control.cancel("a"))
-    living.crash(4.0)
-    assert living.run() == ["CANCELLED", "COMPLETED"]
 
 
 def test_what_does_not_fit_is_told_to_no_mission() -> None:

@@ -32,7 +32,7 @@ def living(*names: str, homes: int = 2, attempts: int = 5) -> Living:
 
 def drone(living: Living, id: str = "cf1") -> Drone:
     """Return a drone as the latest life sees it."""
-    return next(one for one in living.life.brain._core.fleet.drones if one.id == id)
+    return next(one for one in living.life.drones if one.id == id)
 
 
 def records(living: Living) -> Records:
@@ -208,17 +208,6 @@ def test_where_one_was_brought_back_it_is_told_so_before_another_is_refused() ->
     assert heard == ["cf1"]
 
 
-def test_a_drone_that_was_not_ready_is_asked_anew_when_a_person_has_looked_after_it() -> None:
-    """It crashed before anything began, say, and waits for just that."""
-    fleet = living("a")
-    fleet.run(2.0)
-    heard: list[str] = []
-    vars(fleet.gateway.navigation).update(mended=heard.append)
-    fleet.life.brain._core.fleet.unready[drone(fleet)] = "it has crashed"
-    assert fleet.life.control.bring_back("cf1") == "cf1 is asked whether it is well"
-    assert heard == ["cf1"]
-
-
 def test_a_drone_that_is_neither_retired_nor_lost_need_not_be_brought_back() -> None:
     """Nothing is on record of that."""
     fleet = living("a")
@@ -272,13 +261,3 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
     assert "cf1 is not ready: its battery has 3.4 V; \\x1b[31mxxx" in line
     assert line.endswith("x…")
     assert len(line) < 600
-
-
-def test_who_flies_home_after_a_failure_is_waited_for() -> None:
-    """It needs no person."""
-    fleet = living("a", homes=1)
-    fleet.life.carried_home = False
-    fleet.at(8.0, lambda: fleet.life.control.cancel("a"))
-    assert fleet.run() == ["CANCELLED"]
-    assert names(fleet.named("drone.recovering"), "drone") == ["cf1"]
-    assert drone(fleet).status is DroneStatus.FREE

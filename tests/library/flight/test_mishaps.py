@@ -70,14 +70,6 @@ def test_the_question_is_still_asked_after_the_app_dies() -> None:
         assert violations(living.events, {}) == []
 
 
-def test_an_app_that_dies_before_the_action_has_rehearsed_nothing() -> None:
-    living = Living(enterable(), item_mission())
-    living.at(2.0, lambda: living.life.control.mishap("cf1", "uncertain"))
-    living.crash(3.0)
-    assert living.run() == ["COMPLETED"]
-    assert living.named("mission.uncertain") == []
-
-
 def test_an_action_of_the_apps_own_is_cut_short_and_asked_about() -> None:
     def spray(drone: Any, trip: Any, context: Any) -> None:
         """Spray."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import sys
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
@@ -41,7 +40,7 @@ def delivering() -> Living:
     return Living(enterable(clock=True, attempts=3), *deliveries(), on=apps.fleet(*HOMES))
 
 
-MOMENTS = [moment / 2 for moment in range(1, 180, 3)]
+MOMENTS = [moment / 2 for moment in range(1, 180, 9)]
 
 
 @pytest.mark.parametrize("moment", MOMENTS)
@@ -55,7 +54,7 @@ def test_the_app_may_die_at_any_moment(moment: float) -> None:
 
 
 @pytest.mark.parametrize("how", list(Down))
-@pytest.mark.parametrize("moment", MOMENTS[::4])
+@pytest.mark.parametrize("moment", MOMENTS[::3])
 def test_everything_may_be_stopped_at_any_moment(moment: float, how: Down) -> None:
     living = delivering()
     living.stop(moment, how, rest=1000.0)
@@ -271,20 +270,6 @@ def test_a_held_mission_that_is_let_go_on_may_still_be_uncertain() -> None:
     assert living.life.recorder.records.missions["a"]["answer"] is None
     living.decide_at_rest("a", "done")
     assert living.run() == ["COMPLETED"]
-
-
-def test_a_hook_that_puts_anything_anywhere_stops_no_journal() -> None:
-    loop: list[object] = []
-    loop.append(loop)
-
-    def odd(mission: apps.Mission, context: Context) -> None:
-        trip: Any = mission.trips[-1]
-        trip.delay = loop  # as Python lets it
-
-    mission = apps.mission("a", apps.trip("1", 3), apps.trip("2", 4))
-    living = Living(enterable(prepare=odd), mission)
-    assert living.run() == ["COMPLETED"]
-    assert json.dumps(living.life.recorder.records.data)
 
 
 @pytest.mark.parametrize(("answer", "then"), [("done", "COMPLETED"), ("cancel", "FAILED")])

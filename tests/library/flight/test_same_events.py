@@ -46,7 +46,7 @@ def flown(name: str, worlds: int) -> int:
 
 def test_one_drone_leaves_the_same_events_under_every_driver() -> None:
     """Byte for byte, also where things go wrong."""
-    assert sum(flown(f"same/{number}", 3) for number in range(25)) > 800
+    assert sum(flown(f"same/{number}", 3) for number in range(6)) > 150
 
 
 @pytest.mark.long

@@ -236,16 +236,6 @@ def test_without_an_app_it_is_said_that_none_is_there(note: Path) -> None:
         ask(note, {}, 5)
 
 
-def test_an_app_that_says_nothing_is_not_waited_for(note: Path, tmp_path: Path) -> None:
-    (tmp_path / "f").mkdir(mode=0o700)
-    with socket.socket(socket.AF_UNIX) as deaf:
-        deaf.bind(str(tmp_path / "f" / "s"))
-        deaf.listen()
-        publish(note, tmp_path / "f" / "s")
-        with pytest.raises(NoAnswer):
-            ask(note, {"command": "pause", "mission": None}, 0.01)
-
-
 @pytest.mark.parametrize(
     "answer", [b"", b"[]\n", b'{"ok": true, "said": 1}\n', b"\xff" * (2 * MAX_LINE), b"half"]
 )
@@ -339,14 +329,6 @@ def test_what_a_killed_app_left_behind_goes(note: Path) -> None:
     left.touch()
     talk(note, lambda asked: "", lambda: None)
     assert not left.parent.exists()
-
-
-def test_who_is_killed_again_and_again_leaves_one_folder(note: Path) -> None:
-    first = new_address(note)
-    assert new_address(note) == first
-    publish(note, first)
-    withdraw(note)
-    assert not first.parent.exists()
 
 
 def test_a_folder_that_another_user_has_made_is_not_used(note: Path) -> None:

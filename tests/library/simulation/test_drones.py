@@ -3,25 +3,17 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure
-from pluto_fleet.shared.domain.model import Category, Item, Photo, Point
-from pluto_fleet.shared.fleet.reach import needed
-from pluto_fleet.shared.fleet.telemetry import resting
+from pluto_fleet.shared.domain.model import Item
 from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.shared.time.virtual import VirtualTime
 from tests.library.simulation.flights import (
-    CLIMB,
-    HOME,
     at_home,
     failure,
     fly,
     hovering,
     order,
-    team,
 )
 
 PILLS = Item(name="pills", mass=0.004)
@@ -86,46 +78,6 @@ def test_a_battery_drains_in_the_air_and_charges_in_the_dock() -> None:
     assert telemetry.battery_level == 1
 
 
-coordinate = st.floats(0, 20).map(lambda value: round(value, 2))
-stops = st.lists(
-    st.tuples(
-        st.tuples(coordinate, coordinate, st.floats(0.2, 3)),
-        st.sampled_from(["measure", "take_photo"]),
-    ),
-    min_size=1,
-    max_size=4,
-)
-
-
-@given(stops)
-def test_a_flight_takes_what_was_reckoned(stops: list[tuple[Point, str]]) -> None:
-    """The share that plan and allocation reckon with is the share that the flight takes."""
-    airspace = Airspace(no_fly=(((8, 2), (9, 2), (9, 18), (8, 18)),))
-    if any(airspace.problem(point) for point, _ in stops):
-        return
-    kernel = VirtualTime()
-    tireless = Category(name="tireless", speed=0.5, flight_time=3600)
-    navigation = team(kernel, airspace=airspace, category=tireless)
-    telemetry = navigation.telemetry["cf1"]
-
-    async def go(point: Point) -> None:
-        for place in airspace.route(telemetry.location, point) or ():
-            await navigation.go_to("cf1", place)
-
-    async def flight() -> None:
-        await navigation.takeoff("cf1", airspace.cruise_height, order())
-        for point, action in stops:
-            await go(point)
-            await navigation.act("cf1", action, {}, None)
-        await go((HOME[0], HOME[1], telemetry.location[2]))
-        await navigation.land("cf1")
-
-    fly(kernel, flight())
-    share = needed(tireless, airspace, HOME, [(point, 1.0) for point, _ in stops], HOME)
-    assert telemetry.battery_level == pytest.approx(1 - (share or 0))
-    assert telemetry.landed
-
-
 def test_a_cancelled_drone_hovers_where_it_is() -> None:
     """Half-way is where it stays, draining, until it is told otherwise."""
     kernel, navigation = at_home()
@@ -171,20 +123,6 @@ def test_a_cancelled_action_has_not_happened() -> None:
     advance(kernel, 1.9)
     picking.cancel()
     assert navigation.carrying("cf1") is None
-
-
-def test_sensors_show_the_world_where_the_drone_is() -> None:
-    """Actions take their time, and give what is to be seen there."""
-    kernel, navigation = hovering()
-    photo = fly(kernel, navigation.act("cf1", "take_photo", {}, None))
-    assert isinstance(photo, Photo)
-    assert photo.position == pytest.approx((1, 1, 1.2), abs=0.3)
-    warmth = fly(kernel, navigation.act("cf1", "measure", {}, None))
-    dust = fly(kernel, navigation.act("cf1", "measure", {"quantity": "pm10"}, None))
-    assert isinstance(warmth, float)
-    assert isinstance(dust, float)
-    assert 20 < warmth < 30
-    assert kernel.now == CLIMB + 3
 
 
 def test_an_item_is_carried_from_pick_to_release() -> None:
@@ -256,8 +194,3 @@ def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
         kernel.spawn(rise(drone), FLEET + key, drone)
     advance(kernel, 5)
     assert arrived == ["cf1", "cf2"]
-
-
-def test_who_stands_somewhere_from_a_moment_to_come_is_there_already() -> None:
-    """A mishap may be due the last digit of a float after the event that brings it."""
-    assert resting((1.0, 2.0, 0.0), 5.0).at(4.9999999) == (1.0, 2.0, 0.0)

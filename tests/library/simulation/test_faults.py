@@ -7,7 +7,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.shared.alone.faults import Faults, draw
-from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Item, Point
 from pluto_fleet.shared.fleet.reach import docked
@@ -134,23 +133,6 @@ def test_a_lost_link_brings_the_drone_down_by_itself() -> None:
     assert telemetry.landed
 
 
-def test_the_outage_counts_from_the_loss_and_ends_on_the_ground() -> None:
-    """From high up the landing takes longer than the outage: recovery waits for it."""
-    kernel = VirtualTime()
-    high = Airspace(ceiling=30)
-    navigation = team(kernel, Faults(link=1), airspace=high, seed=5)
-
-    async def climb() -> None:
-        await navigation.takeoff("cf1", 24, order(seconds=80))
-        await navigation.hold("cf1")
-
-    failure(kernel, climb())
-    lost, height = kernel.now, navigation.telemetry["cf1"].location[2]
-    assert height > 6
-    assert fly(kernel, navigation.recover("cf1"))
-    assert kernel.now == pytest.approx(lost + max(20, height / 0.3))
-
-
 def test_an_empty_battery_is_noticed_at_that_moment() -> None:
     """With a hundredth left it flies for 4.2 s and no longer; a person carries it home."""
     kernel, navigation = at_home(battery_level=0.01)
@@ -169,18 +151,6 @@ def test_an_empty_battery_is_noticed_at_that_moment() -> None:
     assert telemetry.battery_level == pytest.approx(0.1)
 
 
-def test_a_battery_may_run_out_during_the_failsafe_landing() -> None:
-    """Then waiting for the link is not enough: a person must fetch the drone."""
-    kernel = VirtualTime()
-    drawn = draw(Faults(link=1), 2, *order()).link
-    assert drawn is not None
-    navigation = team(kernel, Faults(link=1), seed=2, battery_level=(drawn + 0.5) / 420)
-    assert failure(kernel, flight(navigation)).failure is Failure.LINK
-    assert fly(kernel, navigation.recover("cf1"))
-    assert kernel.now == pytest.approx(drawn + 20 + 300)
-    assert navigation.telemetry["cf1"].location == HOME
-
-
 def test_a_mishap_comes_even_without_commands() -> None:
     """A drone that was left hovering falls when its battery is empty, and says so later."""
     kernel, navigation = hovering(battery_level=0.02)
@@ -189,27 +159,6 @@ def test_a_mishap_comes_even_without_commands() -> None:
     assert telemetry.location == HOME
     assert telemetry.landed
     assert failure(kernel, navigation.land("cf1")).failure is Failure.BATTERY
-
-
-def test_a_failed_action_took_its_time() -> None:
-    """The drone is well, hovers, and flies home when it is recovered."""
-    kernel, navigation = at_home(Faults(action=1))
-    assert failure(kernel, flight(navigation)).failure is Failure.ACTION
-    assert kernel.now == pytest.approx(CLIMB + 10 + 1)
-    assert not navigation.telemetry["cf1"].landed
-    assert fly(kernel, navigation.recover("cf1"))
-    assert kernel.now == pytest.approx(CLIMB + 10 + 1 + 10 + CLIMB)
-    assert navigation.telemetry["cf1"].location == HOME
-
-
-def test_a_failed_action_of_the_apps_own_fails_at_once() -> None:
-    """Hovering for it is refused; nothing was picked by an action that failed."""
-    kernel, navigation = hovering(Faults(action=1))
-    error = failure(kernel, navigation.hold("cf1"))
-    assert str(error) == "the action failed: cf1 could not do it at (1, 1)"
-    assert kernel.now == CLIMB
-    assert failure(kernel, navigation.act("cf1", "pick_item", {}, PILLS)).failure is Failure.ACTION
-    assert navigation.carrying("cf1") is None
 
 
 def test_what_goes_wrong_ends_with_the_landing() -> None:
@@ -230,53 +179,6 @@ def test_what_goes_wrong_ends_with_the_landing() -> None:
         await navigation.land("cf1")
 
     fly(kernel, short())
-
-
-def test_a_new_order_in_the_air_draws_anew() -> None:
-    """A drone that flies on to another trip does not rise, but can crash on that trip."""
-    kernel, navigation = at_home(Faults(crash=1))
-    fly(kernel, navigation.takeoff("cf1", 1.2, None))
-    fly(kernel, kernel.sleep(50))
-    fly(kernel, navigation.takeoff("cf1", 1.2, order("x/y/0/2", seconds=8)))
-    begun = kernel.now
-    assert begun == CLIMB + 50
-    failure(kernel, navigation.hold("cf1"))
-    assert kernel.now == pytest.approx(
-        begun + (draw(Faults(crash=1), 1, *order("x/y/0/2", seconds=8)).crash or 0)
-    )
-
-
-def test_a_drone_without_a_way_home_is_fetched() -> None:
-    """It stays where it is, and a person carries it."""
-    airspace = Airspace(no_fly=(((2, 0), (2.5, 0), (2.5, 20), (2, 20)),))
-    kernel, navigation = at_home(Faults(action=1), airspace=airspace)
-    failure(kernel, flight(navigation))  # a test may fly where no drone may
-    begun = kernel.now
-    assert fly(kernel, navigation.recover("cf1"))
-    assert kernel.now == pytest.approx(begun + 300)
-    assert navigation.telemetry["cf1"].location == HOME
-
-
-def test_a_battery_that_ends_on_the_way_home_is_carried_there() -> None:
-    """Recovery always ends at home, unless the drone crashed."""
-    kernel, navigation = at_home(Faults(action=1), battery_level=18 / 420)
-    assert failure(kernel, flight(navigation)).failure is Failure.ACTION
-    assert fly(kernel, navigation.recover("cf1"))
-    assert kernel.now == pytest.approx(18 + 300)
-    assert navigation.telemetry["cf1"].location == HOME
-
-
-def test_recovery_takes_off_what_is_still_aboard() -> None:
-    """The person at home has the item; the next mission finds it empty."""
-    kernel, navigation = at_home()
-
-    async def aborted() -> None:
-        await navigation.takeoff("cf1", 1.2, None)
-        await navigation.act("cf1", "pick_item", {}, PILLS)
-
-    fly(kernel, aborted())
-    assert fly(kernel, navigation.recover("cf1"))
-    assert navigation.carrying("cf1") is None
 
 
 def test_a_cancelled_recovery_can_be_asked_for_again() -> None:
