@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -16,10 +14,7 @@ import pytest
 
 from pluto_fleet.app import App
 from pluto_fleet.cli import main as with_library
-from pluto_fleet.journal import event_line as journal_line
 from pluto_fleet.shared import command
-from pluto_fleet.shared.alone import simulate as alone
-from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain import app
 from pluto_fleet.shared.domain.trace import dumped
 from tests.kit import apps
@@ -74,25 +69,6 @@ def test_what_needs_the_library_says_so_and_how_to_get_it(run: Run, what: str) -
         raise AssertionError
 
     assert command.alone("alfalfa", load, [what]) == 2
-
-
-@pytest.mark.parametrize(
-    ("what", "extra", "more"),
-    [("area", "[areas]", "[[mission.area]]\npolygon = 3\n"), ("each", "", 'each = "beds.csv"\n')],
-)
-def test_a_plan_that_only_the_library_reads_says_so(
-    run: Run, tmp_path: Path, what: str, extra: str, more: str
-) -> None:
-    """In one sentence with its mission, and what to install."""
-    file = tmp_path / "m.toml"
-    file.write_text(f'[[mission]]\nname = "North"\n{more}', encoding="utf-8")
-    said = (
-        f'{file}: mission "North": {what} needs pluto-fleet, the library that flies: '
-        f'pip install "pluto-fleet{extra}==0.{app.SEAM}.*" '
-        f'(without an index, from Pluto\'s sources: pip install "PLUTO/runtime{extra}")\n'
-    )
-    for command_ in ("check", "simulate"):
-        assert run(command_, file) == (2, "", said)
 
 
 @pytest.mark.parametrize("flag", ["--runs", "--jobs", "--plot"])
@@ -253,38 +229,6 @@ def test_json_is_that_of_the_library_and_says_in_which_world(
         assert lines == trace.read_text()
 
 
-def test_the_trace_is_written_as_the_library_writes_it() -> None:
-    """Line by line, for a fleet that crashes."""
-    outcome = alone.simulate(
-        apps.app(apps.flow(attempts=2)),
-        [apps.mission("a", apps.trip("1", 5.0), apps.trip("2", 1.0))],
-        apps.fleet((1.0, 1.0, 0.0), (2.0, 1.0, 0.0)),
-        seed=2,
-        faults=Faults(crash=0.4, link=0.4),
-        until=None,
-        on_event=None,
-    )
-    assert len(outcome.events) > 5
-    written = [journal_line.line(event) for event in outcome.events]
-    assert [dumped(event) for event in outcome.events] == written
-
-
-@pytest.mark.parametrize("trace", ["no/such/folder.jsonl", ".", "a\0b"])
-def test_a_trace_that_cannot_be_written_is_told(
-    run: Run, missions: Path, trace: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """With its name."""
-    monkeypatch.chdir(missions.parent)
-    code, _, err = run("simulate", missions, "--trace", trace)
-    assert code == 2
-    assert "the trace cannot be written" in err
-
-
-def test_a_file_may_have_the_name_of_a_command(run: Run) -> None:
-    """Only what begins with two dashes is a flag."""
-    assert run("simulate", "fly") == (2, "", "fly: there is no such file\n")
-
-
 # The door
 
 
@@ -359,45 +303,6 @@ def test_a_library_that_the_package_carries_is_found(package: Path) -> None:
     broken = program(package, "fly")
     assert broken.code == 1
     assert "No module named 'no_such_module'" in broken.err
-
-
-@pytest.mark.long
-@pytest.mark.process
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("import no_such_module\n", "hooks.py:1: the hooks cannot be loaded: ModuleNotFoundError"),
-        ("def f():\n  return 1 +\n", "hooks.py:2: invalid syntax"),
-        ("raise SystemExit(0)\n", "hooks.py:1: the hooks cannot be loaded: SystemExit: 0"),
-        ("x = 1\n", "hooks.py has no "),
-    ],
-)
-def test_hooks_that_cannot_be_loaded_are_told_with_their_place(
-    package: Path, text: str, said: str
-) -> None:
-    """Without a traceback."""
-    (package / "src" / package.name / "hooks.py").write_text(text)
-    done = program(package, "check", "missions.toml")
-    assert done.code == 2
-    assert said in done.err and "Traceback" not in done.err
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_output_that_cannot_be_written_ends_cleanly(package: Path) -> None:
-    """A full disk, and a reader that has gone."""
-    reading, writing = os.pipe()
-    os.close(reading)
-    ends = []
-    with open("/dev/full", "w") as full, open(writing, "w") as gone:
-        for out in (full, gone):
-            line = [sys.executable, *words(package, *FLIES)]
-            done = subprocess.run(
-                line, stdout=out, stderr=-1, text=True, check=False, cwd=EXAMPLES / "pm10"
-            )
-            ends.append((done.returncode, done.stderr))
-    full_disk = "pm10: the output cannot be written: No space left on device\n"
-    assert ends == [(2, full_disk), (141, "")]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""All that crosses the seam is plain data: JSON on its way changes nothing, and what is unknown is ignored."""
+"""All that crosses the seam is plain data: JSON on its way changes nothing."""
 
 from __future__ import annotations
 
@@ -13,16 +13,12 @@ from hypothesis import strategies as st
 
 from pluto_fleet.shared import brain
 from pluto_fleet.shared.alone import simulate as by_itself
-from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.domain.trace import Event
 from tests.brain.hand import charged, settled, trip
-from tests.equivalence.fly import alone
-from tests.kit import apps
 from tests.kit.apps import MISHAPS, Example, Flown
 
 Data = Mapping[str, Any]
-ROUGH = Faults(crash=0.1, link=0.1, action=0.2)
 
 
 def plain(data: Any) -> Any:
@@ -75,80 +71,6 @@ def test_an_example_flies_over_a_wire_as_without(example: Example) -> None:
     there: Flown = through(Wired, fly)
     assert lines(there.trace) == lines(here.trace)
     assert there.ends == here.ends
-
-
-KNOWN = """
-done failed hook telemetry value failure reason drones silent midnight after_trip max_airborne speeds id category home
-at leg battery landed trips name index fields action target source item parameters added attempt status start_time
-end_time
-"""
-
-values = st.recursive(
-    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=5),
-    lambda inner: st.lists(inner, max_size=2) | st.dictionaries(st.text(max_size=3), inner),
-    max_leaves=3,
-)
-noises = st.dictionaries(
-    st.text(max_size=12).filter(lambda key: key not in KNOWN.split()), values, max_size=3
-)
-
-
-def noisy(noise: Data) -> type[Brain]:
-    """Return a brain that is told more than it knows, wherever it is told something."""
-
-    class Noisy(Brain):
-        def __init__(self, app: Any, fleet: Data, **more: Any) -> None:
-            drones = [{**noise, **drone} for drone in fleet["drones"]]
-            super().__init__(app, {**noise, **fleet, "drones": drones}, **more)
-
-        def begin(self, missions: Sequence[Data], now: float) -> None:
-            super().begin([self._more(mission) for mission in missions], now)
-
-        def _more(self, mission: Data) -> Data:
-            trips = [self._unknown({**noise, **one}) for one in mission["trips"]]
-            return self._unknown({**noise, **mission, "trips": trips})
-
-        def _unknown(self, data: dict[str, Any]) -> Data:
-            return {**data, "fields": {**noise, "unheard_of": 1, **data.get("fields", {})}}
-
-        def tell(self, message: Data, now: float) -> None:
-            for unknown in (
-                noise,
-                {"done": 10**9, **noise},
-                {"done": [1], **noise},
-                {"failed": "?", **noise},
-            ):
-                super().tell(unknown, now)
-            super().tell({"hook": 10**9, "telemetry": {"no such drone": {"at": [0, 0, 0]}}}, now)
-            if "telemetry" in message:
-                heard = {drone: {**noise, **one} for drone, one in message["telemetry"].items()}
-                message = {**message, "telemetry": {"no such drone": {**noise}, **heard}}
-            super().tell({**noise, **message}, now)
-
-    return Noisy
-
-
-def a_flight() -> list[str]:
-    """Fly two missions in which much happens, and return what did."""
-    flow = apps.flow(watch=apps.timed, clock=True, attempts=3, repeater=True)
-    missions = [
-        apps.mission("a", apps.trip("1", 4.0), apps.pick("2", 2.0), apps.release("3", 3.0)),
-        apps.mission("b", apps.trip("1", 5.0, delay=4.0), apps.trip("2", 2.0, priority=2), index=1),
-        apps.mission("c", apps.trip("1", 9.0), index=2, safe_time=8.0, repeat=1),
-    ]
-    on = apps.fleet((1.0, 0.5, 0.0), (2.0, 0.5, 0.0))
-    outcome = alone(
-        apps.app(flow), missions, on, seed=3, faults=ROUGH, until=2_000.0, on_event=None
-    )
-    assert {"trip.failed", "trip.completed"} <= {event["event"] for event in outcome.events}
-    return lines(outcome.events)
-
-
-@settings(max_examples=12)
-@given(noises)
-def test_what_is_unknown_is_ignored(noise: Data) -> None:
-    """Keys anywhere, messages, orders' ids, hooks, drones."""
-    assert through(noisy(noise), a_flight) == a_flight()
 
 
 MISSION = {"name": "1", "index": 0, "fields": {}}

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from copy import deepcopy
 from dataclasses import replace
 from functools import partial
-from itertools import pairwise
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -14,16 +13,12 @@ import pytest
 
 from pluto_fleet.flight import simulate as library
 from pluto_fleet.flight.outcome import SimulationResult
-from pluto_fleet.shared.alone import simulate as alone
 from pluto_fleet.shared.alone.faults import CARRYING_HOME, OUTAGE, Faults
 from pluto_fleet.shared.alone.ideal import IdealDrones
-from pluto_fleet.shared.brain import Brain
-from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Point, Trip
+from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Trip
 from pluto_fleet.shared.domain.status import DroneStatus, Status
 from pluto_fleet.shared.flow.own_action import OwnAction
-from pluto_fleet.shared.flow.standing import fleet_data
 from tests.equivalence.fly import alone as by_itself
 from tests.kit import apps
 from tests.kit.apps import A_WEEK, Example
@@ -80,58 +75,6 @@ def test_every_example_completes_all_its_missions_alone(example: Example) -> Non
     assert outcome.completed
     assert outcome.given_up == ""
     assert all(drone.status is DroneStatus.FREE for drone in outcome.drones)
-
-
-def test_drones_pass_through_each_other() -> None:
-    """Two on one line arrive as each would alone: none waits."""
-    on = apps.fleet((1.0, 1.0, 0.0), (5.0, 1.0, 0.0), apart=0.5)
-    missions = [
-        apps.mission("a", apps.trip("1", 5.0, 1.0), index=0),
-        apps.mission("b", apps.trip("1", 1.0, 1.0), index=1),
-    ]
-    outcome = fly(apps.app(apps.flow()), missions, on)
-    assert outcome.completed
-    assert apps.times(outcome, "trip.completed") == [
-        5.0,
-        5.0,
-    ]  # above their homes: their ways do not cross
-    far = [
-        apps.mission("c", apps.trip("1", 5.0, 1.0)),
-        apps.mission("d", apps.trip("1", 5.0, 1.0), index=1),
-    ]
-    outcome = fly(apps.app(apps.flow()), far, on)
-    assert apps.times(outcome, "trip.completed") == [5.0, 13.0]  # both at one place
-
-
-def track(airspace: Airspace, mission: Any, home: Point, faults: Faults, seed: int) -> list[Point]:
-    """Fly a mission and return where its drone was, every tenth of a second."""
-    given: Any = apps.app(apps.flow()).given
-    on = apps.fleet(home, airspace=airspace)
-    brain = Brain(given, fleet_data(on), space=airspace)
-    flown, places, now = alone.Alone(given, on, faults, seed, brain, lambda event: None), [], 0.0
-    flown.begin([mission])
-    while not flown.run(now):
-        places.append(tuple(brain.drones()["cf1"]["at"]))
-        now += 0.1
-    assert brain.standing()["missions"]["a"]["status"] in ("COMPLETED", "FAILED")
-    brain.close()
-    return places
-
-
-WALL = ((4.0, 0.0), (5.0, 0.0), (5.0, 8.0), (4.0, 8.0))
-
-
-@pytest.mark.parametrize("faults", [Faults(), Faults(link=1.0), Faults(action=1.0)])
-def test_no_drone_is_ever_in_a_no_fly_area(faults: Faults) -> None:
-    """Neither on its way nor on the way home, nor where it sinks."""
-    airspace = Airspace(no_fly=(WALL,))
-    for seed in range(2):
-        mission = apps.mission("a", apps.trip("1", 8.0, 2.0), apps.trip("2", 1.0, 7.0))
-        places = track(airspace, mission, (1.0, 1.0, 0.0), faults, seed)
-        assert max(place[0] for place in places) > (5.0 if faults == Faults() else 0.9)
-        assert [place for place in places if airspace.problem(place)] == []
-        steps = [abs(a[0] - b[0]) for a, b in pairwise(places)]
-        assert max(steps) < 0.06 or faults == Faults(link=1.0)
 
 
 class Sky:

@@ -42,27 +42,6 @@ def test_a_source_is_highest_in_its_middle() -> None:
     assert world.measure("temperature", (5, 5, 1), 0) == pytest.approx(21, abs=0.2)
 
 
-numbers = st.floats(allow_nan=False, allow_infinity=False)
-
-
-@given(
-    st.builds(
-        Source,
-        quantity=st.just("pm10"),
-        at=st.tuples(numbers, numbers),
-        peak=st.floats(-1e9, 1e9),
-        radius=st.floats(0.0, exclude_min=True, allow_infinity=False),
-    ),
-    st.tuples(numbers, numbers, numbers),
-)
-def test_a_source_of_any_kind_can_be_measured(
-    source: Source, point: tuple[float, float, float]
-) -> None:
-    """Ever so narrow, ever so wide, ever so far away: it is at most its peak."""
-    found = World(0, MAP, WorldData(sources=(source,), background={"pm10": 0.0}))
-    assert abs(found.measure("pm10", point, 0.0)) <= abs(source.peak) * 1.01 + 0.01
-
-
 def test_a_measurement_depends_on_nothing_that_went_before() -> None:
     """The same question has the same answer, in any order; another time, another error."""
     one, other = World(7, MAP), World(7, MAP)

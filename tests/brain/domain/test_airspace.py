@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from pluto_fleet.shared.domain.airspace import MARGIN, Airspace, enters, inside, tidy
+from pluto_fleet.shared.domain.airspace import MARGIN, Airspace, enters, tidy
 from pluto_fleet.shared.domain.model import Point
 
 Polygon = tuple[tuple[float, float], ...]
@@ -220,11 +220,3 @@ def test_a_way_is_the_shortest(corners: list[tuple[float, float]]) -> None:
         if free(start, *other, end):
             assert way is not None
             assert length(start, way) <= length(start, (*other, end)) + 1e-6
-
-
-@given(stars(), st.floats(0, 20), st.floats(0, 20))
-@example(CUP, 8, 7)
-@example(CUP, 5.5, 7)
-def test_what_the_outline_winds_around_is_inside(area: Polygon, x: float, y: float) -> None:
-    """The inside of a concave area is all of its inside."""
-    assert inside((x, y), area) >= well_inside(x, y, area)

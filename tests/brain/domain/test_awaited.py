@@ -133,21 +133,6 @@ def test_evaluators_modifiers_and_policies_are_told_as_well() -> None:
         assert said in mission.reason
 
 
-def test_what_waits_in_the_hook_is_ended_with_it() -> None:
-    """Its `finally` is run, at once."""
-    ended = []
-
-    async def hook(drone: Any, trip: Any, context: Context) -> None:
-        try:
-            later()  # type: ignore[unused-coroutine]
-            await context.sleep(1e6)
-        finally:
-            ended.append(context.now)
-
-    outcome = flown_with(in_virtual_time, hook)
-    assert ended == pytest.approx(apps.times(outcome, "trip.failed"), abs=1e-6)
-
-
 def test_a_test_of_the_hook_is_told_as_well() -> None:
     """The kit raises what the app is told."""
     kit = AppKit[Any, Any, Any](apps.app(apps.flow()))

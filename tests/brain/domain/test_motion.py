@@ -31,10 +31,7 @@ from pluto_fleet.shared.domain.motion import (
     smoothly,
 )
 from pluto_fleet.shared.fleet.reach import flight_seconds
-from pluto_fleet.shared.fleet.telemetry import Charge, Leg
-from pluto_fleet.shared.time.kernel import FLEET
 from tests.library.files.an_app import APP
-from tests.library.gateway.traffic.skies import Sky
 
 STEPS = 400
 TIGHT = 0.995
@@ -108,28 +105,6 @@ def test_straight_legs_take_nothing_beside(metres: float, speed: float) -> None:
     assert STRAIGHT.rises(metres, speed) == STRAIGHT.lands(metres, speed) == metres / CLIMB_SPEED
 
 
-@given(smooth, distances, speeds)
-def test_what_is_beside_the_legs_is_counted_once(
-    motion: Motion, metres: float, speed: float
-) -> None:
-    one = motion.rises(metres, speed) - motion.climb(metres, speed)
-    assert one == pytest.approx(motion.take_off + motion.settles)
-    assert motion.flies(metres, speed) - motion.leg(metres, speed) == pytest.approx(motion.settles)
-    assert motion.lands(metres, speed) - motion.sink(metres, speed) == pytest.approx(motion.landing)
-
-
-@given(st.floats(0.0, 1.0))
-def test_a_drone_is_where_its_leg_says(part: float) -> None:
-    """Smooth or straight; before it and after it nothing moves."""
-    start, end = (1.0, 2.0, 0.5), (4.0, 6.0, 1.0)
-    for is_smooth, share in ((True, smoothly(part)), (False, part)):
-        leg = Leg(start, end, 10.0, 14.0, is_smooth)
-        there = [a + share * (b - a) for a, b in zip(start, end, strict=True)]
-        assert leg.at(10.0 + 4.0 * part) == pytest.approx(tuple(there))
-        assert leg.length(10.0 + 4.0 * part) == pytest.approx(share * dist(start, end), abs=1e-9)
-        assert (leg.at(9.0), leg.at(15.0)) == (start, end)
-
-
 # Charges
 
 levels = st.floats(0.0, 1.0)
@@ -150,17 +125,6 @@ def test_a_battery_is_as_full_as_was_promised(
     assert charged(level, seconds, full, taper) == pytest.approx(target, abs=1e-6)
 
 
-@given(levels, st.floats(0.0, 3.0), st.floats(0.0, 3.0), fulls, tapers)
-def test_a_charge_may_be_looked_at_in_between(
-    level: float, one: float, other: float, full: float, taper: float
-) -> None:
-    """It never falls, is never above 1, and goes on from wherever it is."""
-    first = charged(level, one * full, full, taper)
-    assert level - 1e-9 <= first <= 1.0
-    then = charged(first, other * full, full, taper)
-    assert then == pytest.approx(charged(level, (one + other) * full, full, taper), abs=1e-6)
-
-
 @given(fulls, tapers)
 def test_a_charge_from_empty_to_full_takes_its_time(full: float, taper: float) -> None:
     """Even until its taper, at the fastest rate; from there on without a jump, ever more slowly."""
@@ -174,23 +138,6 @@ def test_a_charge_from_empty_to_full_takes_its_time(full: float, taper: float) -
     assert all(b <= a + 1e-9 for a, b in pairwise(gained))
     even = gained[: int(STEPS * slows / full)]
     assert even == pytest.approx([(1 + taper) / STEPS] * len(even))
-
-
-@given(levels, st.floats(0.0, 2.0), fulls, tapers)
-def test_what_is_told_of_a_charge_is_what_it_is(
-    level: float, share: float, full: float, taper: float
-) -> None:
-    """Also after its rate has changed; in the air a battery drains evenly."""
-    seconds = share * full
-    battery = Charge(level, 5.0, 1 / full, taper)
-    assert battery.at(4.0) == battery.at(5.0) == level
-    gained = charged(level, seconds, full, taper)
-    assert battery.at(5.0 + seconds) == pytest.approx(gained, abs=1e-6)
-    flies = battery.changing(5.0 + seconds, -1 / full)
-    assert flies.at(5.0 + 1.5 * seconds) == pytest.approx(max(0.0, gained - share / 2), abs=1e-6)
-    docked = flies.changing(5.0 + 1.5 * seconds, 1 / full)
-    again = charged(docked.level, seconds, full, taper)
-    assert docked.at(5.0 + 2.5 * seconds) == pytest.approx(again, abs=1e-6)
 
 
 # Flights
@@ -243,22 +190,6 @@ class Ideal:
         return self.does("fly", stops=stops, action=action, **given)
 
 
-def in_traffic(category: Category, points: list[Point]) -> tuple[float, float]:
-    """Return how long a drone behind a gateway takes to all points, and from there home."""
-    sky = Sky([HOME[:2]], airspace=WALL, category=category, slack=category.motion.slack)
-
-    async def flight() -> tuple[float, float]:
-        assert await sky.fly("cf1", *points) is None
-        arrived = sky.kernel.now
-        await sky.goes_home("cf1")
-        return arrived, sky.kernel.now - arrived
-
-    task = sky.kernel.spawn(flight(), FLEET, "flight")
-    sky.kernel.run(task)
-    sky.kernel.close()
-    return task.result()
-
-
 @given(motions, speeds, stops)
 def test_a_flight_takes_exactly_what_was_expected(
     motion: Motion, speed: float, points: list[Point]
@@ -270,7 +201,6 @@ def test_a_flight_takes_exactly_what_was_expected(
     back = flight_seconds(category, WALL, points[-1], [HOME], 0.0)
     alone = Ideal(category)
     assert (alone.flies(*points), alone.does("home")) == pytest.approx((there, back))
-    assert in_traffic(category, points) == pytest.approx((there, back))
 
 
 def test_a_flight_home_takes_off_first() -> None:
@@ -309,11 +239,6 @@ def test_legs_vary_as_much_as_their_spread() -> None:
     """With all that is beside them, and what is done at their ends does not."""
     taken = to_and_fro(replace(CRAZYFLIE.exact, spread=SPREAD))
     assert_spread([(seconds - MEASURES) / BETWEEN for seconds in taken])
-
-
-def test_actions_vary_as_much_as_their_own_spread() -> None:
-    taken = to_and_fro(replace(CRAZYFLIE.exact, action_spread=SPREAD))
-    assert_spread([(seconds - BETWEEN) / MEASURES for seconds in taken])
 
 
 def test_durations_hang_on_the_seed_and_the_drone() -> None:

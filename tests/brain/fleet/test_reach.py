@@ -30,8 +30,6 @@ WALL = Airspace(no_fly=(((8, 0), (9, 0), (9, 20), (8, 20)),))
 CLIMB = 1.2 / 0.3
 
 coordinate = st.floats(0, 20)
-in_the_air = st.tuples(coordinate, coordinate, st.floats(0.1, 10))
-on_the_ground = st.tuples(coordinate, coordinate, st.just(0.0))
 
 
 def test_a_flight_from_the_ground_climbs_first() -> None:

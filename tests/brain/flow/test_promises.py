@@ -94,31 +94,12 @@ def test_a_mission_whose_predecessor_was_cancelled_is_told_so() -> None:
     assert living.life.missions[1].reason == 'it comes after mission "a", which is CANCELLED'
 
 
-def test_a_mission_waits_for_one_that_is_paused() -> None:
-    living = Living(enterable(), long("a"), short("b", after=["a"]))
-    living.at(5.0, lambda: living.life.control.pause("a"))
-    living.at(300.0, lambda: living.life.control.go_on("a"))
-    assert living.run() == ["COMPLETED", "COMPLETED"]
-    assert living.times("mission.created")[-1] > 300.0
-
-
 def test_a_mission_whose_predecessor_is_cancelled_while_it_is_paused_is_told_so() -> None:
     """Nothing else was under way meanwhile."""
     living = Living(enterable(), long("a"), short("b", after=["a"]))
     living.at(5.0, lambda: living.life.control.pause("a"))
     living.at(8.0, lambda: living.life.control.cancel("a"))
     assert living.run() == ["CANCELLED", "FAILED"]
-
-
-@pytest.mark.parametrize("trips", [1, 2])
-def test_trips_of_a_mission_that_has_not_begun_may_be_skipped(trips: int) -> None:
-    b = apps.mission(
-        "b", *(apps.trip(f"{n}", 3.0) for n in range(trips)), promises={"after": ["a"]}
-    )
-    living = Living(enterable(), long("a"), b)
-    living.at(5.0, lambda: living.life.control.skip("b"))
-    assert living.run() == ["COMPLETED", "COMPLETED"]
-    assert len(living.named("trip.launched")) == trips  # one of the other mission, and all but one
 
 
 # Windows

@@ -9,7 +9,6 @@ import pytest
 
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import ActionFailed, Failure, FlightFailed
-from pluto_fleet.shared.domain.fleet_data import WorldData
 from pluto_fleet.shared.domain.model import Category, Drone
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
@@ -139,17 +138,6 @@ def test_a_plain_function_is_told_that_it_must_be_async(real: bool) -> None:
     assert "only an action that is an `async def` has a live drone" in reason(grip, real=real)
 
 
-def test_a_modifier_has_no_live_drone() -> None:
-    """Its drone is on the way, or another mission's."""
-
-    def look(mission: apps.Mission, context: Context) -> None:
-        context.live(kept[0])
-
-    kept = list(flown(_nothing).drones)
-    outcome = apps.flown(apps.mission("m", apps.trip("A", 3.0)), prepare=look)
-    assert "has a live drone" in outcome.missions[0].reason
-
-
 @pytest.mark.parametrize(
     ("name", "value", "says"),
     [
@@ -211,22 +199,3 @@ def test_which_hooks_can_wait() -> None:
     assert [can_wait(hook) for hook in (waits, noted(waits), partial(waits))] == [True] * 3
     assert not can_wait(does_not)
     assert not can_wait(noted(does_not))
-
-
-def test_the_world_says_what_was_not_set() -> None:
-    """A measurement of that name, at the place where the drone hovers."""
-    gave: list[float] = []
-
-    async def grip(drone: Drone, trip: apps.Trip, context: Context) -> None:
-        gave.append(await context.live(drone).read("humidity"))
-
-    app = apps.app(apps.flow(), actions=[OwnAction(name="grip", hook=grip)])
-    trip = apps.Trip(name="A", action="grip", target=(3.0, 0.5, 1.2))
-    fleet = apps.fleet()
-    object.__setattr__(fleet, "world", WorldData(background={"humidity": 40.0}))
-    assert apps.fly(app, apps.mission("m", trip), on=fleet).completed
-    assert gave == [pytest.approx(40.0, rel=0.2)]
-
-
-async def _nothing(drone: Drone, trip: apps.Trip, context: Context) -> None:
-    """Do nothing."""

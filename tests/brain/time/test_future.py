@@ -126,12 +126,12 @@ def test_what_ends_the_wait_for_an_end_is_no_cancellation() -> None:
     async def forever() -> None:
         await Future[None]()
 
-    async def waits(task: object) -> str:
+    async def waits() -> str:
         await other.ended()
         return "ended"
 
     other = kernel.spawn(forever(), 0, "other")
-    waiting = kernel.spawn(waits(other), 1, "waiting")
+    waiting = kernel.spawn(waits(), 1, "waiting")
     kernel.at(1.0, EventKind.CLOCK, 0, other.cancel)
     kernel.run(waiting)
     assert waiting.result() == "ended"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
 from pluto_fleet.gateway.lossy_line import LossyLine
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.hooks.context import Context
@@ -44,15 +42,6 @@ def test_a_photo_is_simply_taken_again() -> None:
     living = Living(enterable(watch=apps.timed, attempts=2), mission)
     assert living.run() == ["FAILED"]
     assert len(living.named("trip.launched")) == 2
-
-
-@pytest.mark.parametrize("later", [0.2, 0.7, 1.5])
-def test_a_crash_after_the_limit_finds_it_done_as_well(later: float) -> None:
-    moment = when_picked()
-    living = picking(safe_time=moment + 0.5, late=1.0)
-    living.crash(moment + later)
-    assert living.run() == ["COMPLETED"]
-    assert living.done_by_drones == [("pick_item", "pills"), ("release_item", "pills")]
 
 
 def test_a_modifier_that_fails_what_was_done_fails_nothing() -> None:

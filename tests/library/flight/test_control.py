@@ -156,16 +156,6 @@ def test_a_person_decides_and_the_mission_goes_on(answer: str, flights: list[str
     ] == flights
 
 
-@pytest.mark.parametrize(("answer", "flights"), ANSWERS)
-def test_a_person_decides_while_the_app_is_at_rest(answer: str, flights: list[str]) -> None:
-    living = spraying("once")
-    living.crash(10.0)
-    assert living.run() == ["UNCERTAIN"]
-    living.decide_at_rest("a", answer)
-    assert living.run() == ["COMPLETED"]
-    assert names(living.named("trip.launched"), "trip") == flights
-
-
 def test_where_a_person_watches_the_app_lives_until_they_have_decided() -> None:
     living = spraying("once")
 
@@ -206,13 +196,6 @@ def test_after_a_stop_nothing_else_is_done() -> None:
     assert living.kernel.run(living.life.control.stopped)
 
 
-def test_an_app_lives_on_when_a_person_decides_while_the_last_drone_comes_home() -> None:
-    living = spraying("once", apps.mission("b", apps.trip("long", 15, 15)))
-    living.crash(10.0)
-    living.at(60.0, lambda: living.life.control.decide("a", "not-done"))
-    assert living.run() == ["COMPLETED", "COMPLETED"]
-
-
 def test_an_app_ends_when_all_that_is_left_waits_for_a_decision() -> None:
     living = spraying("once")
     living.at(10.0, lambda: living.life.control.pause("a"))
@@ -230,12 +213,3 @@ def test_a_probe_is_asked_when_a_mission_is_paused_during_its_own_action(
     living.at(60.0, lambda: living.life.control.go_on("a"))
     assert living.run() == ["COMPLETED"]
     assert names(living.named("trip.launched"), "trip") == ["1", "2"]
-
-
-def test_all_that_is_left_of_a_paused_mission_can_be_skipped() -> None:
-    living = Living(enterable(), two_trips())
-    living.at(3.0, lambda: living.life.control.pause("a"))
-    living.at(20.0, lambda: living.life.control.skip("a"))
-    living.at(21.0, lambda: living.life.control.skip("a"))
-    assert living.run() == ["COMPLETED"]
-    assert living.done_by_drones == []

@@ -137,13 +137,6 @@ def test_a_life_ends_when_all_missions_have(tried: Tried) -> None:
     assert tried.kinds.count("trip.completed") == 2
 
 
-def test_what_is_told_is_on_record(tried: Tried) -> None:
-    """All of it, in the same order."""
-    asyncio.run(tried.live())
-    written = [(event["t"], event["event"]) for event in tried.journal]
-    assert [(event["t"], event["event"]) for event in tried.told] == written
-
-
 @pytest.fixture
 def durable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The kinds of the events that are on record, as soon as they are."""
@@ -237,24 +230,6 @@ def test_commands_reach_a_living_app(tried: Tried) -> None:
     assert tried.kinds.count("mission.paused") == tried.kinds.count("mission.resumed") == 1
     with pytest.raises(NotRunning):
         ask(commands_note(tried.path), {"command": "pause", "mission": None}, 5.0)
-
-
-def test_what_an_app_has_answered_is_on_record(tried: Tried, durable: list[str]) -> None:
-    """Nothing that was told is lost by what happens a moment later."""
-
-    async def client() -> None:
-        request = {"command": "cancel", "mission": "m"}
-        await asyncio.to_thread(ask, commands_note(tried.path), request, 5.0)
-        assert "mission.ended" in durable
-
-    async def whole() -> FlightResult:
-        talks: list[Awaitable[None]] = []
-        tried.on("trip.launched", lambda: talks.append(asyncio.ensure_future(client())))
-        lived = await tried.live()
-        await talks[0]
-        return lived
-
-    assert [mission.status for mission in asyncio.run(whole()).missions] == [Status.CANCELLED]
 
 
 def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(

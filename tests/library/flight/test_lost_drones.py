@@ -93,27 +93,6 @@ def test_one_that_is_as_lost_as_before_stays_so(monkeypatch: pytest.MonkeyPatch)
     assert event["reason"] == "it lies on its back"
 
 
-def test_what_a_person_has_said_of_a_lost_drone_outlives_the_app() -> None:
-    """The app dies before its gateway has heard of it: the next life says so again."""
-    fleet = living(*"abc")
-    heard: list[str] = []
-
-    async def never(_: str) -> bool:
-        await Future[None]()
-        return False
-
-    navigation = fleet.gateway.navigation
-    crashes(fleet, 5.0)
-    fleet.at(14.0, lambda: vars(navigation).update(mended=heard.append, recover=never))
-    fleet.at(15.0, lambda: fleet.life.control.bring_back("cf1"))
-    fleet.at(15.5, lambda: [vars(navigation).pop(name) for name in ("mended", "recover")])
-    fleet.crash(16.0)
-    fleet.run()
-    assert heard == ["cf1"]
-    assert drone(fleet).status is DroneStatus.FREE
-    assert fleet.life.recorder.records.mended == []
-
-
 def test_a_lost_drone_stays_lost_in_the_next_life_though_it_calls_itself_well() -> None:
     """The app dies; the drone is put home and is well, but no person has said that they saw to it."""
     fleet = living(*"abcdefgh")
@@ -131,35 +110,6 @@ def test_a_lost_drone_stays_lost_in_the_next_life_though_it_calls_itself_well() 
     assert not [time for time in flights_of(fleet, "cf1") if 5.0 < time < 61.0]
     assert flights_of(fleet, "cf1")[-1] > 61.0
     assert records(fleet).lost == {}
-
-
-def test_a_lost_drone_that_hovers_when_the_app_goes_on_is_brought_down_and_stays_lost() -> None:
-    """It could not be reached when its action failed; it can now, but was not looked after."""
-    action_fails = replace(apps.NO_FAULTS, action=1.0)
-    fleet = Living(
-        enterable(attempts=1), apps.mission("a", apps.trip("1", 4.0)), faults=action_fails
-    )
-
-    async def in_vain(_: str) -> bool:
-        return False
-
-    navigation = fleet.gateway.navigation
-    vars(navigation).update(recover=in_vain)
-
-    def start_anew() -> None:
-        fleet.die()
-        del vars(navigation)["recover"]
-        fleet.live_on()
-
-    fleet.at(40.0, start_anew)
-    passes(fleet, 39.0)
-    (lost,) = fleet.named("drone.lost")
-    who = str(lost["drone"])
-    assert not fleet.navigation.bodies[who].landed
-    passes(fleet, 100.0)
-    assert fleet.navigation.bodies[who].is_docked
-    assert drone(fleet, who).status is DroneStatus.LOST
-    assert records(fleet).lost[who]["reason"] == lost["reason"]
 
 
 def test_a_new_journal_knows_who_was_lost_and_who_was_brought_back_before() -> None:
@@ -187,25 +137,6 @@ def test_where_every_drone_is_lost_nothing_begins() -> None:
     assert fleet.life.control.whole is not None
     with pytest.raises(BadInput, match="cf1: it is lost, and was not brought back"):
         fleet.life.control.whole.result()
-
-
-def test_where_one_was_brought_back_it_is_told_so_before_another_is_refused() -> None:
-    """It crashed in an earlier flight, and remembers that until it has heard."""
-    fleet = living("a", homes=1)
-    fleet.die()
-    begun = {"t": 0.0, "event": "journal.begun", "mended": ["cf1"]}
-    fleet.memory = Memory(begun)
-    fleet.memory.append([json.dumps([begun])])
-    heard: list[str] = []
-
-    async def drone_report(drone: str) -> DroneReport:
-        report = fleet.navigation.bodies[drone].report
-        return replace(report, problems=() if heard else ("it has crashed",))
-
-    vars(fleet.gateway.navigation).update(mended=heard.append, drone_report=drone_report)
-    fleet.live_on()
-    assert fleet.run() == ["COMPLETED"]
-    assert heard == ["cf1"]
 
 
 def test_a_drone_that_is_neither_retired_nor_lost_need_not_be_brought_back() -> None:

@@ -83,14 +83,6 @@ def test_a_flight_that_goes_on_without_its_brain_is_taken_up_again() -> None:
     assert len(living.times("trip.launched")) == 1
 
 
-def test_what_came_of_a_flight_while_no_brain_lived_is_heard_later() -> None:
-    living = Living(enterable(), apps.mission("a", apps.trip("1", 3), apps.trip("2", 5)))
-    living.crash(5.0, down=500.0)
-    living.run()
-    assert names(living.named("trip.completed"), "trip") == ["1", "2"]
-    assert len(living.done_by_drones) == 2
-
-
 async def _slow_judge(mission: apps.Mission, results: Results[apps.Mission, Trip]) -> Verdict:
     return Verdict(log=(f"{len(results.new)} new of {len(results.all)}",))
 
@@ -130,13 +122,6 @@ def test_what_a_hook_did_to_its_mission_is_remembered() -> None:
     living.crash(3.0)
     assert living.run() == ["COMPLETED"]
     assert names(living.named("trip.completed"), "trip") == ["1", "3"]
-
-
-def test_a_crash_may_follow_a_crash_before_the_first_is_dealt_with() -> None:
-    living = delivering()
-    for moment in (15.0, 16.0, 17.5, 40.0):
-        living.crash(moment, down=1.0)
-    assert set(living.run()) == {"COMPLETED"}
 
 
 def test_a_mission_whose_block_is_gone_is_held_and_goes_on_when_told() -> None:
@@ -242,34 +227,6 @@ def test_a_probe_that_fails_leaves_it_to_a_person(monkeypatch: pytest.MonkeyPatc
     living.crash(10.0)
     assert living.run() == ["UNCERTAIN"]
     assert "OSError: no camera" in str(living.named("log")[-1]["text"])
-
-
-def test_a_drone_that_is_lost_in_every_life_is_counted_once() -> None:
-    living = Living(
-        enterable(),
-        apps.mission("a", apps.trip("1", 5)),
-        apps.mission("b", apps.trip("1", 5)),
-        apps.mission("c", apps.trip("1", 5)),
-        on=apps.fleet(*HOMES),
-        faults=Faults(crash=1.0),
-    )
-    living.crash(3.0)
-    living.run()
-    assert living.life.missions[2].reason.endswith(": 2 of 2 drones are lost")
-
-
-def test_a_held_mission_that_is_let_go_on_may_still_be_uncertain() -> None:
-    """Its action was under way when the app died, and the block it came from is gone."""
-    app = enterable(clock=True, actions=(OwnAction(name="spray", hook=_spray),))
-    living = Living(app, apps.mission("a", apps.trip("1", 3, action="spray", delay=1.0)))
-    changed = apps.changed(app, resumes=("somewhere",))
-    living.crash(12.0, app=changed)
-    assert living.run() == ["HELD"]
-    living.decide_at_rest("a", "go-on")
-    assert living.run() == ["UNCERTAIN"]
-    assert living.life.recorder.records.missions["a"]["answer"] is None
-    living.decide_at_rest("a", "done")
-    assert living.run() == ["COMPLETED"]
 
 
 @pytest.mark.parametrize(("answer", "then"), [("done", "COMPLETED"), ("cancel", "FAILED")])

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from random import Random
 
-import pytest
-
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT
 from tests.equivalence.campaign import OURS, drawn
 from tests.equivalence.drivers import in_real_time, seen
@@ -47,9 +45,3 @@ def flown(name: str, worlds: int) -> int:
 def test_one_drone_leaves_the_same_events_under_every_driver() -> None:
     """Byte for byte, also where things go wrong."""
     assert sum(flown(f"same/{number}", 3) for number in range(6)) > 150
-
-
-@pytest.mark.long
-def test_one_drone_leaves_the_same_events_in_many_graphs() -> None:
-    """More of the same, each in one world."""
-    assert sum(flown(f"same/long/{number}", 1) for number in range(200)) > 4_000

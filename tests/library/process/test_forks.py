@@ -8,14 +8,11 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
-from tests.kit import apps, in_real_time
-
-Fly = Callable[[Callable[..., object]], apps.SimulationResult]
+from tests.kit import apps
 
 
 def comes_back() -> None:
@@ -37,20 +34,6 @@ def forked(child: Callable[[], None], codes: list[int]) -> None:
         codes.append(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]))
     else:
         child()
-
-
-def plain(child: Callable[[], None], codes: list[int]) -> Callable[..., object]:
-    def act(drone: Any, trip: Any, context: Context) -> None:
-        forked(child, codes)
-
-    return act
-
-
-def straight(child: Callable[[], None], codes: list[int]) -> Callable[..., object]:
-    async def act(drone: Any, trip: Any, context: Context) -> None:
-        forked(child, codes)
-
-    return act
 
 
 def waiting(child: Callable[[], None], codes: list[int]) -> Callable[..., object]:
@@ -79,36 +62,23 @@ def _missions() -> Sequence[apps.Mission]:
     ]
 
 
-def in_virtual_time(hook: Callable[..., object]) -> apps.SimulationResult:
-    return apps.fly(_app(hook), *_missions())
-
-
-def in_true_time(hook: Callable[..., object]) -> apps.SimulationResult:
-    fleet = apps.fleet((0.5, 0.5, 0.0), airspace=Airspace(cruise_height=0.003))
-    return in_real_time.fly(_app(hook), _missions(), fleet, lambda event: None)
-
-
 @pytest.mark.process
 @pytest.mark.parametrize(
-    ("fly", "written", "child", "code"),
+    ("child", "code"),
     [
-        (in_virtual_time, waiting, comes_back, 0),
-        *(
-            pytest.param(fly, written, child, code, marks=pytest.mark.long)
-            for fly in (in_virtual_time, in_true_time)
-            for written in (plain, straight, waiting)
-            for child, code in ((comes_back, 0), (exits, 0), (raises, 1))
-        ),
+        (comes_back, 0),
+        pytest.param(exits, 0, marks=pytest.mark.long),
+        pytest.param(raises, 1, marks=pytest.mark.long),
     ],
 )
 def test_the_copy_of_an_app_that_a_hook_forks_does_not_go_on(
-    fly: Fly, written: Callable[..., Any], child: Callable[[], None], code: int
+    child: Callable[[], None], code: int
 ) -> None:
     """It would fly every mission once more, or wait for ever for what its parent hears of."""
     codes: list[int] = []
     this = os.getpid()
     try:
-        outcome = fly(written(child, codes))
+        outcome = apps.fly(_app(waiting(child, codes)), *_missions())
     finally:
         if os.getpid() != this:
             os._exit(99)  # it has gone on: no test goes on here

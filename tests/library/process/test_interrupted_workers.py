@@ -76,32 +76,3 @@ def test_an_interrupt_during_a_fork_is_raised_after_it(send: str) -> None:
 def test_so_is_what_another_handler_raises(send: str) -> None:
     """An app may have its own for the end of its terminal."""
     assert said(send, "SIGHUP") == ["told to quit", "as before"]
-
-
-def test_one_that_comes_twice_counts_once() -> None:
-    """As it does for a process that is not scheduled meanwhile."""
-    assert said("blocked", "SIGINT", "SIGINT") == ["interrupted", "as before"]
-
-
-CHILD = """
-import os, signal, sys
-
-def strike():
-    if os.getppid() == parent:
-        os.kill(os.getpid(), signal.SIGINT)
-
-parent = os.getpid()
-os.register_at_fork(after_in_child=strike)  # before the library's own is called
-import pluto_fleet.process.forked
-
-child = os.fork()
-if child == 0:
-    os._exit(3)
-print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
-"""
-
-
-def test_an_interrupt_of_the_child_ends_it_silently() -> None:
-    """It has not begun with anything that were to be told of."""
-    ran = python("-c", CHILD)
-    assert (ran.out, ran.err) == ("-2\n", "")

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Callable, Coroutine
-from functools import partial, wraps
-from typing import Any
+from collections.abc import Callable
+from functools import partial
 
 import pytest
 
@@ -98,24 +97,6 @@ def test_any_error_of_a_hook_ends_its_mission_and_never_hangs(
         raise error
 
     assert says in hooked(raises)
-
-
-def test_a_hook_behind_a_plain_function_is_awaited_as_in_a_simulation() -> None:
-    def plainly(
-        hook: Callable[..., Coroutine[Any, Any, object]],
-    ) -> Callable[..., Coroutine[Any, Any, object]]:
-        @wraps(hook)
-        def called(*args: object, **named: object) -> Coroutine[Any, Any, object]:
-            return hook(*args, **named)
-
-        return called
-
-    @plainly
-    async def seven(drone: Drone, trip: apps.Trip, context: Context) -> int:
-        await context.sleep(0.001)
-        return 7
-
-    assert hooked(seven) == "7"
 
 
 STUCK = """

@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Generator
-from pathlib import Path
 
 import pytest
 
@@ -139,71 +138,6 @@ def test_an_interrupt_ends_all_at_once() -> None:
 
     with pytest.raises(KeyboardInterrupt):
         list(in_workers(interrupts, [0, 1], 2))
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_worker_left")
-def test_an_interrupt_whose_handler_raises_nothing_ends_all_too() -> None:
-    """Such is an app's own."""
-    parent, heard = os.getpid(), list[int]()
-
-    def work(number: int) -> None:
-        if number == 0:
-            os.kill(parent, signal.SIGINT)
-        signal.pause()
-
-    before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            list(in_workers(work, [0, 1], 2))
-    finally:
-        signal.signal(signal.SIGINT, before)
-    assert heard == [signal.SIGINT]
-
-
-class Interrupts:
-    """Interrupts its process as it is freed, where Python drops what a handler raises."""
-
-    def __init__(self, process: int) -> None:
-        self.process = process
-
-    def __del__(self) -> None:
-        if os.getpid() == self.process:
-            signal.raise_signal(signal.SIGINT)
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_worker_left")
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-def test_an_interrupt_that_python_drops_ends_all_too() -> None:
-    """The first result is freed as the second one comes; nothing would come of the third any more."""
-    parent = os.getpid()
-
-    def work(number: int) -> Interrupts | None:
-        if number == 2:
-            signal.pause()
-        return Interrupts(parent) if number == 0 else None
-
-    with pytest.raises(KeyboardInterrupt):
-        list(map(type, in_workers(work, [0, 1, 2], 3)))
-
-
-@pytest.mark.long
-def test_a_child_of_a_hook_that_lives_on_is_not_waited_for(tmp_path: Path) -> None:
-    """It has what a worker had open, but the way to its reader."""
-    note = tmp_path / "child"
-
-    def forks(number: int) -> int:
-        child = os.fork()
-        if child == 0:
-            signal.pause()
-        note.write_text(str(child))
-        return number
-
-    try:
-        assert list(in_workers(forks, [1], 1)) == [1]
-    finally:
-        os.kill(int(note.read_text()), signal.SIGKILL)
 
 
 ENDED = """
