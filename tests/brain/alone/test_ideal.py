@@ -227,7 +227,7 @@ def test_the_outage_counts_from_the_loss_and_ends_on_the_ground() -> None:
     """From high up the landing takes longer than the outage: recovery waits for it."""
     for height in (1.2, 9.9):
         sky = Sky(Faults(link=1.0), seed=5)
-        sky.fly(stops=[(0.5, 0.5, height), (19.0, 0.5, height)], seconds=70.0)
+        sky.fly(stops=[(0.5, 0.5, height), (19.0, 0.5, height)])
         assert sky.told()["failure"] == "LINK"
         lost, high = sky.now, sky.drone.location[2]
         recovery = sky.order("recover")
@@ -242,7 +242,7 @@ def test_what_is_aboard_is_lost_with_a_drone_and_taken_off_at_home() -> None:
     for faults, left in ((Faults(), True), (Faults(crash=1.0), False)):
         sky = Sky(faults)
         sky.drone.carries = apps.pick("p", 1.0).item
-        sky.fly(stops=[(4.0, 0.5, 1.2)], seconds=9.0)
+        sky.fly(stops=[(4.0, 0.5, 1.2)])
         sky.told()
         assert (sky.drone.carries is not None) is left
         sky.order("recover")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import tempfile
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,6 +25,7 @@ from pluto_fleet.shared.alone import files
 from pluto_fleet.shared.alone.files import LARGEST
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
+from tests.kit.sentences import entries
 from tests.library.files.an_app import APP, OWN, PLAIN
 
 if TYPE_CHECKING:
@@ -83,18 +84,12 @@ MONSTERS = [
 """What is too long to be written down."""
 
 
-def mistakes(name: str) -> Iterator[tuple[str, str]]:
-    """Yield the files with mistakes of a list, and what must be said of each."""
-    written: list[str] = []
-    for line in (SENTENCES / f"{name}.txt").read_text("utf-8").splitlines(keepends=True):
-        if line.startswith("->"):
-            yield "".join(written).lstrip("\n"), line[2:].strip()
-            written.clear()
-        else:
-            written.append(line)
+def mistakes(name: str) -> list[tuple[str, str]]:
+    """Return the files with mistakes of a list, and what must be said of each."""
+    return [(text, said) for text, (said,) in entries(SENTENCES / f"{name}.txt")]
 
 
-@pytest.mark.parametrize(("text", "said"), [*mistakes("fleets")])
+@pytest.mark.parametrize(("text", "said"), mistakes("fleets"))
 def test_a_fleet_that_cannot_fly_is_refused_alike(tmp_path: Path, text: str, said: str) -> None:
     """Every key, and every kind of value."""
     path = tmp_path / "fleet.toml"

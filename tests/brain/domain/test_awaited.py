@@ -136,7 +136,9 @@ def test_evaluators_modifiers_and_policies_are_told_as_well() -> None:
 def test_a_test_of_the_hook_is_told_as_well() -> None:
     """The kit raises what the app is told."""
     kit = AppKit[Any, Any, Any](apps.app(apps.flow()))
-    with pytest.raises(RuntimeError, match=r"it does not await Context\.sleep: .*test_unaw.*:\d+"):
+    with pytest.raises(
+        RuntimeError, match=r"it does not await Context\.sleep: .*test_awaited.*:\d+"
+    ):
         kit.call(dropped, kit.drone(), kit.trip(), kit.context())
 
 

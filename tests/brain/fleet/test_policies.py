@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import pytest
+
 from pluto_fleet.shared.domain.model import Drone
-from pluto_fleet.shared.fleet.policies import nearest
+from pluto_fleet.shared.fleet.policies import Policy, first, least_used, nearest
 from tests.brain.fleet.standing import anyone, fleet, trip
+from tests.kit import apps
 
 
 def test_the_closest_gets_the_trip_and_it_is_said_why() -> None:
@@ -49,3 +52,23 @@ def test_a_drone_that_is_farther_away_than_an_able_one_is_not_asked() -> None:
 
 def test_without_drones_there_is_no_choice() -> None:
     assert nearest(trip((0.0, 0.0, 0.0)), [], anyone) is None
+
+
+HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("policy", "drones", "why"),
+    [
+        (nearest, ["cf3"] * 3, "nearest of 3 free: 1.9 m away"),
+        (first, ["cf1"] * 3, "first of 3 free in the fleet's order"),
+        (least_used, ["cf1", "cf2", "cf3"], "least used of 3 free: 0 trips so far"),
+    ],
+)
+def test_policies_choose_as_they_say(policy: Policy, drones: list[str], why: str) -> None:
+    """Three trips, one after the other, each when all drones are at home again."""
+    trips = [apps.trip(name, 17.0, delay=90.0) for name in "ABC"]
+    flown = apps.flown(apps.mission("m", *trips), policy=policy, clock=True, on=apps.fleet(*HOMES))
+    given = apps.events(flown, "trip.allocated")
+    assert [event["drone"] for event in given] == drones
+    assert given[0]["why"] == why

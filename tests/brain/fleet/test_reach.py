@@ -148,8 +148,9 @@ def test_a_drone_gets_a_trip_just_if_its_battery_lasts(
     assume(not space.problem(trip.target) and not space.problem(home))
     left = left_after(kind, space, trip, home)
     assume(left is not None)
-    # in its dock it is charged from its touch-down on, before it counts as landed
-    wanted = 1.0 - float(left or 0.0) + kind.reserve + kind.motion.landing / kind.endurance
+    # it drains only from when it leaves the ground, and is charged from its touch-down on, before it counts as landed
+    spared = kind.motion.take_off + kind.motion.landing
+    wanted = 1.0 - float(left or 0.0) + kind.reserve + spared / kind.endurance
     assert not gets_it(kind, space, trip, home, min(1.0, wanted - 1e-6))
     if wanted <= 1.0 - 1e-6:
         assert gets_it(kind, space, trip, home, wanted + 1e-6)
