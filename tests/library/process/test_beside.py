@@ -20,7 +20,9 @@ class Unreadable:
         return int, ("none",)
 
 
-def test_what_goes_wrong_in_a_copy_is_raised_here_and_its_death_is_told() -> None:
+def test_what_goes_wrong_in_a_copy_is_raised_here_and_it_ends_when_nobody_reads_on(
+    no_worker_left: None,
+) -> None:
     heard: list[object] = []
 
     async def find(how: object) -> None:
@@ -50,9 +52,12 @@ def test_what_goes_wrong_in_a_copy_is_raised_here_and_its_death_is_told() -> Non
         asyncio.run(find("killed"))
     asyncio.run(find("well"))
     assert len({*heard}) == 5 and os.getpid() not in heard
+    asyncio.run(given_up())
 
 
-async def test_a_copy_is_ended_when_nobody_reads_on(no_worker_left: None) -> None:
+async def given_up() -> None:
+    """Read what one copy finds first, and see that it ends, though it waits for ever."""
+
     def work() -> Iterator[int]:
         yield os.getpid()
         os.read(reads, 1)

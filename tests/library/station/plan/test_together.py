@@ -37,6 +37,8 @@ def test_what_is_there_already_may_be_said_again() -> None:
     new = plan.revision
     plan.replace(old, [mission()])
     assert plan.revision == new
+    plan.replace(new, [])
+    assert plan.revision == new + 1
 
 
 def test_what_flies_stays_as_it_is() -> None:
