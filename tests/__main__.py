@@ -26,9 +26,9 @@ REWRITES = {
     "python docs/tutorial/make_pictures.py": "the pictures and the quoted files in the pages",
 }
 CAMPAIGNS = (
-    "python -m tests.compiler.format --mutants 2000",
-    "python -m tests.compiler.lsp.holes",
-    "python -m tests.compiler.service",
+    "python -m tests.format --mutants 2000",
+    "python -m tests.lsp",
+    "python -m tests.service",
     "python -m tests.generated",
     "python -m tests.fuzz --minutes 10",
     "python -m tests.soundness --random 2000",

@@ -22,7 +22,7 @@ from plutoc.plan.show import show
 from plutoc.report.change_reports import json, markdown, text
 from plutoc.source import Source
 from tests.compiler.diff.pairs import EXAMPLES, difference, sentences, version
-from tests.compiler.format.layouts import Liberty, laid_out, words_of
+from tests.format.layouts import Liberty, laid_out, words_of
 from tests.soundness.app import App, Arrow, Block
 from tests.soundness.mutants import mutants
 from tests.soundness.randoms import random_app

@@ -13,7 +13,7 @@ from textwrap import dedent, indent
 import pytest
 
 from plutoc.diagnostic import Rejected
-from tests.compiler.format.promises import formatted
+from tests.format.promises import formatted
 from tests.kit.sections import Section, compare, params
 from tests.paths import ROOT
 

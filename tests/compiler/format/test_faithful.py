@@ -9,7 +9,7 @@ import pytest
 from plutoc.format import run
 from plutoc.format.run import MeaningChanged, TooLarge, same_writing
 from plutoc.source import LARGEST
-from tests.compiler.format.promises import formatted
+from tests.format.promises import formatted
 
 TEXT = 'pluto 1\n\napp a "T" {\n  # why\n  b = K(x: 5 min)  # what\n  b -> c\n}\n'
 

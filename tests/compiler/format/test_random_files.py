@@ -8,8 +8,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from plutoc.syntax.tokens import OWNERS, SOFT_WORDS, WORDS
-from tests.compiler.format.layouts import Liberty, laid_out, words_of
-from tests.compiler.format.promises import formatted, keep, meaning, writing
+from tests.format.layouts import Liberty, laid_out, words_of
+from tests.format.promises import formatted, keep, meaning, writing
 
 NAMES = st.sampled_from(["a", "b_1", "STANDBY", "Kind", "ünï", "x" * 30, "yes", "m", *SOFT_WORDS])
 """The grammar takes any name anywhere; what it means is for later."""
@@ -82,7 +82,7 @@ FILES = st.builds(
 
 
 @settings(
-    max_examples=120, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+    max_examples=60, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
 @given(FILES, st.integers(0, 2**32), st.sampled_from([0, 0.05, 0.3, 1]))
 def test_every_file_of_the_language_keeps_its_comments_and_its_meaning(
@@ -93,7 +93,7 @@ def test_every_file_of_the_language_keeps_its_comments_and_its_meaning(
     keep(layout, meaning(text))
 
 
-@settings(max_examples=100, derandomize=True, deadline=None)
+@settings(max_examples=30, derandomize=True, deadline=None)
 @given(NAMES, PARAMETERS, NAMES, NAMES, st.integers(0, 2**32), st.sampled_from([0, 0.3, 1]))
 def test_what_an_action_gives_comes_before_the_word_behind_it(
     name: str, parameters: str, word: str, result: str, seed: int, comments: float

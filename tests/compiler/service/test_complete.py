@@ -10,8 +10,8 @@ from plutoc.diagnostic import Severity
 from plutoc.service.answers import Item
 from plutoc.service.completion.complete import complete
 from plutoc.service.document import Document
-from tests.compiler.lsp.holes import FIRST, cuts, mistakes, offered, rank
 from tests.compiler.service.test_hover import ALFALFA
+from tests.lsp.holes import FIRST, cuts, mistakes, offered, rank
 
 BARE = """\
 pluto 1
@@ -48,7 +48,7 @@ def in_alfalfa(old: str, new: str) -> str:
 
 
 def test_what_was_cut_out_is_among_the_first_and_all_that_is_offered_is_legal() -> None:
-    """A share of the thousand holes of `python -m tests.compiler.lsp.holes`."""
+    """A share of the thousand holes of `python -m tests.lsp`."""
     chosen = random.Random(3).sample(cuts(1000), 60)
     among = 0
     for cut in chosen:

@@ -33,8 +33,8 @@ from plutoc.service.editing.operations import (
     operation,
 )
 from plutoc.source import Source
-from tests.compiler.service.model import app_of
-from tests.compiler.service.sequences import EXAMPLES, Tally, run
+from tests.service.model import app_of
+from tests.service.sequences import EXAMPLES, Tally, run
 
 EMPTY = "pluto 1\n\napp ward {\n}\n"
 
@@ -47,7 +47,7 @@ def done(text: str, *operations: Operation) -> str:
 
 
 def test_random_sequences_of_edits_do_what_was_meant() -> None:
-    """A share of `python -m tests.compiler.service`; every operation turns up."""
+    """A share of `python -m tests.service`; every operation turns up."""
     tally = Tally()
     for seed in range(60):
         run(seed, tally)

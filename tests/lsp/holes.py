@@ -1,15 +1,8 @@
-"""Holes cut into the examples: is what stood there among what is offered?
-
-`python -m tests.compiler.lsp.holes` cuts a thousand, and prints the share of them in which the word that was
-cut out, or that was only begun, is among the first five completions, and what was not.
-"""
+"""Holes cut into the examples, and what is offered there."""
 
 from __future__ import annotations
 
-import argparse
 import random
-import time
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -97,40 +90,3 @@ def mistakes(cut: Cut, made: list[str]) -> list[str]:
         for one in Document(path=str(cut.path), text=text).of_names
         if one.severity is Severity.ERROR
     ]
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--holes", type=int, default=1000)
-    parser.add_argument("--seed", type=int, default=0)
-    options = parser.parse_args()
-    ranks: Counter[str] = Counter()
-    missed: Counter[tuple[str, str, str]] = Counter()
-    wrong: Counter[tuple[str, str, str]] = Counter()
-    slowest = []
-    drawn = cuts(options.holes, options.seed)
-    for cut in drawn:
-        begun = time.process_time()
-        made = offered(cut)
-        slowest.append(time.process_time() - begun)
-        found = rank(cut, made)
-        for mistake in mistakes(cut, made):
-            wrong[cut.role, mistake, f"{cut.path.parent.name}, {cut.word}"] += 1
-        ranks[
-            "first" if found == 0 else "five" if found is not None and found < FIRST else "no"
-        ] += 1
-        if found is None or found >= FIRST:
-            missed[cut.role, cut.word, f"{cut.path.parent.name} {found} kept {cut.kept}"] += 1
-    slowest.sort()
-    share = 1 - ranks["no"] / len(drawn)
-    print(f"{len(drawn)} holes: {share:.1%} among the first five, {ranks['first']} the very first")
-    print(
-        f"median {slowest[len(slowest) // 2] * 1000:.0f} ms, p95 {slowest[len(slowest) * 95 // 100] * 1000:.0f} ms, most {slowest[-1] * 1000:.0f} ms"
-    )
-    print(f"{sum(wrong.values())} completions are wrong")
-    for what, where, how in (*sorted(wrong), *sorted(missed)):
-        print(f"  {what}: {where} ({how})")
-
-
-if __name__ == "__main__":
-    main()

@@ -8,8 +8,8 @@ from random import Random
 
 from plutoc.diagnostic import Rejected
 from plutoc.format.run import MeaningChanged
-from tests.compiler.format.layouts import Liberty, Words, laid_out, words_of
-from tests.compiler.format.promises import formatted, keep, meaning
+from tests.format.layouts import Liberty, Words, laid_out, words_of
+from tests.format.promises import formatted, keep, meaning
 from tests.paths import ROOT
 
 EXAMPLES = tuple(path.parent.name for path in sorted(ROOT.glob("examples/*/app.pluto")))

@@ -8,7 +8,7 @@ from plutoc.format.canonical import WIDTH
 from plutoc.format.run import format_source
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
-from tests.compiler.format.layouts import PART
+from tests.format.layouts import PART
 
 
 def formatted(text: str) -> str:

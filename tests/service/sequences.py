@@ -32,9 +32,9 @@ from plutoc.service.editing.operations import (
     SetTitle,
 )
 from plutoc.source import Source, Span
-from tests.compiler.service.model import App, after, app_of, comments
 from tests.equivalence.graphs import random_source
 from tests.paths import ROOT
+from tests.service.model import App, after, app_of, comments
 
 EXAMPLES = sorted((ROOT / "examples").glob("*/app.pluto"))
 KINDS = (
