@@ -13,7 +13,7 @@ from plutoc.service.symbols import Role, at, occurrences, same
 from plutoc.source import Source
 from tests.paths import CASES, ROOT
 
-SOURCES = sorted(CASES.glob("*/app.pluto"))
+SOURCES = sorted(CASES.glob("*/app.pluto"))[1::3]
 RETRY = ROOT / "examples" / "drugs_distribution_retry" / "app.pluto"
 
 
