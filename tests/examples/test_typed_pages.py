@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from plutoc.cli import main
-from tests.examples.typed import ROOT, Reader, Step, is_shown, only_read, steps
+from tests.examples.typed import Reader, Step, is_shown, only_read, steps
+from tests.paths import ROOT
 
 TUTORIAL = [ROOT / "docs/tutorial/README.md", ROOT / "docs/tutorial/exercise.md"]
 PAGES = [*TUTORIAL, ROOT / "docs/sizing.md"]

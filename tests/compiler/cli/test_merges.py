@@ -58,9 +58,11 @@ def merge(
         for own in OWN:
             del side[own]
     for name in sides[1].keys() & sides[2].keys():
-        texts = [side.get(name, b"").decode().splitlines(keepends=True) for side in sides]
-        if texts[1] != texts[2] and Path("crop", name) != alone:
-            Path("crop", name).write_text(conflict(*texts, style))
+        base, mine, other = (
+            side.get(name, b"").decode().splitlines(keepends=True) for side in sides
+        )
+        if mine != other and Path("crop", name) != alone:
+            Path("crop", name).write_text(conflict(base, mine, other, style))
     for name in sides[2].keys() - sides[1].keys():
         Path("crop", name).write_bytes(sides[2][name])
     assert "<<<<<<< " in LOCK.read_text() or alone == LOCK
