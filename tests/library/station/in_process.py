@@ -174,8 +174,9 @@ class Flown:
         app = moving(app, fleet.motion)
         plan = MissionPlan(app, fleet, config.own_folder / "plan.json")
         if plan.is_empty:
-            missions = (EXAMPLES / self.name / "missions.toml").read_text("utf-8")
-            plan.import_toml(missions, plan.revision)
+            files = EXAMPLES / self.name
+            missions = (files / "missions.toml").read_text("utf-8")
+            plan.import_toml(missions, plan.revision, folder=files)
         self.life = Station(app, config, plan)
         self.audit = config.own_folder / "audit.log"
         guard = Guard(host="127.0.0.1", port=8765)

@@ -10,6 +10,9 @@ from pluto_fleet.station.session import FlightSession
 
 from .conftest import Serve
 
+SOON = 0.3
+"""Seconds of the loop's time, which jumps."""
+
 
 def test_a_mistake_in_what_is_shown_leaves_no_page_waiting_and_the_flight_flies_on(
     serve: Serve, monkeypatch: pytest.MonkeyPatch
@@ -34,7 +37,7 @@ def test_a_page_that_has_seen_all_is_answered_when_something_changes_or_in_a_sec
         """Return how long a page waits, if something changes soon or nothing does."""
         begun = loop.time()
         asked = asyncio.ensure_future(station.life.newer("", seen, 0, 0))
-        await asyncio.sleep(0.3)
+        await asyncio.sleep(SOON)
         if change:
             station.life.plan.example(station.life.plan.revision)
         await asked
