@@ -208,7 +208,8 @@ def test_a_trip_that_is_named_twice_flies_once(which: str) -> None:
 
     def twice(mission: Mission[apps.Trip], results: object) -> Verdict:
         trips = [new] * 2 if which == "add" else mission.completed_trips * 2
-        return Verdict(**{which: trips if mission.attempts == 1 else ()})
+        verdict: dict[str, Any] = {which: trips if mission.attempts == 1 else ()}
+        return Verdict(**verdict)
 
     assert judged(twice).count("trip.launched") == 2
 

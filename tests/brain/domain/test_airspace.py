@@ -80,11 +80,6 @@ def test_a_place_is_refused_in_words(point: Point, message: str | None) -> None:
     assert Airspace(size=(20, 12), ceiling=4, no_fly=(triangle, WALL)).problem(point) == message
 
 
-def test_a_free_way_is_straight() -> None:
-    """Without anything between, the way is the end alone."""
-    assert Airspace(no_fly=(WALL,)).route((1, 1, 0), (19, 1, 3)) == ((19, 1, 3),)
-
-
 def test_touching_is_not_entering() -> None:
     """A leg along an edge, or through a corner, is straight."""
     airspace = Airspace(no_fly=(WALL,))
@@ -103,14 +98,6 @@ def test_a_wall_is_walked_around_at_its_shorter_side() -> None:
     assert end == (11, 3, 2)
     there = hypot(1.9, 1.1)
     assert first[2] == pytest.approx(1 + there / (2 * there + 1.2))
-
-
-def test_a_wall_at_the_edge_of_the_map_is_passed_on_its_other_side() -> None:
-    """No drone leaves the map to get around."""
-    wall = ((8.0, 0.0), (9.0, 0.0), (9.0, 5.0), (8.0, 5.0))
-    way = Airspace(size=(20, 12), no_fly=(wall,)).route((6, 1, 1), (11, 1, 1))
-    assert way is not None
-    assert [y for _, y, _ in way] == pytest.approx([5 + MARGIN, 5 + MARGIN, 1])
 
 
 def test_a_drone_leaves_a_concave_area_by_its_mouth() -> None:

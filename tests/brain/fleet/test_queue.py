@@ -157,7 +157,7 @@ def test_the_share_is_that_of_one_of_all_drones() -> None:
     "urgent", [{"priority": 1}, {}], ids=["a higher priority", "a trip that it can fly already"]
 )
 def test_a_drone_that_charges_for_others_is_there_for_what_it_suffices_for(
-    urgent: dict[str, int],
+    urgent: dict[str, Any],
 ) -> None:
     """A new trip, near enough, is flown at once; the others wait on."""
     far = apps.mission("far", *(apps.trip(str(n), 19.0, 10.0) for n in range(2)))

@@ -29,8 +29,6 @@ PLAIN = Airspace(cruise_height=1.2)
 WALL = Airspace(no_fly=(((8, 0), (9, 0), (9, 20), (8, 20)),))
 CLIMB = 1.2 / 0.3
 
-coordinate = st.floats(0, 20)
-
 
 def test_a_flight_from_the_ground_climbs_first() -> None:
     """A climb to cruise height, 5 m at half a metre a second, and the action."""

@@ -221,20 +221,6 @@ def test_a_wrong_value_that_an_action_leaves_is_told(
     assert mission.reason == f"hook spray left a trip that cannot go on: its {said}"
 
 
-@pytest.mark.parametrize(
-    ("line", "said"),
-    [
-        ("mission.patient = None", "patient must be a text, and a hook has put None there"),
-        ("mission.margin = 'soon'", "margin must be a number, and a hook has put 'soon' there"),
-        ("mission.margin = float('nan')", "margin must be a number, and a hook has put nan there"),
-    ],
-)
-def test_a_wrong_value_that_a_modifier_leaves_is_told(line: str, said: str) -> None:
-    app = made(hooks=HOOKS.replace("mission.patient = mission.patient.upper()", line))
-    reason = "hook count_layers left a mission that cannot go on: its "
-    assert app.fly().reason == reason + said
-
-
 def lived(app: Made) -> Living:
     return Living(app.app, *app.missions(), on=default_fleet(app.app))
 
@@ -250,31 +236,6 @@ def test_they_survive_a_crash_and_a_stop(wards: Made, when: float) -> None:
         assert (mission.patient, mission.margin) == ("ADA", 600.0)
         assert [one.layers for one in mission.completed_trips][1:] == [3, 4]
         assert all(one.gentle is True for one in mission.completed_trips)
-
-
-FIELDS = 'mission has patient: text, margin: time = 10 min\n  trip has note: text = "", layers: int, gentle: bool = yes'
-
-
-@pytest.mark.parametrize(
-    ("fields", "said"),
-    [
-        (f"{FIELDS}\n  mission has ward: text", "it has no ward"),
-        (f"{FIELDS}\n  trip has ward: text", "it has no ward"),
-        (FIELDS.replace("layers: int", "layers: text"), "its layers must be a text now"),
-        (FIELDS.replace("patient: text", "patient: bool"), "its patient must be True or False now"),
-        (FIELDS.replace("patient: text, ", ""), "there is no field patient"),
-    ],
-)
-def test_a_mission_is_held_if_the_fields_were_changed(wards: Made, fields: str, said: str) -> None:
-    """It says why, and nothing of it flies."""
-    hooks = HOOKS.replace("    mission.patient = mission.patient.upper()\n", "")
-    other = made(SOURCE.replace(FIELDS, fields), hooks.replace("mission.patient", "1"))
-    life = lived(wards)
-    life.crash(10.0, app=other.app)
-    life.run(2_000.0)
-    (mission,) = life.life.missions
-    assert mission.status.value == "HELD"
-    assert mission.reason == f"it does not fit into the app as it is now: {said}"
 
 
 def test_a_new_trip_with_a_wrong_value_is_told_of_its_evaluator() -> None:

@@ -78,22 +78,6 @@ def test_what_comes_after_all_before_it_waits_without_looking_again_and_again() 
     assert looks < 4 * 40**2
 
 
-def test_a_barrier_holds_until_the_last_round_of_what_is_before_it() -> None:
-    missions = apps.mission("a", apps.trip("1", 3.0), repeat=2), short("b", after=["a"])
-    outcome = apps.flown(*missions, repeater=True)
-    assert len(apps.events(outcome, "trip.launched")) == 4
-    assert (
-        apps.moments(outcome, "mission.created")["b"] == apps.moments(outcome, "mission.ended")["a"]
-    )
-
-
-def test_a_mission_whose_predecessor_was_cancelled_is_told_so() -> None:
-    living = Living(enterable(), long("a"), short("b", after=["a"]))
-    living.at(5.0, lambda: living.life.control.cancel("a"))
-    assert living.run() == ["CANCELLED", "FAILED"]
-    assert living.life.missions[1].reason == 'it comes after mission "a", which is CANCELLED'
-
-
 def test_a_mission_whose_predecessor_is_cancelled_while_it_is_paused_is_told_so() -> None:
     """Nothing else was under way meanwhile."""
     living = Living(enterable(), long("a"), short("b", after=["a"]))
@@ -198,12 +182,6 @@ def test_a_late_mission_with_an_item_aboard_goes_on() -> None:
     mission.promises = {"deadline": 20.0}
     outcome = apps.flown(mission, fail_late=True)
     assert outcome.completed and mission.late
-
-
-def test_allocate_within_counts_where_it_is_over_first() -> None:
-    missions = long("a"), long("b", deadline=20.0)
-    outcome = apps.flown(*missions, fail_late=True, within=10.0)
-    assert "had no drone within 10 s" in outcome.missions[1].reason
 
 
 @pytest.mark.parametrize(("name", "value"), [("deadline", "soon"), ("late", 1), ("promises", None)])

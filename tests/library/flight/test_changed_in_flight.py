@@ -56,26 +56,6 @@ def test_a_change_goes_on_after_the_app_dies() -> None:
     assert violations(living.events, {}) == []
 
 
-def test_a_mission_that_waits_keeps_its_turn_if_its_next_trip_stays() -> None:
-    missions = [apps.mission(name, apps.trip("1", 3), apps.trip("2", 4)) for name in "xab"]
-    living = Living(enterable(), *missions)
-    living.at(2.0, lambda: change(living, {**trip("1", 3), "target": [3, 0.5, 1.2]}, trip("9", 5)))
-    assert living.run() == ["COMPLETED"] * 3
-    assert names(living.named("trip.launched"), "mission")[:3] == ["x", "a", "b"]
-    assert living.named("mission.resumed") == []
-    assert violations(living.events, {}) == []
-
-
-def test_a_paused_mission_goes_on_with_the_changed_trips() -> None:
-    living = Living(enterable(), three_trips())
-    living.at(3.0, lambda: living.life.control.pause("a"))
-    living.at(9.0, lambda: change(living, trip("2", 6), trip("1", 2)))
-    living.at(20.0, lambda: living.life.control.go_on("a"))
-    assert living.run() == ["COMPLETED"]
-    assert names(living.named("trip.completed"), "trip") == ["2", "1"]
-    assert violations(living.events, {}) == []
-
-
 @pytest.mark.parametrize("crashes", [False, True])
 def test_a_delay_that_runs_becomes_another(crashes: bool) -> None:
     mission = apps.mission("a", apps.trip("1", 3, delay=20.0))
@@ -142,17 +122,6 @@ def test_a_mission_without_a_trip_left_and_one_that_has_ended_cannot_be_changed(
     with pytest.raises(BadInput, match=r'no mission "b" is under way'):
         living.life.control.change_trips("b", [trip("1", 3)], None)
     assert living.run() == ["COMPLETED", "CANCELLED"]
-
-
-def test_where_an_item_is_brought_can_be_changed_while_it_is_aboard() -> None:
-    living = Living(enterable(), apps.mission("a", apps.pick("p", 3), apps.release("r", 9)))
-    living.run(3.0)
-    item = living.life.recorder.records.missions["a"]["todo"][-1]["item"]
-    release = {**trip("r", 5), "action": "release_item", "item": item}
-    change(living, trip("2", 4), release)
-    assert living.run() == ["COMPLETED"]
-    assert names(living.named("trip.completed"), "trip") == ["p", "2", "r"]
-    assert violations(living.events, {}) == []
 
 
 def test_an_item_aboard_is_not_sent_farther_than_the_battery_reaches() -> None:

@@ -54,15 +54,6 @@ def test_a_delay_does_not_pass_while_its_mission_is_paused(stopped: bool) -> Non
     assert living.times("trip.launched") == [65.0]
 
 
-def test_the_trip_in_flight_can_be_skipped_and_the_next_one_flies() -> None:
-    living = Living(enterable(), two_trips())
-    living.at(3.0, lambda: living.life.control.skip("a"))
-    assert living.run() == ["COMPLETED"]
-    assert names(living.named("trip.completed"), "trip") == ["2"]
-    assert names(living.named("trip.skipped"), "trip") == ["1"]
-    assert len(living.done_by_drones) == 1
-
-
 def test_a_trip_to_come_can_be_skipped_by_its_name() -> None:
     living = Living(enterable(), two_trips())
     living.at(3.0, lambda: living.life.control.skip("a", "2"))
@@ -91,13 +82,6 @@ def test_what_picks_or_releases_cannot_be_skipped_by_itself() -> None:
     living.run(1.0)
     with pytest.raises(BadInput, match="cancel the mission instead"):
         living.life.control.skip("a")
-
-
-def test_a_cancelled_mission_ends_and_its_drone_comes_home() -> None:
-    living = Living(enterable(), two_trips(), apps.mission("b", apps.trip("1", 4)))
-    living.at(3.0, lambda: living.life.control.cancel("a"))
-    assert living.run() == ["CANCELLED", "COMPLETED"]
-    assert living.life.drones[0].status.value == "FREE"
 
 
 def test_a_mission_with_an_item_aboard_can_be_cancelled() -> None:
@@ -170,14 +154,6 @@ def test_where_a_person_watches_the_app_lives_until_they_have_decided() -> None:
     assert living.run() == ["COMPLETED"]
 
 
-def test_a_mission_that_waits_for_a_decision_can_be_cancelled() -> None:
-    living = spraying("once")
-    living.crash(10.0)
-    living.run()
-    living.decide_at_rest("a", "cancel")
-    assert living.run() == ["CANCELLED"]
-
-
 def test_an_action_that_is_safe_to_repeat_is_flown_again() -> None:
     living = spraying("safe")
     living.crash(10.0)
@@ -194,12 +170,6 @@ def test_after_a_stop_nothing_else_is_done() -> None:
         with pytest.raises(BadInput, match="everything was stopped: resume the journal first"):
             command("a")
     assert living.kernel.run(living.life.control.stopped)
-
-
-def test_an_app_ends_when_all_that_is_left_waits_for_a_decision() -> None:
-    living = spraying("once")
-    living.at(10.0, lambda: living.life.control.pause("a"))
-    assert living.run() == ["UNCERTAIN"]
 
 
 def test_a_probe_is_asked_when_a_mission_is_paused_during_its_own_action(

@@ -24,13 +24,6 @@ def standing(living: Living) -> list[DroneStatus]:
     return [drone.status for drone in living.life.drones]
 
 
-def test_a_trip_that_waits_is_flown_before_others_once_it_has_a_higher_priority() -> None:
-    living = Living(enterable(), *missions("a", "b", "c"), on=ONE_DRONE)
-    living.at(2.0, lambda: living.life.control.prioritise("c", "1", 5))
-    assert living.run() == ["COMPLETED"] * 3
-    assert names(living.named("trip.launched"), "mission") == ["a", "c", "b"]
-
-
 def test_a_trip_to_come_keeps_the_priority_that_it_was_given_though_the_app_dies() -> None:
     two = apps.mission("b", apps.trip("1", 3), apps.trip("2", 3))
     living = Living(enterable(), *missions("a"), two, *missions("c"), on=ONE_DRONE)
@@ -40,30 +33,6 @@ def test_a_trip_to_come_keeps_the_priority_that_it_was_given_though_the_app_dies
     assert living.run() == ["COMPLETED"] * 3
     launched = living.named("trip.launched")
     assert names(launched, "mission")[-3:] == ["b", "b", "c"]
-
-
-def test_only_trips_that_are_still_to_do_have_a_priority_to_change() -> None:
-    living = Living(enterable(), *missions("a"))
-    living.run(1.0)
-    with pytest.raises(BadInput, match=r'has no trip "9" to do; it has "1"'):
-        living.life.control.prioritise("a", "9", 1)
-
-
-def test_a_retired_drone_flies_its_trip_to_the_end_and_is_then_given_to_no_mission() -> None:
-    living = Living(enterable(), *missions("a", "b", "c", "d"), on=TWO_DRONES)
-    living.at(2.0, lambda: living.life.control.retire("cf1"))
-    assert living.run() == ["COMPLETED"] * 4
-    assert names(living.named("trip.launched"), "drone").count("cf1") == 1
-    assert standing(living) == [DroneStatus.OFFLINE, DroneStatus.FREE]
-
-
-def test_missions_wait_for_a_drone_that_is_retired_until_it_is_back() -> None:
-    """It can fly again: nothing has failed."""
-    living = Living(enterable(), *missions("a", "b"), on=ONE_DRONE)
-    living.at(2.0, lambda: living.life.control.retire("cf1"))
-    living.at(500.0, lambda: living.life.control.bring_back("cf1"))
-    assert living.run() == ["COMPLETED"] * 2
-    assert living.times("trip.launched")[1] >= 500.0
 
 
 def test_a_retired_drone_stays_so_when_the_app_dies() -> None:
@@ -88,27 +57,12 @@ def test_a_retired_drone_that_stands_in_the_field_comes_home() -> None:
     assert who.distance(who.home) < 0.1
 
 
-@pytest.mark.parametrize("what", ["retire", "bring_back"])
-def test_a_drone_that_is_not_in_the_fleet_is_refused_with_those_that_are(what: str) -> None:
-    living = Living(enterable(), *missions("a"), on=ONE_DRONE)
-    living.run(1.0)
-    with pytest.raises(BadInput, match=r'no drone "cf9" is in the fleet; there are: "cf1"'):
-        getattr(living.life.control, what)("cf9")
-
-
 def test_missions_can_be_added_while_others_fly_and_a_later_life_knows_them() -> None:
     living = Living(enterable(), *missions("a"), on=TWO_DRONES)
     living.at(2.0, lambda: living.life.add(missions("b")))
     living.crash(4.0)
     assert living.run() == ["COMPLETED", "COMPLETED"]
     assert [mission.name for mission in living.life.missions] == ["a", "b"]
-
-
-def test_a_mission_is_not_added_under_a_name_that_has_flown() -> None:
-    living = Living(enterable(), *missions("a"))
-    living.run(2.0)
-    with pytest.raises(BadInput, match='a mission "a" has been started already'):
-        living.life.add(missions("a"))
 
 
 def test_nothing_is_added_before_it_is_known_where_the_drones_are() -> None:

@@ -49,20 +49,6 @@ def test_a_drone_that_has_joined_is_there_in_every_later_life() -> None:
     assert violations(living.events, {}) == []
 
 
-def test_a_drone_that_has_joined_can_be_the_one_that_carries() -> None:
-    """And its mission goes on with it, also after a pause."""
-    mission = apps.mission("a", apps.pick("p", 3), apps.release("r", 15))
-    living = Living(enterable(), long("b"), mission)
-    living.at(1.0, lambda: join(living))
-    living.at(20.0, lambda: living.life.control.pause("a"))
-    living.at(60.0, lambda: living.life.control.go_on("a"))
-    assert living.run() == ["COMPLETED", "COMPLETED"]
-    carried = [one for one in living.named("trip.completed") if one["mission"] == "a"]
-    assert names(carried, "drone") == ["cf9", "cf9"]
-    assert len(living.named("mission.paused")) == 1
-    assert violations(living.events, {}) == []
-
-
 def test_a_drone_that_cannot_join_is_told_why() -> None:
     living = Living(enterable(), long("a"))
     with pytest.raises(BadInput, match="the drones are just being asked where they are"):
@@ -83,10 +69,3 @@ def test_a_drone_that_cannot_join_is_told_why() -> None:
         assert str(refusal.value).startswith(why), refusal.value
     assert living.run() == ["COMPLETED"]
     assert living.named("drone.joined") == []
-
-
-def test_what_is_no_drone_does_not_break_a_gateway() -> None:
-    living = Living(enterable(), long("a"))
-    living.run(3.0)
-    assert living.gateway.join({"drone": 7}).startswith("that is no drone: KeyError")
-    assert living.gateway.join({"drone": {"id": "x"}, "real": None}).startswith("that is no drone")

@@ -176,14 +176,6 @@ def test_a_stopped_app_goes_on_where_it_was(how: Down, tried: Tried) -> None:
     assert [trip.attempt for trip in lived.missions[0].completed_trips] == [1, 1]
 
 
-def test_a_stop_before_the_app_lives_stops_it(tried: Tried) -> None:
-    """Ctrl-C pressed at once is meant."""
-    stops = Stops()
-    stops.stop(Down.LAND)
-    assert asyncio.run(tried.live(stops)).end is End.STOPPED
-    assert "trip.launched" not in tried.kinds
-
-
 def test_an_app_whose_gateway_dies_begins_another_life(tried: Tried) -> None:
     def crash() -> None:
         assert tried.gateway is not None

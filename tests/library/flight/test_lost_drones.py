@@ -75,24 +75,6 @@ def test_a_lost_drone_flies_again_when_a_person_has_looked_after_it() -> None:
     assert "cf1 was lost, and a person has looked after it" in str(line_of(back))
 
 
-def test_one_that_is_as_lost_as_before_stays_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It was not looked after: it is asked, and it is LOST again, with the reason."""
-
-    async def drone_report(drone: str) -> DroneReport:
-        return replace(fleet.navigation.bodies[drone].report, problems=("it lies on its back",))
-
-    fleet = living(*"abcd")  # the others fly long enough for it to be asked
-    monkeypatch.setattr(fleet.navigation, "mended", lambda _: None)
-    fleet.at(20.0, lambda: vars(fleet.navigation).update(drone_report=drone_report))
-    crashes(fleet, 5.0)
-    fleet.at(40.0, lambda: fleet.life.control.bring_back("cf1"))
-    assert fleet.run() == ["COMPLETED"] * 4
-    assert drone(fleet).status is DroneStatus.LOST
-    assert len(fleet.named("drone.lost")) == 2
-    (event,) = fleet.named("drone.not_ready")
-    assert event["reason"] == "it lies on its back"
-
-
 def test_a_lost_drone_stays_lost_in_the_next_life_though_it_calls_itself_well() -> None:
     """The app dies; the drone is put home and is well, but no person has said that they saw to it."""
     fleet = living(*"abcdefgh")
@@ -112,19 +94,6 @@ def test_a_lost_drone_stays_lost_in_the_next_life_though_it_calls_itself_well() 
     assert records(fleet).lost == {}
 
 
-def test_a_new_journal_knows_who_was_lost_and_who_was_brought_back_before() -> None:
-    """Drones do not heal because a journal is new."""
-    known = Records()
-    before = {"cf1": {"reason": "cf1 crashed", "at": [1.0, 2.0, 0.0]}}
-    begun = {"t": 0.0, "event": "journal.begun", "lost": before, "mended": ["cf2"]}
-    known.take({**begun, "retired": ["cf3"]})
-    assert (known.lost, known.mended, known.retired) == (before, ["cf2"], ["cf3"])
-    known.take({"t": 1.0, "event": "drone.lost", "drone": "cf1", "at": [9.0, 9.0, 0.0]})
-    assert known.lost["cf1"]["at"] == [1.0, 2.0, 0.0]
-    known.take({"t": 2.0, "event": "drone.brought_back", "drone": "cf1", "lost": True})
-    assert (known.lost, known.mended) == ({}, ["cf2", "cf1"])
-
-
 def test_where_every_drone_is_lost_nothing_begins() -> None:
     """It says who, why, and what to do."""
     fleet = living("a", homes=1)
@@ -137,14 +106,6 @@ def test_where_every_drone_is_lost_nothing_begins() -> None:
     assert fleet.life.control.whole is not None
     with pytest.raises(BadInput, match="cf1: it is lost, and was not brought back"):
         fleet.life.control.whole.result()
-
-
-def test_a_drone_that_is_neither_retired_nor_lost_need_not_be_brought_back() -> None:
-    """Nothing is on record of that."""
-    fleet = living("a")
-    fleet.run(2.0)
-    assert fleet.life.control.bring_back("cf1") == "cf1 is neither retired nor lost"
-    assert not fleet.named("drone.brought_back")
 
 
 def test_a_battery_that_charges_slowly_is_waited_for() -> None:

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import Any
-
 import pytest
 
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.trials.invariants import violations
 from tests.kit import apps
@@ -54,35 +50,6 @@ def test_no_report_comes_of_an_action_and_a_person_is_asked(answer: str) -> None
     assert violations(living.events, {}) == []
 
 
-def test_the_question_is_still_asked_after_the_app_dies() -> None:
-    """Also if it dies at the very instant at which the drone forgets."""
-    asked: list[float] = []
-    for dies in (None, 0.0, 5.0):
-        living = Living(enterable(), item_mission())
-        living.at(2.0, partial(living.life.control.mishap, "cf1", "uncertain"))
-        if dies is not None:
-            living.crash(asked[0] + dies)
-        assert living.run() == ["UNCERTAIN"]
-        asked += living.times("mission.uncertain")
-        living.decide_at_rest("a", "done")
-        assert living.run() == ["COMPLETED"]
-        assert len(living.done_by_drones) == 2
-        assert violations(living.events, {}) == []
-
-
-def test_an_action_of_the_apps_own_is_cut_short_and_asked_about() -> None:
-    def spray(drone: Any, trip: Any, context: Any) -> None:
-        """Spray."""
-
-    action = OwnAction(name="spray", hook=spray, repeat="once")
-    mission = apps.mission("a", apps.trip("1", 3, action="spray"))
-    living = patient(Living(enterable(actions=[action]), mission))
-    living.at(2.0, lambda: living.life.control.mishap("cf1", "uncertain"))
-    living.at(60.0, lambda: living.life.control.decide("a", "not-done"))
-    assert living.run() == ["COMPLETED"]
-    assert violations(living.events, {}) == []
-
-
 def test_what_is_safe_to_do_once_more_is_asked_about_by_no_one() -> None:
     living = Living(enterable(), apps.mission("a", apps.trip("1", 3)), on=two_drones())
     living.run(2.0)
@@ -123,12 +90,3 @@ def test_a_drone_on_the_ground_and_one_that_is_down_have_no_mishap() -> None:
     living.run(2.2)
     assert stands == ["cf1 stands on the ground: mishaps happen in the air"]
     assert again[0].startswith("cf2 is down already: cf2 lost its link")
-
-
-def test_real_drones_have_no_mishaps() -> None:
-    living = Living(enterable(), item_mission())
-    living.gateway.rehearse = None
-    living.run(2.0)
-    answers = happens(living, "cf1", "crash")
-    assert living.run() == ["COMPLETED"]
-    assert answers == ["mishaps happen to simulated drones only"]

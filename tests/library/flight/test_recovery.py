@@ -10,12 +10,10 @@ import pytest
 
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.fold import Records
-from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.model import Drone, Results, Trip
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context, Verdict
-from pluto_fleet.shared.time.future import Future
 from tests.kit import apps
 from tests.kit.living import Living, enterable, names
 
@@ -76,13 +74,6 @@ def test_a_delay_keeps_its_rest_through_a_stop_and_passes_through_a_crash() -> N
     assert died.times("trip.launched") == [60.0]
 
 
-def test_a_flight_that_goes_on_without_its_brain_is_taken_up_again() -> None:
-    living = Living(enterable(), apps.mission("a", apps.trip("1", 15)))
-    living.crash(5.0, down=3.0)
-    living.run()
-    assert len(living.times("trip.launched")) == 1
-
-
 async def _slow_judge(mission: apps.Mission, results: Results[apps.Mission, Trip]) -> Verdict:
     return Verdict(log=(f"{len(results.new)} new of {len(results.all)}",))
 
@@ -94,22 +85,6 @@ def test_results_and_what_was_judged_of_them_survive() -> None:
     living.crash(48.0)
     assert living.run() == ["COMPLETED"]
     assert names(living.named("log"), "text") == ["2 new of 2", "2 new of 4"]
-
-
-def test_a_priority_that_was_raised_stays_so() -> None:
-    """The trip fails once, is raised, and waits for the only drone when the app dies."""
-    fails = Faults(action=1.0)
-    living = Living(
-        enterable(attempts=2), apps.mission("a", apps.trip("1", 3, priority=4)), faults=fails
-    )
-    living.crash(10.0)
-    assert living.run() == ["FAILED"]
-    assert names(living.named("trip.launched"), "attempt") == [1, 2]
-    records = Records()
-    for event in living.memory.read().events:
-        records.take(event)
-    (trip,) = records.missions["a"]["todo"]
-    assert trip["fields"]["priority"] == 5
 
 
 def test_what_a_hook_did_to_its_mission_is_remembered() -> None:
@@ -162,34 +137,6 @@ def test_the_records_of_a_life_are_what_its_journal_says() -> None:
     assert json.loads(json.dumps(records.data)) == records.data
 
 
-def test_a_time_of_day_is_not_moved_by_a_stop() -> None:
-    mission = apps.mission("a", apps.trip("1", 3), at=3600.0)
-    living = Living(enterable(clock=True), mission)
-    living.stop(20.0, rest=100.0)
-    living.run()
-    assert living.times("trip.launched") == [3600.0]
-
-
-def test_a_drone_whose_flight_was_over_for_its_dead_brain_is_called_off() -> None:
-    """The brain gives the trip up, and dies before the gateway hears of it."""
-    living = Living(
-        enterable(watch=apps.timed), apps.mission("a", apps.trip("1", 9), safe_time=5.0)
-    )
-
-    async def never(drone: str) -> bool:
-        return await Future[bool]()
-
-    def deaf() -> None:
-        vars(living.gateway)["break_off"] = lambda drone: None
-        vars(living.gateway.commander)["recover"] = never
-
-    living.at(4.9, deaf)
-    living.at(5.5, lambda: delattr(living.gateway, "break_off"))
-    living.crash(5.2)
-    assert living.run() == ["FAILED"]
-    assert living.done_by_drones == []
-
-
 @pytest.mark.parametrize(
     ("seen", "end", "flights"),
     [
@@ -217,18 +164,6 @@ async def _spray(drone: Drone, trip: Trip, context: Context) -> None:
     await context.sleep(10.0)
 
 
-def test_a_probe_that_fails_leaves_it_to_a_person(monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(drone: Drone, trip: Trip) -> bool:
-        raise OSError("no camera")
-
-    monkeypatch.setattr(sys.modules[__name__], "spray_done", broken, raising=False)
-    app = enterable(actions=(OwnAction(name="spray", hook=_spray),))
-    living = Living(app, apps.mission("a", apps.trip("1", 3, action="spray")))
-    living.crash(10.0)
-    assert living.run() == ["UNCERTAIN"]
-    assert "OSError: no camera" in str(living.named("log")[-1]["text"])
-
-
 @pytest.mark.parametrize(("answer", "then"), [("done", "COMPLETED"), ("cancel", "FAILED")])
 def test_a_mission_that_comes_after_an_uncertain_one_does_not_keep_the_run_alive(
     answer: str, then: str
@@ -243,17 +178,3 @@ def test_a_mission_that_comes_after_an_uncertain_one_does_not_keep_the_run_alive
     assert living.run() == ["UNCERTAIN", "UNEXECUTED", "UNEXECUTED"]
     living.decide_at_rest("a", answer)
     assert living.run()[1:] == [then, then]
-
-
-def test_missions_that_come_after_others_are_called_off_or_paused_while_they_wait() -> None:
-    """What is left is flown to its end."""
-    a = apps.mission("a", apps.trip("1", 15.0))
-    b = apps.mission("b", apps.trip("1", 3.0), promises={"after": ["a"]})
-    c = apps.mission("c", apps.trip("1", 3.0), promises={"after": ["a"]})
-    living = Living(enterable(), a, b, c)
-    living.at(2.0, lambda: living.life.control.pause("b"))
-    living.at(3.0, lambda: living.life.control.cancel("c"))
-    living.at(4.0, lambda: living.life.control.go_on("b"))
-    assert living.run() == ["COMPLETED", "COMPLETED", "CANCELLED"]
-    (ended,) = [one for one in living.named("mission.ended") if one["mission"] == "a"]
-    assert living.times("trip.launched")[-1] >= float(str(ended["t"]))

@@ -17,7 +17,6 @@ from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.shared.time.kernel import FLEET, EventKind
 from tests.kit import apps, in_real_time
-from tests.kit.command import python
 
 FAST = Category(name="scout", speed=200.0)
 LOW = Airspace(cruise_height=0.003)
@@ -97,37 +96,6 @@ def test_any_error_of_a_hook_ends_its_mission_and_never_hangs(
         raise error
 
     assert says in hooked(raises)
-
-
-STUCK = """
-import asyncio, threading
-from pluto_fleet.process.realtime import RealTime
-
-async def main():
-    kernel = RealTime()
-    inside = threading.Event()
-
-    def stuck():
-        inside.set()
-        threading.Event().wait()
-
-    task = kernel.spawn(kernel.call_hook(stuck), 0, "hook")
-    running = asyncio.ensure_future(kernel.run(task))
-    while not inside.is_set():
-        await asyncio.sleep(0)
-    running.cancel()
-    kernel.close()
-
-asyncio.run(main())
-print("left")
-"""
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_a_hook_that_never_comes_back_keeps_no_one_from_leaving() -> None:
-    ended = python("-c", STUCK)
-    assert (ended.out, ended.err) == ("left\n", "")
 
 
 def test_time_can_pass_faster_than_on_the_wall() -> None:

@@ -23,7 +23,6 @@ from pluto_fleet.process.ipc import (
     address_in,
     ask,
     listening,
-    new_address,
     publish,
     withdraw,
 )
@@ -134,16 +133,6 @@ def test_what_makes_no_sense_is_refused(request_: dict[str, object], note: Path)
     assert told.calls == []
 
 
-def test_the_words_of_a_refusal_arrive(note: Path) -> None:
-    request = {"command": "decide", "mission": "Süd", "answer": "done"}
-
-    def client() -> None:
-        with pytest.raises(BadInput, match="there is no mission Süd"):
-            ask(note, request, 5)
-
-    talk(note, lambda asked: perform(Told(), asked), client)
-
-
 @pytest.mark.parametrize(
     "line",
     [
@@ -171,19 +160,6 @@ def test_a_strangers_line_is_answered_and_does_no_harm(line: bytes, note: Path) 
                 assert json.loads(stranger.recv(MAX_LINE))["ok"] is False
             except ConnectionError:  # it has hung up on who talks too much
                 assert len(line) > MAX_LINE
-        return ask(note, {"command": "pause", "mission": None}, 5)
-
-    assert talk(note, lambda asked: perform(told, asked), client) == "did pause"
-
-
-def test_who_hangs_up_early_does_no_harm(note: Path) -> None:
-    told = Told()
-
-    def client() -> str:
-        for words in (b"", b'{"command"'):
-            with socket.socket(socket.AF_UNIX) as rude:
-                rude.connect(str(address_in(note)))
-                rude.sendall(words)
         return ask(note, {"command": "pause", "mission": None}, 5)
 
     assert talk(note, lambda asked: perform(told, asked), client) == "did pause"
@@ -265,15 +241,6 @@ def test_a_folder_that_others_may_enter_is_not_trusted(note: Path, tmp_path: Pat
     (tmp_path / "open").chmod(0o755)
     publish(note, tmp_path / "open" / "s")
     assert address_in(note) is None
-
-
-def test_what_a_killed_app_left_behind_goes(note: Path) -> None:
-    """With the next one that listens."""
-    left = new_address(note)
-    publish(note, left)
-    left.touch()
-    talk(note, lambda asked: "", lambda: None)
-    assert not left.parent.exists()
 
 
 def test_a_note_cannot_make_anything_else_go(note: Path, tmp_path: Path) -> None:

@@ -33,13 +33,6 @@ def test_results_and_prints_come_in_order(jobs: int, capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.long
-def test_what_is_not_wanted_is_not_printed(capsys: pytest.CaptureFixture[str]) -> None:
-    """It would drown the answer."""
-    assert sum(in_workers(squared, range(5), 2, quiet=True)) == 30
-    assert capsys.readouterr() == ("", "")
-
-
-@pytest.mark.long
 @pytest.mark.parametrize("jobs", [1, 7])
 def test_which_tasks_share_a_process_does_not_depend_on_the_jobs(jobs: int) -> None:
     """So what one leaves behind for the next is always the same."""
@@ -74,24 +67,6 @@ def test_an_error_comes_in_its_turn(jobs: int) -> None:
     assert "in fails" in str(raised.value.__cause__)
 
 
-class Odd(Exception):
-    """An error that no other process can read."""
-
-    def __init__(self, one: int, two: int) -> None:
-        super().__init__("odd")
-
-
-@pytest.mark.long
-def test_an_error_that_cannot_be_sent_is_told_nevertheless() -> None:
-    """By its class and its text."""
-
-    def odd(_: int) -> None:
-        raise Odd(1, 2)
-
-    with pytest.raises(RuntimeError, match="Odd: odd"):
-        list(in_workers(odd, [0], 1))
-
-
 def dies(how: Callable[[], object]) -> Callable[[int], int]:
     def work(number: int) -> int:
         if number == 4:
@@ -110,17 +85,15 @@ def test_a_worker_that_dies_is_told_with_its_task() -> None:
 
 
 @pytest.mark.long
-def test_a_hook_cannot_leave_by_itself() -> None:
-    """As it cannot anywhere else."""
-    with pytest.raises(SystemExit, match=r"os._exit\(3\)"):
-        list(in_workers(dies(lambda: os._exit(3)), range(5), 1))
-
-
-@pytest.mark.long
 @pytest.mark.usefixtures("no_worker_left")
 def test_who_stops_early_leaves_no_worker() -> None:
     """Though it would go on for a minute."""
-    work = in_workers(lambda number: number and signal.pause(), [0, 1, 2], 3)
+
+    def work_on(number: int) -> None:
+        if number:
+            signal.pause()
+
+    work = in_workers(work_on, [0, 1, 2], 3)
     assert isinstance(work, Generator)
     next(work)
     work.close()

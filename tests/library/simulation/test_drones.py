@@ -38,46 +38,6 @@ def test_commands_return_when_they_are_done() -> None:
     assert navigation.flown("cf2") == 0
 
 
-def test_a_drone_is_seen_between_two_places() -> None:
-    """A look in the middle of a leg finds it there."""
-    kernel, navigation = at_home()
-    fly(kernel, navigation.takeoff("cf1", 1.2, None))
-    leg = kernel.spawn(navigation.go_to("cf1", (4, 5, 1.2)), FLEET, "leg")
-    advance(kernel, 2.5)
-    assert navigation.telemetry["cf1"].location == pytest.approx((1.75, 2, 1.2))
-    assert navigation.flown("cf1") == pytest.approx(1.2 + 1.25)
-    kernel.run(leg)
-
-
-def test_a_battery_drains_in_the_air_and_charges_in_the_dock() -> None:
-    """1/420 a second while it flies, 1/1200 at home, nothing elsewhere on the ground."""
-    kernel, navigation = at_home()
-    telemetry = navigation.telemetry["cf1"]
-
-    async def there() -> None:
-        await navigation.takeoff("cf1", 1.2, None)
-        await navigation.go_to("cf1", (4, 5, 1.2))
-        await navigation.land("cf1")
-
-    async def back() -> None:
-        await navigation.takeoff("cf1", 1.2, None)
-        await navigation.go_to("cf1", (1.1, 1.1, 1.2))
-        await navigation.land("cf1")
-
-    fly(kernel, there())
-    assert telemetry.battery_level == pytest.approx(1 - 18 / 420)
-    advance(kernel, 1000)
-    assert telemetry.battery_level == pytest.approx(1 - 18 / 420)
-    begin = kernel.now
-    fly(kernel, back())
-    level = 1 - (18 + kernel.now - begin) / 420
-    assert telemetry.battery_level == pytest.approx(level)
-    advance(kernel, 60)
-    assert telemetry.battery_level == pytest.approx(level + 60 / 1200)
-    advance(kernel, 9999)
-    assert telemetry.battery_level == 1
-
-
 def test_a_cancelled_drone_hovers_where_it_is() -> None:
     """Half-way is where it stays, draining, until it is told otherwise."""
     kernel, navigation = at_home()
@@ -92,37 +52,6 @@ def test_a_cancelled_drone_hovers_where_it_is() -> None:
     fly(kernel, navigation.go_to("cf1", (2.5, 4, 1.2)))
     assert kernel.now == pytest.approx(41)
     assert navigation.flown("cf1") == pytest.approx(1.2 + 2.5 + 1)
-
-
-@pytest.mark.parametrize(("seconds", "height"), [(1.0, 0.3), (6.0, 0.6)])
-def test_climbs_and_landings_can_be_cancelled(seconds: float, height: float) -> None:
-    """A drone that was on its way up or down hovers in between, and can still land."""
-    kernel, navigation = at_home()
-
-    async def up_and_down() -> None:
-        await navigation.takeoff("cf1", 1.2, order())
-        await navigation.land("cf1")
-
-    flight = kernel.spawn(up_and_down(), FLEET, "flight")
-    advance(kernel, seconds)
-    flight.cancel()
-    telemetry = navigation.telemetry["cf1"]
-    assert telemetry.location == pytest.approx((1, 1, height))
-    assert not telemetry.landed
-    fly(kernel, navigation.takeoff("cf1", 1.2, None))  # it flies already: it does not rise
-    assert kernel.now == seconds
-    fly(kernel, navigation.land("cf1"))
-    assert kernel.now == pytest.approx(seconds + height / 0.3)
-    assert telemetry.landed
-
-
-def test_a_cancelled_action_has_not_happened() -> None:
-    """Nothing is picked by half."""
-    kernel, navigation = hovering()
-    picking = kernel.spawn(navigation.act("cf1", "pick_item", {}, PILLS), FLEET, "pick")
-    advance(kernel, 1.9)
-    picking.cancel()
-    assert navigation.carrying("cf1") is None
 
 
 def test_an_item_is_carried_from_pick_to_release() -> None:

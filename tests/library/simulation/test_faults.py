@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.shared.alone.faults import Faults, draw
 from pluto_fleet.shared.domain.errors import Failure
-from pluto_fleet.shared.domain.model import Item, Point
+from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.fleet.reach import docked
 from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.shared.time.virtual import VirtualTime
@@ -26,7 +26,6 @@ from tests.library.simulation.flights import (
 )
 
 FAR = (4.0, 5.0, 1.2)
-PILLS = Item(name="pills", mass=0.004)
 
 
 async def flight(navigation: Team, target: Point = FAR) -> object:
@@ -88,29 +87,6 @@ def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
     assert telemetry.location == pytest.approx((*place_at(drawn)[:2], 0.0))
 
 
-def test_a_drone_that_fails_as_it_leaves_the_ground_stays_there() -> None:
-    """With nothing in its battery it does not rise, and it is not taken to be up there."""
-    kernel, navigation = at_home(battery_level=0.0)
-    error = failure(kernel, navigation.takeoff("cf1", 1.2, order()))
-    telemetry = navigation.telemetry["cf1"]
-    assert error.failure is Failure.BATTERY
-    assert (kernel.now, telemetry.location, telemetry.landed) == (0.0, HOME, True)
-
-
-def test_a_crash_loses_the_item() -> None:
-    """What was aboard is gone."""
-    kernel, navigation = at_home(Faults(crash=1))
-
-    async def carry() -> None:
-        await navigation.takeoff("cf1", 1.2, None)
-        await navigation.act("cf1", "pick_item", {}, PILLS)
-        await navigation.takeoff("cf1", 1.2, order())
-        await navigation.hold("cf1")
-
-    assert failure(kernel, carry()).failure is Failure.CRASH
-    assert navigation.carrying("cf1") is None
-
-
 def test_a_lost_link_brings_the_drone_down_by_itself() -> None:
     """It lands below where it was, takes no commands, and flies home when the link is back."""
     kernel, navigation = at_home(Faults(link=1), seed=2)
@@ -131,24 +107,6 @@ def test_a_lost_link_brings_the_drone_down_by_itself() -> None:
     assert kernel.now == pytest.approx(moment + 20 + 2 * CLIMB + home**0.5 / 0.5)
     assert telemetry.location == pytest.approx(HOME)
     assert telemetry.landed
-
-
-def test_an_empty_battery_is_noticed_at_that_moment() -> None:
-    """With a hundredth left it flies for 4.2 s and no longer; a person carries it home."""
-    kernel, navigation = at_home(battery_level=0.01)
-    telemetry = navigation.telemetry["cf1"]
-    error = failure(kernel, flight(navigation))
-    assert error.failure is Failure.BATTERY
-    assert str(error) == "cf1 ran out of battery at (1.06, 1.08)"
-    assert kernel.now == pytest.approx(4.2)
-    assert (telemetry.battery_level, telemetry.landed) == (0, True)
-    fly(kernel, kernel.sleep(100))
-    assert telemetry.battery_level == 0
-    assert fly(kernel, navigation.recover("cf1"))
-    assert kernel.now == pytest.approx(404.2)
-    assert telemetry.location == HOME
-    fly(kernel, kernel.sleep(120))
-    assert telemetry.battery_level == pytest.approx(0.1)
 
 
 def test_a_mishap_comes_even_without_commands() -> None:
@@ -179,18 +137,6 @@ def test_what_goes_wrong_ends_with_the_landing() -> None:
         await navigation.land("cf1")
 
     fly(kernel, short())
-
-
-def test_a_cancelled_recovery_can_be_asked_for_again() -> None:
-    """Half-way home the drone hovers; asked again, it comes."""
-    kernel, navigation = at_home(Faults(action=1))
-    failure(kernel, flight(navigation))
-    recovery = kernel.spawn(navigation.recover("cf1"), FLEET, "recovery")
-    fly(kernel, kernel.sleep(5))
-    recovery.cancel()
-    assert navigation.telemetry["cf1"].location == pytest.approx((2.5, 3, 1.2))
-    assert fly(kernel, navigation.recover("cf1"))
-    assert navigation.telemetry["cf1"].location == HOME
 
 
 @given(st.integers(0, 300), st.floats(0, 80), st.floats(0.005, 1))
