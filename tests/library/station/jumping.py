@@ -45,6 +45,8 @@ class JumpingLoop(asyncio.SelectorEventLoop):
 
     def __init__(self) -> None:
         self.now = 1000.0
+        self.goes_on = False
+        """Whether time passes as it does outside while a thread works; else none does."""
         self._threads = 0
         selector = _Selector()
         selector.passes = self._pass
@@ -55,9 +57,13 @@ class JumpingLoop(asyncio.SelectorEventLoop):
         return self.now
 
     def _pass(self, seconds: float) -> float:
-        passed = min(seconds, A_LOOK) if self._threads else seconds
-        self.now += passed
-        return passed if self._threads else 0.0
+        if not self._threads:
+            self.now += seconds
+            return 0.0
+        waits = min(seconds, A_LOOK)
+        if self.goes_on:
+            self.now += waits
+        return waits
 
     def run_in_executor(  # type: ignore[override]  # as `asyncio` has it, but for a type variable
         self, executor: Executor | None, func: Callable[..., Any], *args: Any

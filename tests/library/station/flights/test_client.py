@@ -52,7 +52,11 @@ def on_a_port(station: Flown, **guard: Any) -> Iterator[str]:
 
 def by(station: Flown, program: Callable[[], T]) -> T:
     """Run a program beside the station."""
-    return station.world.run(asyncio.to_thread(program))
+    station.world.loop.goes_on = True
+    try:
+        return station.world.run(asyncio.to_thread(program))
+    finally:
+        station.world.loop.goes_on = False
 
 
 def test_the_example_of_the_page_on_the_interface_prints_what_it_says(serve: Serve) -> None:
