@@ -41,7 +41,7 @@ class _Selector(selectors.DefaultSelector):
 
 
 class JumpingLoop(asyncio.SelectorEventLoop):
-    """Sockets are those of this process; what a thread is asked to do takes no time but its own."""
+    """Sockets are those of this process; what a thread is asked to do takes no time."""
 
     def __init__(self) -> None:
         self.now = 1000.0

@@ -150,6 +150,7 @@ def test_a_flight_is_told_as_it_is_described_and_the_same_by_the_next_station(se
     assert (dose["kind"], dose["parameters"]) == ("handling", {"dose": 2e-05})
     station.start()
     assert station.get("/api/results.json") == results
+    assert station.ask("GET", "/api/results.json", flight="nowhere").status == 404
     packed = station.ask("GET", "/api/results.zip").file
     assert packed is not None
     with ZipFile(packed) as archive:

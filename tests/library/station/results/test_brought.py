@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Any
 
 from pluto_fleet.shared.domain.actions import BUILT_IN, Parameter
@@ -123,6 +124,20 @@ def test_what_an_action_returned_is_downloaded_as_it_is_and_shown_in_words() -> 
     assert shown("yes") == ("yes", "yes")
     assert shown(3) == (3, 3)
     assert shown(123_456_789) == ("123456789", 123_456_789)
+
+
+def test_a_photo_has_an_address_where_its_camera_has_left_a_picture() -> None:
+    photo = Photo(position=(1.0, 2.0, 1.0), width=1.0, height=1.0, sees=("bloom",))
+    address = "/api/photo?result=1&flight=a-flight"
+    for file, picture in ((None, None), ("w1-1.png", address)):
+        feed = Feed(Sprays(), {}, "a-flight")  # type: ignore[arg-type]
+        did = {"action": "take_photo", "target": [1.0, 2.0, 1.0], "parameters": {}}
+        event = {"t": 1.0, "event": "trip.completed", "mission": "F", "trip": "A", "drone": "cf1"}
+        feed.take({**event, "result": value_data(replace(photo, file=file)), "did": did})
+        [found] = feed.brought()
+        assert isinstance(found, dict)
+        value: Any = found["value"]
+        assert (found["kind"], value["sees"], value["picture"]) == ("photo", ["bloom"], picture)
 
 
 def test_an_action_that_returned_nothing_was_done_all_the_same() -> None:
