@@ -112,13 +112,11 @@ class Contexts:
         self._browser, self._watch = browser, watch
         self._open: list[BrowserContext] = []
 
-    def page(
-        self, *, size: tuple[int, int] = LAPTOP, scheme: Scheme = "light", **options: Any
-    ) -> Page:
+    def page(self, *, size: tuple[int, int] = LAPTOP, **options: Any) -> Page:
         """Open an empty page of this size."""
         context = self._browser.new_context(
             viewport={"width": size[0], "height": size[1]},
-            color_scheme=scheme,
+            color_scheme="light",
             reduced_motion="no-preference",
             **options,
         )

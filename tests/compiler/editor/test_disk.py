@@ -268,20 +268,6 @@ async def test_a_full_disk_is_told_and_nothing_is_lost(
     assert not session.lost
 
 
-async def test_a_read_only_file_is_told_and_left(tmp_path: Path) -> None:
-    path = app_in(tmp_path)
-    path.chmod(0o444)
-    session = Session(path)
-    page = Page(session)
-
-    async with working(session):
-        await page.type(0, "# hi\n")
-        assert "read-only" in (await page.told("cannot_save"))["why"]
-        assert path.read_text() == APP
-        path.chmod(0o644)
-        await page.told("disk", what="saved")
-
-
 def test_what_others_write_while_it_is_saved_is_noticed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

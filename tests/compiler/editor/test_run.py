@@ -7,10 +7,7 @@ import re
 import shutil
 import tomllib
 from collections import Counter
-from functools import cache
-from itertools import islice
 from pathlib import Path
-from random import Random
 from typing import Any
 
 import pytest
@@ -22,7 +19,6 @@ from plutoc.editor.sample_plan import sample_plan
 from plutoc.editor.session import Session
 from plutoc.service.document import Document
 from plutoc.source import Source
-from tests.equivalence.graphs import random_source
 from tests.paths import ROOT
 
 from .editing import APP, HOOKED, Page, app_in, files_of
@@ -113,27 +109,6 @@ async def test_an_app_without_a_plan_flies_one_that_is_made_up(tmp_path: Path, p
     assert [len(one["trip"]) for one in missions] == [2, 2, 2]
     walked(Document(path="", text=path.read_text()), found)
     assert files_of(tmp_path) == before
-
-
-@cache
-def sound_apps() -> list[str]:
-    """Return graphs at random that have no errors and no hooks."""
-    texts = (random_source(Random(seed)) for seed in range(1000))
-    sound = (one for one in texts if Document(path="", text=one).checked is not None)
-    return list(islice((one for one in sound if "hook:" not in one), 6))
-
-
-@pytest.mark.long  # a process flies
-@pytest.mark.process
-@pytest.mark.parametrize("number", range(6))
-async def test_so_do_missions_of_any_graph(tmp_path: Path, number: int) -> None:
-    """Forks in forks, loops, state machines."""
-    text = sound_apps()[number]
-    path = tmp_path / "app.pluto"
-    path.write_text(text)
-    found = await flown(path, seed=number)
-    assert found["events"], found["log"]
-    walked(Document(path="", text=text), found)
 
 
 @pytest.mark.long  # a process flies

@@ -107,27 +107,6 @@ async def test_words_typed_into_what_others_changed_come_back_with_the_text(tmp_
     assert (await other.type(0, "# hi\n", version=0))["version"] == 2
 
 
-async def test_a_text_that_is_no_app_yet_has_a_picture_of_what_is_clear(tmp_path: Path) -> None:
-    page = Page(
-        Session(app_in(tmp_path, "pluto 1\napp x {\n  create = MissionCreator\n  a = Oops(\n  ->"))
-    )
-    view = (await page.next())["view"]
-    assert view["blocks"][0]["name"] == "create"
-    assert view["problems"]
-    assert view["unreadable"]
-
-
-async def test_a_problem_leads_to_its_blocks(tmp_path: Path) -> None:
-    page = Page(Session(app_in(tmp_path, APP.replace("TripMonitor", "TripMonitr"))))
-    view = (await page.next())["view"]
-    (block,) = (one for one in view["blocks"] if one["name"] == "watch")
-    (index,) = block["problems"]
-    assert view["problems"][index]["code"] == "P1012"
-    assert view["problems"][index]["blocks"] == ["watch"]
-    assert not block["known"]
-    assert len(view["edges"]) == 6
-
-
 async def test_a_problem_that_can_be_mended_is(tmp_path: Path) -> None:
     twice = "  watch -> end otherwise\n"
     session = Session(app_in(tmp_path, APP.replace(twice, 2 * twice)))
@@ -173,15 +152,6 @@ async def test_the_canonical_form_is_a_step_like_others(tmp_path: Path) -> None:
     assert session.files.history.app == before
 
 
-async def test_names_are_found_everywhere(tmp_path: Path) -> None:
-    page = Page(Session(app_in(tmp_path)))
-    offset = APP.index("watch -> end") + 1  # the helicopter before counts two
-    answer = await page.ask("references", offset=offset + 1)
-    assert len(answer["places"]) == 4
-    (place,) = (await page.ask("definition", offset=offset + 1))["places"]
-    assert place["from"] == APP.index("watch = ") + 1
-
-
 async def test_a_hook_leads_to_its_function(tmp_path: Path) -> None:
     hooks = "# 🚁\r\n\r\ndef judge(trip, candidates):\r\n    return 1\r\n"
     page = Page(Session(app_in(tmp_path, HOOKED, hooks)))
@@ -191,17 +161,6 @@ async def test_a_hook_leads_to_its_function(tmp_path: Path) -> None:
     assert (declared["file"], declared["from"]) == ("app", HOOKED.index("judge\n"))
     assert (function["file"], function["line"]) == ("hooks", 3)
     assert function["from"] == shown.index("def") + 1  # the helicopter counts two
-
-
-async def test_what_hooks_can_ask_is_told_with_the_fields_of_this_app(tmp_path: Path) -> None:
-    page = Page(
-        Session(app_in(tmp_path, HOOKED.replace("  launch =", "  wait = Clock\n  launch =")))
-    )
-    entities = {one["name"]: one for one in (await page.ask("entities"))["entities"]}
-    assert {"mission", "trip", "drone", "context"} <= entities.keys()
-    trip = {one["name"]: one["doc"] for one in entities["trip"]["attributes"]}
-    assert trip["delay"] == "Time to wait before the trip."
-    assert {"target", "action", "item"} <= trip.keys()
 
 
 async def test_where_an_edge_may_lead_and_why_not(tmp_path: Path) -> None:

@@ -133,18 +133,3 @@ def test_what_is_not_known_is_not_shown_as_nothing(edit: Edit, visit: Visit) -> 
     problem(page, "GateFunel")
     page.get_by_role("tabpanel").get_by_role("button", name="P1012").first.click()
     expect(page.get_by_role("dialog")).to_contain_text("P1012")
-
-
-@pytest.mark.long
-def test_problems_are_gone_through_both_ways(edit: Edit, visit: Visit) -> None:
-    page = visit(
-        edit(text=STUCK.replace("TripMonitor", "TripMonitr").replace("MissionC", "MisionC"))
-    )
-    said = page.get_by_role("status")
-    count = page.locator("#panel-problems .problem").count()
-    assert count > 1
-    page.keyboard.press("F6")
-    for key, at in (("Shift+F8", count), ("F8", 1), ("F8", 2), ("Shift+F8", 1)):
-        page.locator(".viewport").focus()
-        page.keyboard.press(key)
-        expect(said.filter(has_text=f"Problem {at} of {count}:")).to_have_count(1)

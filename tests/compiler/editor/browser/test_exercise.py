@@ -12,7 +12,6 @@ from plutoc.diagnostic import Rejected
 from plutoc.source import Source
 from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.hand import Hand, block, port, statuses
-from tests.compiler.editor.browser.texts import text_of
 from tests.kit.command import plutoc
 from tests.kit.editor import Editor
 from tests.kit.station import until
@@ -158,23 +157,3 @@ def test_the_arrow_keys_lead_along_edges(edit: Edit, visit: Visit) -> None:
     expect(page.get_by_role("button", name="Edge from watch to end")).to_be_focused()
     keys.press("Enter")
     expect(page.get_by_role("radio", name="otherwise")).to_be_checked()
-
-
-@pytest.mark.long
-def test_f12_leads_to_the_definition(edit: Edit, visit: Visit) -> None:
-    page = visit(edit("drugs_distribution_timer"))
-    lines = text_of(page).locator(".cm-line")
-    at = text_of(page).locator(".cm-activeLine")
-    lines.filter(has_text="retry -> allocate").click(position={"x": 30, "y": 8})
-    page.keyboard.press("F12")
-    expect(at).to_have_text("  retry = PriorityManager(max_attempts: 3)")
-    page.keyboard.press("F12")
-    expect(page.get_by_text("This is its definition.")).to_be_visible()
-    # a hook is declared here, and written there
-    lines.filter(has_text="modifier limit_trip").click(position={"x": 115, "y": 8})
-    page.keyboard.press("F12")
-    code = page.get_by_role("textbox", name="hooks.py: your own code")
-    expect(code).to_be_focused()
-    expect(code.locator(".cm-activeLine")).to_contain_text("async def limit_trip(")
-    page.keyboard.press("F1")
-    expect(page.get_by_role("dialog")).to_contain_text("to the definition of a name")

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
-import pytest
 from playwright.sync_api import Page, expect
 
 from tests.kit.station import Station
@@ -76,18 +74,3 @@ def test_script_in_every_text_is_shown_as_text_and_never_runs(serve: Serve, visi
     for name in ("Missions", "Trips", "Monitor", "Help"):
         open_page(page, name)
         nothing_ran(page)
-
-
-@pytest.mark.long
-def test_a_name_without_end_breaks_no_page(serve: Serve, visit: Visit) -> None:
-    """Sixty letters without a space: nothing is pushed out of sight."""
-    station = serve("drugs_distribution")
-    put(station, ("W" * 60, "iii"))
-    page = visit(station)
-    for name in ("Missions", "Trips", "Monitor"):
-        open_page(page, name)
-        wide = page.evaluate("() => document.documentElement.scrollWidth - innerWidth")
-        assert wide <= 0, name
-    start(page)
-    expect(page.get_by_role("list", name="Missions")).to_contain_text(re.compile("W{20}"))
-    assert page.evaluate("() => document.documentElement.scrollWidth - innerWidth") <= 0

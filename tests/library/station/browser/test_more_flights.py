@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import Route, expect
+from playwright.sync_api import expect
 
 from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
@@ -15,7 +15,6 @@ from tests.library.station.browser.steps import (
     open_page,
     row_of,
     sees_all,
-    settled,
     start,
 )
 
@@ -36,22 +35,6 @@ def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
     sees_all(page, "Completed", (*COMPLETED, "Late"))
     assert station.statuses() == {**COMPLETED, "Late": "COMPLETED"}
     assert len(station.journals()) == 1
-
-
-def test_a_start_that_is_answered_late_does_not_take_one_away_from_where_one_has_gone(
-    serve: Serve, visit: Visit
-) -> None:
-    station = put_in(serve("drugs_distribution"))
-    page = visit(station)
-    held: list[Route] = []
-    page.route("**/api/start", lambda route: held.append(route))
-    with page.expect_request("**/api/start"):
-        start(page)
-    open_page(page, "Trips")
-    held[0].continue_()
-    expect(page.get_by_role("status").get_by_text("missions started")).to_be_visible()
-    settled(page)
-    expect(page.get_by_role("tab", name="Trips")).to_have_attribute("aria-selected", "true")
 
 
 def test_what_was_stopped_is_put_away_and_the_plan_begins_anew(serve: Serve, visit: Visit) -> None:

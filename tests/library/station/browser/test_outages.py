@@ -130,23 +130,6 @@ def _lose_first(route: Route, asked: list[str]) -> None:
         route.continue_()
 
 
-@pytest.mark.long  # a whole flight once more
-def test_a_page_without_websockets_asks_and_asks(
-    station: Station, visit: Visit, watch: Watch
-) -> None:
-    """A proxy may let none through: all is seen just the same."""
-    watch.expected += ["WebSocket"]
-    page = visit(station, prepare=without_websockets)
-    start(page)
-    sees_all(page, "Completed")
-    assert station.statuses() == COMPLETED
-
-
-def without_websockets(page: Page) -> None:
-    """Let every WebSocket of a page break off at once."""
-    page.route_web_socket("**/api/live", lambda line: line.close())
-
-
 def test_stop_is_heard_though_nothing_is_seen_any_more(
     station: Station, visit: Visit, watch: Watch
 ) -> None:

@@ -8,20 +8,14 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.kit.axe import violations
-from tests.kit.browser import SCHEMES
-from tests.kit.layout import covered, cut_off
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.steps import (
     A_FLIGHT,
     card_of,
-    labels,
     open_page,
-    pin_of,
     row_of,
     select_mission,
-    settled,
     start,
 )
 
@@ -91,44 +85,6 @@ def test_what_is_not_filled_in_is_said_before_start(serve: Serve, visit: Visit) 
     expect(listed(page, BED).locator(".chip")).to_be_hidden()
     select_mission(page, OTHER)
     expect(page.get_by_text("Bed 2: Patient is not filled in yet")).to_be_visible()
-
-
-def test_each_field_takes_its_type_and_its_units(serve: Serve, visit: Visit) -> None:
-    """The app's own come first; what is wrong stays as it was typed, with what would be right."""
-    page = visit(ward(serve, beds(softly=True)))
-    select_mission(page, BED)
-    assert {"Patient", "Most", "Margin"} <= labels(page)
-    shown = page.locator(".mission-panel > .fields .field > label").all_inner_texts()
-    assert shown[:3] == ["Patient", "Most", "Margin"]
-    margin, most = page.get_by_label("Margin"), page.get_by_label("Most")
-    expect(margin).to_have_attribute("placeholder", "10 min")
-    expect(most).to_have_attribute("placeholder", "20")
-    margin.fill("3 m")
-    said = field(page, "margin").locator(".problem")
-    expect(said).to_have_text('Margin "3 m" is a length, not a time: it takes ms, s, min, h')
-    expect(margin).to_have_attribute("aria-invalid", "true")
-    expect(margin).to_have_accessible_description(
-        'Margin "3 m" is a length, not a time: it takes ms, s, min, h'
-    )
-    margin.fill("240")
-    margin.press("Tab")
-    expect(margin).to_have_value("240 min")  # in the unit of its default
-    expect(said).to_be_hidden()
-    most.fill("many")
-    expect(field(page, "most").locator(".problem")).to_have_text('Most "many" is not a number')
-    open_page(page, "Trips")
-    pin_of(page, 1).click()
-    warmth = card_of(page, 1).get_by_label("Warmth")
-    expect(warmth).to_have_attribute("placeholder", "20 C")
-    warmth.fill("20 kg")
-    wrong = card_of(page, 1).locator('.field[data-field="warmth"] .problem')
-    expect(wrong).to_contain_text("is a mass, not a temperature")
-    for name in ("Trips", "Missions"):
-        open_page(page, name)
-        for scheme in SCHEMES:
-            page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
-            settled(page)
-            assert [*violations(page), *covered(page), *cut_off(page)] == [], (name, scheme)
 
 
 def test_what_was_filled_in_is_kept_handed_out_and_flown_with(serve: Serve, visit: Visit) -> None:

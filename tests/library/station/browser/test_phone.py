@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import FloatRect, Locator, Page, ViewportSize, expect
 
-from tests.kit.browser import PHONE, TABLET
-from tests.kit.layout import sideways, too_small, wider_than_the_screen
+from tests.kit.browser import PHONE
+from tests.kit.layout import sideways, wider_than_the_screen
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import DONE, PLAN, targets
@@ -28,26 +28,6 @@ from tests.pages.scenes import PAGES
 pytestmark = pytest.mark.long
 
 SMALL: ViewportSize = {"width": 360, "height": 640}
-NAMELESS = """
-() => [...document.querySelectorAll("button")]
-  .filter((one) => one.checkVisibility() && !one.textContent.trim() && !one.ariaLabel)
-  .map((one) => one.outerHTML)
-"""
-
-
-def test_before_the_station_has_answered_no_button_is_shown_that_says_nothing(
-    ward: Station, visit: Visit
-) -> None:
-    def never_answered(page: Page) -> None:
-        page.route("**/api/app", lambda route: None)
-        page.add_init_script("window.setInterval = () => 0")  # as it is first drawn
-
-    page = visit(ward, size=PHONE, touch=True, prepare=never_answered)
-    expect(page.get_by_role("heading", name="Pluto")).to_be_visible()
-    settled(page)
-    assert too_small(page, 24) == []
-    assert page.evaluate(NAMELESS) == []
-    expect(page.get_by_role("button", name="Resume")).to_have_count(0)
 
 
 def test_long_names_and_large_graphs_fit_on_a_phone(serve: Serve, visit: Visit) -> None:
@@ -106,21 +86,6 @@ def slide(page: Page, start: tuple[float, float], end: tuple[float, float]) -> N
 def middle(box: FloatRect) -> tuple[float, float]:
     """Return the middle of a box."""
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
-
-def test_a_finger_drags_an_action_onto_the_map_and_its_pin_elsewhere(
-    serve: Serve, visit: Visit
-) -> None:
-    station = serve("drugs_distribution")
-    page = visit(station, size=TABLET, touch=True)
-    add_mission(page, "By hand")
-    box = action_called(page, "take_photo").bounding_box()
-    assert box is not None
-    slide(page, middle(box), on_the_screen(page, (3.0, 7.5)))
-    until(lambda: targets(station) == [[pytest.approx((3.0, 7.5), abs=0.15)]], "it is there")
-    assert pin_of(page, 1).is_visible()
-    slide(page, on_the_screen(page, (3.0, 7.5)), on_the_screen(page, (9.0, 2.5)))
-    until(lambda: targets(station) == [[pytest.approx((9.0, 2.5), abs=0.15)]], "it has moved")
 
 
 def hold(page: Page, what: Locator) -> None:

@@ -10,7 +10,6 @@ import json
 import os
 import re
 import signal
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -160,14 +159,9 @@ def lost(page: Page) -> list[str]:
     return [row["id"] for row in seen(page) if row["word"] == "Lost"]
 
 
-def folder_of(station: Station) -> Path:
-    """Return the folder of the newest flight's gateway."""
-    return gateway_folder(station.journals()[-1])
-
-
 def gateway_of(station: Station) -> int:
     """Return the process of the gateway."""
-    process = still_runs(folder_of(station))
+    process = still_runs(gateway_folder(station.journals()[-1]))
     assert process is not None
     return process
 

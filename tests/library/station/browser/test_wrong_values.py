@@ -94,21 +94,6 @@ def test_a_wrong_coordinate_is_marked_and_start_waits_for_it(
 
 
 @pytest.mark.long
-def test_a_mission_with_a_wrong_coordinate_is_not_started_alone_either(
-    planned: Station, visit: Visit
-) -> None:
-    """The station knows nothing of what is no number: the page leads to it."""
-    page = visit(planned)
-    opened(page, "Mission 2", 1).get_by_label("x (m)").fill("abc")
-    open_page(page, "Missions")
-    select_mission(page, "Mission 2")
-    page.get_by_role("button", name="Start only this").click()
-    expect(card_of(page, 1).get_by_label("x (m)")).to_be_focused()
-    expect(notices(page)).to_contain_text("Mission 2, trip 1: Write metres here, such as 2.5.")
-    assert planned.journals() == []
-
-
-@pytest.mark.long
 def test_what_keeps_a_plan_from_starting_leads_to_its_field_wherever_that_is(
     planned: Station, visit: Visit
 ) -> None:
@@ -149,18 +134,3 @@ def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
     name.press("Tab")
     expect(name).to_have_value("Beta")
     expect(name).not_to_have_attribute("aria-invalid", "true")
-
-
-@pytest.mark.long
-def test_who_writes_into_a_mission_that_another_one_deletes_is_told(
-    planned: Station, two: Two
-) -> None:
-    one, other, held = two
-    for page in (one, other):
-        select_mission(page, "Mission 2")
-    with other.expect_request(lambda request: request.method == "PUT"):
-        other.get_by_role("textbox", name="Name").fill("Beta")
-    one.get_by_role("button", name="Delete").click()
-    until(lambda: len(planned.missions) == 2, "it is gone")
-    go_on(other, held)
-    expect(notices(other)).to_contain_text("You wrote “Beta”, but another page has")
