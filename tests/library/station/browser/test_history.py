@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -18,29 +19,7 @@ pytestmark = pytest.mark.long
 
 INSTANTS = 5
 
-DRAWN = """
-async () => {
-  const drawn = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-  const { world } = await import("/pages/core/station.js");
-  const seen = () => [...document.querySelectorAll(".page:not([hidden]) .mission-entry")].map((row) => {
-    const shown = row.cloneNode(true);
-    shown.querySelectorAll(".battery").forEach((battery) => battery.remove());
-    return shown.textContent;
-  });
-  const drones = () => Object.fromEntries([...document.querySelectorAll(".page:not([hidden]) .drone")]
-    .map(({ dataset: { drone, status } }) => [drone, status]));
-  for (;;) {
-    const { time } = world.state.peek();
-    await drawn();
-    const view = { time, missions: seen(), drones: drones() };
-    if (world.state.peek().time === time) return view;
-  }
-}
-"""
-"""The rows of missions as they are drawn, and how the drones on the map stand, at one instant.
-
-Batteries are left out: a recording has what only moves four times a second.
-"""
+DRAWN = Path(__file__).with_name("drawn.js").read_text(encoding="utf-8")
 
 SCRUB = """
 (slider, time) => {

@@ -10,6 +10,7 @@ import json
 import os
 import re
 import signal
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -24,24 +25,7 @@ from tests.library.station.browser.exercise import put_in
 from tests.library.station.browser.steps import open_page, start
 from tests.library.station.browser.world import disagreements, truth
 
-AS_SEEN = """
-() => {
-  const monitor = document.querySelector(".monitor-page");
-  const back = monitor.querySelector("svg.floor-picture g.world").getScreenCTM().inverse();
-  const marks = new Map([...monitor.querySelectorAll("svg .drone")].map((mark) => {
-    const box = mark.querySelector(".body").getBoundingClientRect();
-    const { x, y } = new DOMPoint((box.left + box.right) / 2, (box.top + box.bottom) / 2)
-      .matrixTransform(back);
-    const label = mark.querySelector("[role=button]").getAttribute("aria-label");
-    return [mark.dataset.drone, { x, y, label }];
-  }));
-  return [...monitor.querySelectorAll("li[data-drone]")].map((line) => ({
-    id: line.dataset.drone, x: null, y: null, label: "", ...marks.get(line.dataset.drone),
-    word: line.querySelector(".standing-word").textContent,
-    why: line.querySelector(".because")?.textContent ?? "",
-  }));
-}
-"""
+AS_SEEN = Path(__file__).with_name("as_seen.js").read_text(encoding="utf-8")
 
 STATUS = {"Lost": "LOST", "On the ground": "LANDED", "Unknown": "UNKNOWN", "In the air": "ALOFT"}
 
