@@ -158,15 +158,6 @@ def test_typing_on_after_a_redo_is_a_step_of_its_own() -> None:
     assert history.app == "onea\n"
 
 
-def test_a_page_is_told_of_a_redo_what_it_was_told_at_first() -> None:
-    history = History(app="one\r\ntwo\r\n")
-    (first,) = history.change([history.edited(File.APP, (Edit(5, 8, "🚁"),))], 1)
-    history.undo(1)
-    (again,) = history.redo(1)
-    assert (again.sent, again.file, again.is_typed) == (first.sent, first.file, False)
-    assert again.version == first.version + 2
-
-
 def test_typing_is_undone_by_pauses_and_by_places() -> None:
     history = History(app="one two\n")
     typed(history, 3, "a", 0)

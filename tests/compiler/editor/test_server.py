@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import re
 import signal
@@ -16,7 +15,6 @@ from websockets.sync.client import connect
 from websockets.typing import Origin
 
 from plutoc.editor import static
-from plutoc.editor.static import StaticFile
 from tests.kit.command import Process, plutoc
 from tests.kit.station import until
 
@@ -175,12 +173,6 @@ async def test_a_slow_question_keeps_no_one_waiting(tmp_path: Path) -> None:
         assert (await heard(socket, id="second"))["exit"] == 0
 
 
-def test_the_table_leaves_out_what_no_page_needs() -> None:
-    found = static.pages()
-    assert all(isinstance(one, StaticFile) for one in found.values())
-    assert not [name for name in found if name.endswith((".md", ".py"))]
-
-
 FIRST = "# kept\n"
 
 
@@ -274,12 +266,3 @@ def test_without_its_extra_it_says_how_to_install_it(
     done = plutoc("edit", app_in(tmp_path))
     assert done.code == 2
     assert 'pip install "plutoc[editor]"' in done.err
-
-
-async def test_a_slow_head_and_silence_are_not_waited_for_by_others(tmp_path: Path) -> None:
-    async with served(app_in(tmp_path)) as editor:
-        lazy = [await asyncio.open_connection("127.0.0.1", editor.guard.port) for _ in range(20)]
-        lazy[0][1].write(b"GET / HT")
-        assert (await editor.get("/"))[0] == 200
-        for _, writer in lazy:
-            writer.close()

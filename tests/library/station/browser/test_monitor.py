@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -58,8 +58,9 @@ def opened(page: Page, name: str) -> None:
     expect(opener).to_have_attribute("aria-expanded", "true")
 
 
-def holds(station: Station, name: str, what: Callable[[dict[str, Any]], bool]) -> None:
-    until(lambda: what(mission(station, name)), f"{name} is so")
+def priorities(mission: dict[str, Any]) -> dict[str, int]:
+    """Return the priority of each trip."""
+    return {trip["name"]: trip["priority"] for trip in mission["trips"]}
 
 
 def test_a_mission_is_paused_goes_on_and_is_cancelled_at_the_second_press(
@@ -85,40 +86,11 @@ def test_a_trip_is_weighed_anew_and_another_left_out_while_the_mission_flies(
     station, page = flying
     opened(page, "South-west arc")
     page.get_by_role("button", name="Raise the priority of trip C").click()
-    holds(
-        station,
-        "South-west arc",
-        lambda one: ["C", 1] in [[t["name"], t["priority"]] for t in one["trips"]],
-    )
+    arc = "South-west arc"
+    until(lambda: priorities(mission(station, arc))["C"] == 1, "C is first")
     page.get_by_role("button", name="Skip trip D").click()
-    holds(station, "South-west arc", lambda one: one["total"] == 3)
+    until(lambda: mission(station, arc)["total"] == 3, "one less is flown")
     expect(page.get_by_role("button", name="Skip trip D")).to_have_count(0)
-
-
-@pytest.mark.long
-def test_a_drone_is_retired_and_brought_back(flying: tuple[Station, Page]) -> None:
-    station, page = flying
-    its = card(page, "carrier2")
-    its.get_by_role("button", name="Retire").click()
-    expect(its).to_contain_text("Retired")
-    assert row(station, "drones", "id", "carrier2")["retired"]
-    its.get_by_role("button", name="Bring back").click()
-    until(lambda: not row(station, "drones", "id", "carrier2")["retired"], "it is back")
-    expect(its.get_by_role("button", name="Retire")).to_be_visible()
-
-
-@pytest.mark.long
-def test_a_drone_pressed_on_the_map_opens_its_card_and_leads_to_its_mission(
-    flying: tuple[Station, Page],
-) -> None:
-    _, page = flying
-    page.locator(".drone[data-status=BUSY] .drone-mark").first.focus()
-    page.keyboard.press("Enter")
-    its = page.locator(".drone-card").get_by_role("button", name="arc")
-    name = its.inner_text()
-    its.click()
-    lists(page, "Missions")
-    expect(row_of(page, name).locator(".opener")).to_have_attribute("aria-expanded", "true")
 
 
 @pytest.mark.long
@@ -179,8 +151,30 @@ def test_missions_are_sifted_walked_through_by_keys_and_folded_away(
 
 
 @pytest.mark.long
-def test_a_drone_joins_by_a_form(flying: tuple[Station, Page]) -> None:
+def test_drones_are_retired_brought_back_let_fall_and_joined_by_others(
+    flying: tuple[Station, Page],
+) -> None:
     station, page = flying
+    page.locator(".drone[data-status=BUSY] .drone-mark").first.focus()
+    page.keyboard.press("Enter")  # opens its card, which leads to its mission
+    its = page.locator(".drone-card").get_by_role("button", name="arc")
+    name = its.inner_text()
+    its.click()
+    lists(page, "Missions")
+    expect(row_of(page, name).locator(".opener")).to_have_attribute("aria-expanded", "true")
+    its = card(page, "carrier2")
+    its.get_by_role("button", name="Retire").click()
+    expect(its).to_contain_text("Retired")
+    assert row(station, "drones", "id", "carrier2")["retired"]
+    its.get_by_role("button", name="Bring back").click()
+    until(lambda: not row(station, "drones", "id", "carrier2")["retired"], "it is back")
+    expect(its.get_by_role("button", name="Retire")).to_be_visible()
+    drone = mission(station, "North arc")["drone"]
+    until(lambda: (row(station, "drones", "id", drone)["z"] or 0.0) > 0.3, "it is in the air")
+    its = card(page, drone)
+    its.get_by_text("Rehearse a mishap").click()
+    its.get_by_role("button", name="It falls").click()
+    until(lambda: row(station, "drones", "id", drone)["status"] == "LOST", "it is lost")
     drones = lists(page, "Drones")
     drones.get_by_text("Add a drone to this flight").click()
     drones.get_by_label("Its name").fill("late")
@@ -189,15 +183,3 @@ def test_a_drone_joins_by_a_form(flying: tuple[Station, Page]) -> None:
     drones.get_by_role("button", name="Let it join").click()
     expect(card(page, "late")).to_be_visible()
     assert station.get("/api/app")["drones"][-1]["home"] == [1.0, 1.0, 0.0]
-
-
-@pytest.mark.long
-def test_the_fall_of_a_drone_is_rehearsed_on_its_card(flying: tuple[Station, Page]) -> None:
-    station, page = flying
-    until(lambda: bool(mission(station, "North arc")["drone"]), "North arc has a drone")
-    drone = mission(station, "North arc")["drone"]
-    until(lambda: (row(station, "drones", "id", drone)["z"] or 0.0) > 0.3, "it is in the air")
-    its = card(page, drone)
-    its.get_by_text("Rehearse a mishap").click()
-    its.get_by_role("button", name="It falls").click()
-    until(lambda: row(station, "drones", "id", drone)["status"] == "LOST", "it is lost")
