@@ -65,14 +65,12 @@ class Visit:
         *,
         size: tuple[int, int] = LAPTOP,
         touch: bool = False,
-        port: int = 0,
         path: str = "",
         prepare: Callable[[Page], object] = lambda _: None,
     ) -> Page:
         page = self._contexts.page(size=size, has_touch=touch)
         prepare(page)
-        address = f"http://127.0.0.1:{station.port}{path}" if path else station.url
-        page.goto(address.replace(str(station.port), str(port or station.port)))
+        page.goto(f"http://127.0.0.1:{station.port}{path}" if path else station.url)
         return page
 
 

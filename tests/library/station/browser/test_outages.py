@@ -2,31 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.kit.browser import BREAKS, Watch
 from tests.kit.station import Station, until
-from tests.library.station.browser.cable import Cable
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import COMPLETED, DONE, names, put_in
-from tests.library.station.browser.steps import add_mission, drag, open_page, sees_all, start
+from tests.library.station.browser.network import Network
+from tests.library.station.browser.steps import (
+    add_mission,
+    drag,
+    open_page,
+    sees_all,
+    settled,
+    start,
+)
 
 
 @pytest.fixture
 def station(serve: Serve) -> Station:
     """A station with the exercise's plan."""
     return put_in(serve())
-
-
-@pytest.fixture
-def cable(station: Station) -> Iterator[Cable]:
-    """The network to that station."""
-    cable = Cable(station.port)
-    yield cable
-    cable.close()
 
 
 def lost(page: Page) -> Locator:
@@ -48,18 +45,19 @@ def completes_all_once(page: Page, station: Station) -> None:
 
 
 def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_itself(
-    station: Station, visit: Visit, watch: Watch, cable: Cable
+    station: Station, visit: Visit, watch: Watch
 ) -> None:
     watch.expected += BREAKS
-    page = visit(station, port=cable.port)
+    network = Network()
+    page = visit(station, prepare=network.over)
     flies_until_the_pills_are_picked(page, station)
-    cable.cut()
+    network.cut()
     expect(lost(page)).to_be_visible()
-    cable.mend()
+    network.mend()
     expect(lost(page)).to_have_count(0)
-    cable.hush()
+    network.hush()
     expect(lost(page)).to_be_visible()
-    cable.mend()
+    network.mend()
     completes_all_once(page, station)
 
 
@@ -98,26 +96,31 @@ def test_an_answer_that_is_lost_starts_nothing_twice(
     assert station.done() == DONE
 
 
+def kept(page: Page, station: Station) -> list[str]:
+    """Return the missions that the station keeps, once what the page has just asked went on its way."""
+    settled(page)
+    return names(station)
+
+
 @pytest.mark.long
 def test_what_is_drawn_without_a_network_is_kept_and_saved_when_it_is_back(
     serve: Serve, visit: Visit, watch: Watch
 ) -> None:
     watch.expected += BREAKS
     station = serve("drugs_distribution")
-    cable = Cable(station.port)
-    page = visit(station, port=cable.port)
+    network = Network()
+    page = visit(station, prepare=network.over)
     add_mission(page, "Before")
-    until(lambda: names(station) == ["Before"], "it is kept")
+    until(lambda: kept(page, station) == ["Before"], "it is kept")
     page.locator("html[data-loaded=all]").wait_for()
-    cable.cut()
+    network.cut()
     add_mission(page, "Meanwhile")
     drag(page, "measure", (3.0, 5.0))
     expect(page.get_by_text("Not saved yet")).to_be_visible()
     assert names(station) == ["Before"]
-    cable.mend()
-    until(lambda: names(station) == ["Before", "Meanwhile"], "it is saved by itself")
+    network.mend()
+    until(lambda: kept(page, station) == ["Before", "Meanwhile"], "it is saved by itself")
     expect(page.get_by_text("Not saved yet")).to_be_hidden()
-    cable.close()
 
 
 def _lose_first(route: Route, asked: list[str]) -> None:
