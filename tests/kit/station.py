@@ -300,12 +300,10 @@ class Stations:
         folder = self._folder / f"station{next(self._numbers)}"
         app = self.app(name)
         shutil.copytree(app.fleet.parent, folder / "files")
-        files = {
-            "fleet": folder / "files" / "fleet.toml",
-            "missions": folder / "files" / "missions.toml",
-        }
         (folder / "kept").mkdir()
-        return Station(app=replace(app, **files), folder=folder / "kept", options=options)
+        files = folder / "files"
+        app = replace(app, fleet=files / "fleet.toml", missions=files / "missions.toml")
+        return Station(app=app, folder=folder / "kept", options=options)
 
     def shared(self, name: str, *options: str) -> Station:
         """Return a running station that others have had before, as if it were new."""

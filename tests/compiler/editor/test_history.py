@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plutoc.editor.changes import Edit
-from plutoc.editor.history import File, History, Stale, TooLarge
+from plutoc.editor.history import Change, File, History, Stale, TooLarge
 from plutoc.editor.wire import Wire
 from plutoc.source import LARGEST
 
@@ -76,7 +76,7 @@ def typed(
 
 def renamed(history: History) -> None:
     """Change text, hooks and layout in one step."""
-    made = [
+    made: list[Change] = [
         history.edited(File.APP, (Edit(0, 1, "N"),)),
         history.edited(File.HOOKS, (Edit(0, 0, "def n"),)),
         history.placed({"n": (1, 2)}),

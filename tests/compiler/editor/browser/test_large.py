@@ -38,6 +38,6 @@ def test_three_hundred_blocks(edit: Edit, visit: Visit, update: bool) -> None:
     page.keyboard.press("F6")
     percent = page.locator(".percent")
     for key in ("f", "-", "+", "0"):
-        before = percent.inner_text()
+        shown = percent.inner_text()
         page.keyboard.press(key)
-        expect(percent).not_to_have_text(before)
+        expect(percent).not_to_have_text(shown)

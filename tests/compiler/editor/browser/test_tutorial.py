@@ -17,10 +17,11 @@ from tests.compiler.editor.browser.conftest import Edit, Visit
 from tests.compiler.editor.browser.drawing import add_from_port, complete, lead, put_between, rename
 from tests.compiler.editor.browser.hand import Hand, block, edge, port
 from tests.compiler.editor.browser.scenes import COLOURS
-from tests.examples.typed import ROOT, Reader, Step, is_shown, steps
+from tests.examples.typed import Reader, Step, is_shown, steps
 from tests.kit.editor import Editor
 from tests.kit.pictures import kept, picture
 from tests.kit.station import until
+from tests.paths import ROOT
 
 LESSON = ROOT / "docs" / "tutorial" / "editor.md"
 PICTURES = LESSON.with_suffix("")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
@@ -29,7 +30,7 @@ def fly(station: Station) -> None:
     until(lambda: station.phase == "over", "the flight is over")
 
 
-def flown(serve: Serve, visit: Visit, app: str) -> tuple[Page, list[dict[str, object]]]:
+def flown(serve: Serve, visit: Visit, app: str) -> tuple[Page, list[dict[str, Any]]]:
     """Fly an example's own missions, and look at what they brought."""
     station = serve(app, "--missions", str(EXAMPLES / app / "missions.toml"), own=True)
     fly(station)
@@ -47,12 +48,12 @@ def test_what_was_found_is_pinned_where_it_is_and_leads_to_its_rows(
     serve: Serve, visit: Visit
 ) -> None:
     page, results = flown(serve, visit, "alfalfa")
-    places = {(tag, *one["target"]) for one in results for tag in one["tags"]}  # type: ignore
+    places = {(tag, *one["target"]) for one in results for tag in one["tags"]}
     assert places
     expect(page.locator(".finding [data-tag]")).to_have_count(len(places))
     page.get_by_role("button", name="bloom").click()
     expect(page.get_by_role("tab", name="Table")).to_have_attribute("aria-selected", "true")
-    blooms = [one for one in results if "bloom" in one["tags"]]  # type: ignore[operator]
+    blooms = [one for one in results if "bloom" in one["tags"]]
     expect(rows_of(page)).to_have_count(len(blooms))
 
 
