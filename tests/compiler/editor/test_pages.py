@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from plutoc.highlight.rules import RULES, Kind
-from tests.release.environments import ROOT
+from tests.paths import ROOT
 
 PAGES = ROOT / "plutoc" / "editor" / "pages"
 OWN = sorted(
