@@ -66,6 +66,7 @@ def test_step_of_every_block_can_be_carried_along(block: Block) -> None:
     assert "plutoc" not in files[path]
 
 
+@pytest.mark.process
 def test_declarations_load_no_event_loop() -> None:
     """The compiler reads all blocks' declarations: asyncio would cost it 80 ms."""
     code = "import sys, plutoc_blocks; print(*sys.modules)"

@@ -109,6 +109,7 @@ def test_the_two_ask_the_same_questions() -> None:
     assert {*STEPS.values(), FINDINGS} <= steps().keys()
 
 
+@pytest.mark.long
 def test_a_sound_project_passes_all_of_them(project: Path) -> None:
     """And the findings for code scanning are there: a warning."""
     for name in STEPS:
@@ -118,6 +119,7 @@ def test_a_sound_project_passes_all_of_them(project: Path) -> None:
     assert levels(project) == ["warning"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "old", "new"),
     [
@@ -137,6 +139,7 @@ def test_a_mistake_is_found_before_a_commit_and_in_ci(
     assert run(project, steps()[STEPS[name]]).returncode != 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["--fix.pluto", "-o.pluto"])
 def test_a_file_that_looks_like_an_option_is_a_file(project: Path, name: str) -> None:
     """The author of a change chooses the names in it."""
@@ -148,6 +151,7 @@ def test_a_file_that_looks_like_an_option_is_a_file(project: Path, name: str) ->
     assert run(project, steps()[FINDINGS]).returncode == 0
 
 
+@pytest.mark.long
 def test_findings_are_uploaded_though_there_are_errors(project: Path) -> None:
     """The step that writes them passes: another one has failed."""
     app = project / APP

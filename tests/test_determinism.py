@@ -1,42 +1,40 @@
-"""The same input gives the same bytes: packages and traces, for every hash seed and folder."""
+"""The same input gives the same bytes: plans, packages and traces, for every hash seed and folder."""
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from tests.paths import ROOT
+from tests.kit.command import python
+from tests.paths import EXAMPLES, ROOT
 
-EXAMPLES = ROOT / "examples"
-HASH_SEEDS = ("0", "1", "4711")
-FAULTS = "crash=10%,link=5%,action=5%,battery=5%"
-
-
-def run(
-    hash_seed: str, *words: str | Path, path: str | None = None, codes: tuple[int, ...] = (0,)
-) -> None:
-    """Run Python with this hash seed; it must end with one of the codes."""
-    cache = os.path.join(os.environ["XDG_CACHE_HOME"], hash_seed)  # none takes what another kept
-    environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "XDG_CACHE_HOME": cache}
-    if path is not None:
-        environment["PYTHONPATH"] = path
-    done = subprocess.run(
-        [sys.executable, *(str(word) for word in words)],
-        cwd=ROOT,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode in codes, done.stderr
+HASH_SEEDS = ("0", "4711")
+PATHS = ":".join(str(ROOT / name) for name in (".", "grammar", "runtime", "stdlib_blocks"))
+PROGRAM = """
+import sys
+from pathlib import Path
+from plutoc.cli import main
+from plutoc.plan.build import build
+from plutoc.plan.show import show
+from tests.compiler.check.graphs import checked
+from tests.compiler.plan.graphs import GRAPHS
+examples, into = map(Path, sys.argv[1:3])
+Path(into, "plans.txt").write_text("".join(show(build(checked(text))) for text in GRAPHS.values()))
+for name in ("alfalfa", "pm10", "drugs_distribution_timer"):
+    assert main(["compile", str(examples / name / "app.pluto"), "-o", str(into / name)]) == 0
+sys.path.insert(0, str(into / "alfalfa/src"))
+from alfalfa.flow import APP
+from alfalfa._runtime.command import main
+plan = [str(examples / "alfalfa/missions.toml"), "--fleet", str(examples / "alfalfa/fleet.toml")]
+for seed in ("3", "4"):
+    words = ["--seed", seed, "--fail", "crash=10%,link=5%,action=5%,battery=5%"]
+    main(APP, ["simulate", *plan, *words, "--trace", str(into / f"{seed}.jsonl")])
+"""
 
 
 def files(folder: Path) -> dict[str, bytes]:
-    """Every file of a folder by its path in it."""
+    """Return every file of a folder by its path in it."""
     return {
         str(path.relative_to(folder)): path.read_bytes()
         for path in sorted(folder.rglob("*"))
@@ -44,34 +42,21 @@ def files(folder: Path) -> dict[str, bytes]:
     }
 
 
-@pytest.mark.parametrize("name", ["alfalfa", "pm10", "drugs_distribution_timer"])
-def test_two_compilations_in_different_folders_are_the_same_bytes(
-    name: str, tmp_path: Path
-) -> None:
-    source = EXAMPLES / name / "app.pluto"
-    folders = [tmp_path / "one" / name, tmp_path / "a longer way" / "two" / name]
-    for hash_seed, folder in zip(HASH_SEEDS, folders, strict=False):
-        folder.parent.mkdir(parents=True)
-        run(hash_seed, "-m", "plutoc", "compile", source, "-o", folder)
-    first, second = (files(folder) for folder in folders)
+@pytest.mark.process
+def test_hash_seeds_and_folders_change_no_byte(tmp_path: Path) -> None:
+    """Of plans, of packages, and of what a simulation under all faults has written down."""
+    made = []
+    for seed, name in zip(HASH_SEEDS, ("one", "a longer way/two"), strict=True):
+        folder = tmp_path / name
+        folder.mkdir(parents=True)
+        cache = str(tmp_path / f"cache {seed}")  # none takes what another kept
+        environment = {"PYTHONPATH": PATHS, "PYTHONHASHSEED": seed, "XDG_CACHE_HOME": cache}
+        done = python("-c", PROGRAM, EXAMPLES, folder, cwd=ROOT, **environment)
+        assert done.code == 0, done.err
+        made.append(files(folder))
+    first, second = made
     assert first == second
-    assert first.keys() >= {"pluto.lock", f"src/{name}/flow.py"}
-
-
-def test_the_same_seed_gives_the_same_trace_and_another_seed_another(tmp_path: Path) -> None:
-    example, package = EXAMPLES / "alfalfa", tmp_path / "alfalfa"
-    run("0", "-m", "plutoc", "compile", example / "app.pluto", "-o", package)
-
-    def trace(hash_seed: str, seed: int) -> bytes:
-        file = tmp_path / f"{hash_seed}-{seed}.jsonl"
-        plan: list[str | Path] = [example / "missions.toml", "--fleet", example / "fleet.toml"]
-        command: list[str | Path] = ["-m", "alfalfa", "simulate", *plan, "--seed", str(seed)]
-        command += ["--fail", FAULTS, "--trace", file]
-        # 1: under these faults a mission may fail
-        run(hash_seed, *command, path=str(package / "src"), codes=(0, 1))
-        return file.read_bytes()
-
-    traces = {trace(hash_seed, 3) for hash_seed in HASH_SEEDS}
-    assert len(traces) == 1
-    assert traces != {trace("0", 4)}
-    assert b"trip.failed" in traces.pop()
+    assert first.keys() >= {"plans.txt", "alfalfa/pluto.lock", "pm10/src/pm10/flow.py"}
+    assert first["3.jsonl"] != first["4.jsonl"]
+    assert b"trip.failed" in first["3.jsonl"]
+    assert b"join" in first["plans.txt"]

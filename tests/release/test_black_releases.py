@@ -15,9 +15,6 @@ import pytest
 from tests.compiler.emit.texts import APPS, modules_of
 from tests.release.environments import ROOT, succeed
 
-# pip fetches each
-pytestmark = pytest.mark.long
-
 RELEASES = ("24.1.0", "")
 """The last: the newest."""
 GOLDEN = sorted(ROOT.glob("tests/cases/*/expected/**/*.py"))

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-import json
-import signal
-import subprocess
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
-from urllib.request import Request, urlopen
 
 import pytest
 
@@ -29,7 +24,6 @@ def files(folder: Path) -> set[str]:
     return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
 
 
-@pytest.mark.long  # pip installs into a fresh environment, as in test_packages_install.py
 def test_without_the_extras_it_is_said_what_to_install(package: Path, tmp_path: Path) -> None:
     """Nothing has begun then. All else works; and every page is there already."""
     programs = fresh(tmp_path / "venv")
@@ -52,28 +46,6 @@ def test_without_the_extras_it_is_said_what_to_install(package: Path, tmp_path: 
     assert files(pages) == files(PAGES)
 
 
-@pytest.mark.long  # pip installs into a fresh environment, as in test_packages_install.py
-def test_with_the_extra_it_serves_the_app_that_was_compiled(package: Path, tmp_path: Path) -> None:
-    """With the graph of its README, though no file of the package holds that."""
-    programs = fresh(tmp_path / "venv")
-    succeed(programs / "pip", "install", "--quiet", ROOT / "runtime", f"{package}[station]")
-    program = programs / "drugs_distribution"
-    words = ["serve", "--sim", "--port", "0", "--folder", str(tmp_path), "--fleet", str(FLEET)]
-    with subprocess.Popen([str(program), *words], stdout=subprocess.PIPE, text=True) as serving:
-        try:
-            assert serving.stdout is not None
-            address = serving.stdout.readline().removeprefix("station: ").strip()
-            app = asked(f"{address}api/app")
-            assert [block["name"] for block in app["graph"]["blocks"]] == [
-                *("start", "create", "allocate", "launch", "watch", "end")
-            ]
-            with urlopen(address) as page:
-                assert page.read() == (PAGES / "index.html").read_bytes()
-        finally:
-            serving.send_signal(signal.SIGINT)
-            serving.wait(timeout=30)
-
-
 def test_the_extra_names_the_version_that_the_tests_fly_with() -> None:
     """The one that was read and measured, and its mends; another minor version may do otherwise."""
     for file in ("plutoc/emit/templates/pyproject.toml.jinja", "runtime/pyproject.toml"):
@@ -81,9 +53,3 @@ def test_the_extra_names_the_version_that_the_tests_fly_with() -> None:
     major, minor, *mend = map(int, version("cflib").split(".")[:3])
     assert (major, minor) == (0, 1)
     assert mend >= [34]
-
-
-def asked(address: str) -> Any:
-    """Return what the station answers."""
-    with urlopen(Request(address, headers={"X-Pluto": "1"})) as answer:
-        return json.load(answer)

@@ -6,12 +6,7 @@ import re
 import shutil
 from pathlib import Path
 
-import pytest
-
 from tests.release.environments import ROOT, succeed
-
-# pip installs it all anew, as the README's second command has done for these tests
-pytestmark = pytest.mark.long
 
 NOT_SOURCES = shutil.ignore_patterns(".*_cache", ".git", ".hypothesis", ".venv", "__pycache__")
 

@@ -12,9 +12,6 @@ import pytest
 from pluto_fleet import __version__
 from tests.release.environments import ROOT, compile_app, fresh, run, succeed
 
-# pip builds a wheel in six environments; test_packages_install.py has one
-pytestmark = pytest.mark.long
-
 LIBRARY = ROOT / "runtime"
 EXAMPLE = ROOT / "examples/drugs_distribution"
 

@@ -5,12 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import pytest
-
 from tests.release.environments import ROOT, fresh, succeed
-
-# pip installs it into a fresh environment; tests/compiler/cli has blocks of another package
-pytestmark = pytest.mark.long
 
 SOURCE = """\
 pluto 1

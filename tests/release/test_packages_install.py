@@ -47,7 +47,7 @@ def types(tmp_path_factory: pytest.TempPathFactory) -> Path:
     "examples",
     [
         pytest.param([ALONE], id=ALONE.name),
-        pytest.param(OTHERS, id="others", marks=pytest.mark.long),
+        pytest.param(OTHERS, id="others"),
     ],
 )
 def test_examples_stand_alone_and_fly_with_the_library(
@@ -102,7 +102,6 @@ def plan_of(example: Path) -> list[str]:
     return [str(example / "missions.toml"), "--fleet", str(example / "fleet.toml")]
 
 
-@pytest.mark.long
 def test_lists_areas_and_promises_need_the_library_and_its_extra(
     library: Path, types: Path, tmp_path: Path
 ) -> None:
@@ -125,7 +124,6 @@ def test_lists_areas_and_promises_need_the_library_and_its_extra(
     assert {mission["status"] for mission in missions} == {"COMPLETED"}, together.err
 
 
-@pytest.mark.long  # tests/library/cli has every command; here they are installed
 def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> None:
     """Also those that want an extra, where what it brings is there."""
     example = ROOT / "examples/drugs_distribution"
@@ -172,7 +170,6 @@ def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> 
             serving.wait(timeout=30)
 
 
-@pytest.mark.long  # an environment of its own; tests/compiler/emit has what is carried
 def test_a_package_that_carries_the_library_flies_alone(tmp_path: Path) -> None:
     """`compile --carry fleet`: one distribution, and all commands."""
     example = ROOT / "examples/drugs_distribution"
@@ -207,7 +204,6 @@ def test_the_library_is_built_with_the_brain_as_it_is(library: Path) -> None:
         assert {name.removeprefix(inside): wheel.read(name) for name in names} == ours
 
 
-@pytest.mark.long  # an environment of its own
 def test_the_compiler_alone_runs_apps_and_says_what_its_trials_need(tmp_path: Path) -> None:
     programs = fresh(tmp_path / "venv")
     succeed(programs / "pip", "install", "--quiet", ROOT)

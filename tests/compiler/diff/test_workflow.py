@@ -12,6 +12,8 @@ from ruamel.yaml import YAML
 
 from tests.compiler.diff.pairs import EXAMPLES, ROOT, edited
 
+pytestmark = pytest.mark.long  # real repositories, and the shell of the workflow
+
 OLD = EXAMPLES["alfalfa"]
 NEW = edited(OLD, ("max_attempts: 3", "max_attempts: 5"))
 

@@ -98,29 +98,18 @@ def typed(console: str) -> list[Typed]:
     return found
 
 
-def type_in(
-    session: list[Typed], folder: Path, programs: Path, capfd: pytest.CaptureFixture[str]
-) -> Ended:
+def type_in(session: list[Typed], folder: Path, programs: Path) -> Ended:
     """Run a session; every command but the last must end with 0. Return how the last ended."""
     _put_compiler(programs)
     ended: list[Ended] = []
     for step in session:
         assert all(done.code == 0 for done in ended), ended
         with contextlib.chdir(folder):
-            done = _called(step.command, capfd) or _typed_into_sh(step.command, programs)
+            done = _typed_into_sh(step.command, programs)
         missing = [line for line in step.shown if line not in done.said]
         assert not missing, f"{step.command}: {done.said}"
         ended.append(done)
     return ended[-1]
-
-
-def _called(command: str, capfd: pytest.CaptureFixture[str]) -> Ended | None:
-    """Run a plain `plutoc …` in this process, which takes a fifth of the time; else None."""
-    if not re.fullmatch(r"plutoc [\w ./=-]+", command):
-        return None
-    capfd.readouterr()
-    code = main(command.split()[1:])
-    return Ended(code=code, said="".join(capfd.readouterr()))
 
 
 def _typed_into_sh(command: str, programs: Path) -> Ended:

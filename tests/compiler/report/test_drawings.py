@@ -122,6 +122,7 @@ def test_without_graphviz_the_message_says_what_to_install(
         dot_to_svg("digraph {}")
 
 
+@pytest.mark.long
 def test_the_picture_is_what_graphviz_makes_of_the_text(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -137,6 +138,7 @@ def test_the_picture_is_what_graphviz_makes_of_the_text(
         dot_to_svg("bad")
 
 
+@pytest.mark.long
 @pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")
 def test_graphviz_draws_it() -> None:
     """The text is what Graphviz reads."""
