@@ -148,6 +148,29 @@ def test_a_drone_that_never_reaches_its_dock_is_lost_after_a_few_flights_home(fa
     brain.close()
 
 
+@pytest.mark.parametrize(
+    ("reason", "value", "why"),
+    [
+        ("it fell", False, "it fell"),
+        ("", False, "it could not be brought home"),
+        ("x" * 600, False, "x" * 499 + "…"),
+        ("it fell", "it lies on its back", "it lies on its back"),
+    ],
+)
+def test_why_a_drone_is_lost(reason: str, value: object, why: str) -> None:
+    """What it says itself, or why its flight failed."""
+    brain = charged()
+    brain.begin([{"trips": [trip()]}], 0.0)
+    (order,) = settled(brain, 0.0)
+    brain.tell({"failed": order["id"], "failure": "CRASH", "reason": reason}, 5.0)
+    (recovery,) = settled(brain, 5.0)
+    brain.tell({"done": recovery["id"], "value": value}, 6.0)
+    (drone,) = brain.drones().values()
+    assert (drone["status"], drone["unready"]) == ("LOST", why)
+    assert [e["reason"] for e in brain.events() if e["event"] == "drone.lost"] == [why]
+    brain.close()
+
+
 def test_missions_may_begin_while_others_fly() -> None:
     """They are numbered on, and it is not over before they have ended."""
     brain = charged(2)

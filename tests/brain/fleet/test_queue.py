@@ -178,6 +178,28 @@ def test_a_low_drone_in_the_field_goes_home_to_charge_for_who_waits() -> None:
     assert flown.count("drone.returning") > 0
 
 
+def test_a_low_drone_is_fetched_if_it_could_fly_any_of_those_that_wait() -> None:
+    """Though another of them is not for it."""
+    kinds = (
+        Category(
+            name="scout", flight_time=100.0, charge_time=100.0, actions=frozenset({"take_photo"})
+        ),
+        Category(name="carrier", flight_time=1_000.0, actions=frozenset({"measure"})),
+    )
+    on = apps.fleet(*HOMES[:2], categories=("scout", "carrier"), after=AfterTrip.STAY)
+    photos = apps.mission("p", apps.trip("1", 9.0), apps.trip("2", 15.0), apps.trip("3", 9.0))
+    measures = [
+        apps.mission(name, apps.trip("1", x, 19.0, action="measure"))
+        for name, x in zip("abcdef", (19.0, 1.0) * 3, strict=True)
+    ]
+    flown = apps.flown(photos, *measures, categories=kinds, on=on)
+    assert flown.completed
+    fetched = [
+        event["t"] for event in apps.events(flown, "drone.returning") if event["drone"] == "cf1"
+    ]
+    assert float(str(fetched[0])) < apps.moments(flown, "trip.launched")["f"]
+
+
 # The room in the air
 
 

@@ -13,6 +13,7 @@ from pluto_fleet.shared.domain.model import Category, Drone
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context, LiveDrone, can_wait
+from pluto_fleet.shared.time.future import Future
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.kit import apps, in_real_time
 
@@ -153,6 +154,30 @@ def test_what_no_drone_can_be_set_to_is_the_hooks_fault(name: str, value: float,
         await context.live(drone).write(name, value)
 
     assert says in reason(grip)
+
+
+@pytest.mark.parametrize("real", [False, True])
+def test_an_answer_that_never_comes_ends_with_the_flight(
+    monkeypatch: pytest.MonkeyPatch, real: bool
+) -> None:
+    """Something else fails the trip: the question is called off, and keeps no drone."""
+    over: list[str] = []
+
+    async def never(self: SimulatedNavigation, drone: str, name: str) -> float:
+        self.strike(drone, Failure.CRASH)
+        try:
+            await Future[None]()
+        finally:
+            over.append(name)
+        return 0.0
+
+    async def grip(drone: Drone, trip: apps.Trip, context: Context) -> None:
+        await context.sleep(0.01)
+        await context.live(drone).read("range.front")
+
+    monkeypatch.setattr(SimulatedNavigation, "read", never)
+    assert "crashed at" in reason(grip, real=real, apart=0.5)
+    assert over == ["range.front"]
 
 
 def test_which_hooks_can_wait() -> None:

@@ -1,0 +1,71 @@
+"""What the events of a run say so that another can go on, and what waits until they are on record."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pluto_fleet.shared.brain import Brain
+from pluto_fleet.shared.flow.own_action import OwnAction
+from tests.brain.hand import charged, settled, trip
+from tests.kit import apps
+
+FREE = {"cf1": {"reached": True, "landed": True}}
+
+
+def recorded(*trips: Any, **more: Any) -> tuple[Brain, list[Any]]:
+    """Return a brain that is on record, and to which a mission was given; its action notes that it was called."""
+    called: list[Any] = []
+    spray = OwnAction(name="spray", hook=lambda drone, trip, context: called.append(trip.name))
+    given: Any = apps.app(apps.flow(), actions=[spray]).given
+    brain = charged(app=given, recorded=True, **more)
+    brain.go_on({"missions": {}}, FREE, 0.0)
+    brain.begin([{"name": "m", "trips": [*trips]}], 0.0)
+    return brain, called
+
+
+def test_an_action_of_the_apps_own_begins_when_all_before_it_is_on_record() -> None:
+    """Messages of earlier rows may come late."""
+    brain, called = recorded(trip(3.0, action="spray"), trip(4.0, action="spray"))
+    said = 0
+    for number in (1, 2):
+        now = 10.0 * number
+        (order,) = (order for order in settled(brain, now) if order["do"] == "fly")
+        brain.tell({"done": order["id"]}, now)
+        said += len(brain.events())
+        brain.tell({"durable": said - 1}, now)
+        settled(brain, now)
+        assert len(called) == number - 1
+        brain.tell({"durable": said}, now)
+        brain.tell({"durable": 1}, now)
+        brain.advance(now)
+        assert len(called) == number
+    brain.close()
+
+
+def test_events_say_what_a_later_life_must_know() -> None:
+    brain, _ = recorded(trip(3.0))
+    (order,) = settled(brain, 1.0)
+    brain.tell({"done": order["id"], "value": {"$number": "nan"}}, 9.0)
+    facts = {str(event["event"]): event for event in brain.events()}
+    plan: Any = facts["mission.created"]["plan"]
+    assert (plan["index"], [one["name"] for one in plan["trips"]]) == (0, ["1"])
+    assert facts["trip.completed"]["result"] == {"$number": "nan"}
+    brain.close()
+
+
+def test_a_mission_goes_on_where_its_record_says() -> None:
+    """Its trips, its round, its attempts and its results."""
+    brain, _ = recorded(trip(3.0), trip(4.0))
+    (order,) = settled(brain, 1.0)
+    brain.tell({"done": order["id"], "value": 7}, 9.0)
+    record = brain.standing()
+    brain.close()
+    given: Any = apps.app(apps.flow()).given
+    later = charged(app=given, recorded=True)
+    later.go_on({"missions": record["missions"], "results": record["results"]}, FREE, 20.0)
+    (flight,) = (order for order in settled(later, 20.0) if order["do"] == "fly")
+    assert flight["flight"] == "m/2/0/1"
+    stands = later.standing()
+    assert [one["name"] for one in stands["missions"]["m"]["done"]] == ["1"]
+    assert (stands["missions"]["m"]["attempts"], stands["results"]) == (2, [["m", "1", 0, 1, 7]])
+    later.close()
